@@ -1,0 +1,2 @@
+//! The laboratory without a screen.
+fn main() {}

@@ -1,0 +1,1 @@
+//! Charts as data, and how to paint them on any plotters backend.

@@ -1,0 +1,7 @@
+//! What couples the loops: the relative gain array, the Niederlinski index, and the pairing they suggest.
+
+mod pairing;
+mod rga;
+
+pub use pairing::{PairingReason, PairingVerdict, niederlinski, recommend_pairing};
+pub use rga::{relative_gain_array, relative_gain_array_at};

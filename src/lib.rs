@@ -1,0 +1,28 @@
+//! Quadtank: a laboratory for multivariable control around Johansson's quadruple-tank process.
+//!
+//! The crate is a house of floors; each room imports only from the floors below its own. In reading order:
+//!
+//! | floor | room | what it is for |
+//! |---|---|---|
+//! | 1 | [`plant`] | what is really there: tanks, outlets, pumps, valves, sensors, and their nonlinear equations |
+//! | 1 | [`linear`] | what a linear model says: poles, transmission zeros and directions, frequency response |
+//! | 2 | [`interaction`] | what couples the loops: relative gain array, Niederlinski index, pairing |
+//! | 2 | [`control`] | what acts: the sampled PI controller and two of them, decentralised |
+//! | 3 | [`sim`] | plant + controller + experiment → trajectories, events, metrics |
+//! | 4 | [`scenario`] | the document that describes an experiment, its links, and what follows from it |
+//! | 4 | [`figure`] | charts as data, and how to paint them on any plotters backend |
+//! | 5 | `app` | the Leptos user interface (feature `app`) |
+//!
+//! Everything below `app` compiles without a browser, holds no text for people, and is in SI units (m, m², m³/s, s,
+//! V, rad/s) unless a name says otherwise. Tanks 1 and 2 are the lower ones; indices in code start at 0.
+
+pub mod control;
+pub mod figure;
+pub mod interaction;
+pub mod linear;
+pub mod plant;
+pub mod scenario;
+pub mod sim;
+
+#[cfg(feature = "app")]
+pub mod app;

@@ -1,0 +1,50 @@
+use serde::Serialize;
+use thiserror::Error;
+
+/// What can be wrong with a linear model. Every variant carries the offending value.
+#[derive(Clone, Copy, Debug, PartialEq, Error, Serialize)]
+#[serde(tag = "error", rename_all = "kebab-case")]
+pub enum LinearError {
+    /// Matrices whose sizes do not fit together.
+    #[error("{matrix} is {rows} x {columns}, expected {expected_rows} x {expected_columns}")]
+    Dimension {
+        /// Name of the matrix.
+        matrix: &'static str,
+        /// Its rows.
+        rows: usize,
+        /// Its columns.
+        columns: usize,
+        /// Rows that would fit.
+        expected_rows: usize,
+        /// Columns that would fit.
+        expected_columns: usize,
+    },
+    /// A question that only a square plant can answer.
+    #[error("the model has {inputs} inputs and {outputs} outputs; this needs as many of one as of the other")]
+    NotSquare {
+        /// Number of inputs.
+        inputs: usize,
+        /// Number of outputs.
+        outputs: usize,
+    },
+    /// det G(s) ≡ 0: the plant is singular for every s and has no transmission zeros.
+    #[error("the plant has normal rank {rank} of {size}: it is singular at every frequency")]
+    DegenerateRank {
+        /// Normal rank of G(s).
+        rank: usize,
+        /// Number of inputs.
+        size: usize,
+    },
+    /// G(0) does not exist or cannot be inverted.
+    #[error("the steady-state gain is singular (reciprocal condition {reciprocal_condition})")]
+    SingularGain {
+        /// Smallest over largest singular value; 0 where the gain does not exist.
+        reciprocal_condition: f64,
+    },
+    /// An eigenvalue iteration that did not end, or a matrix with an entry that is not finite.
+    #[error("no eigenvalues found for a matrix of size {size}")]
+    NoConvergence {
+        /// Rows of the matrix.
+        size: usize,
+    },
+}

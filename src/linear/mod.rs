@@ -1,0 +1,16 @@
+//! What a linear model says: poles, transmission zeros with their directions, frequency response, exact sampling.
+
+mod discrete;
+mod error;
+mod frequency;
+pub mod quadruple;
+mod state_space;
+mod zeros;
+
+pub use discrete::DiscreteStateSpace;
+pub use error::LinearError;
+pub use state_space::StateSpace;
+pub use zeros::{TransmissionZero, transmission_zeros};
+
+/// Complex number of the linear room: poles, zeros (1/s) and gains.
+pub type Complex = nalgebra::Complex<f64>;

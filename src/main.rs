@@ -1,0 +1,2 @@
+//! Mounts the laboratory into the page.
+fn main() {}

@@ -1,0 +1,18 @@
+//! What is really there: tanks, outlets, pumps, valves and sensors, and the nonlinear equations they obey.
+//!
+//! Start with [`QuadrupleTank`]; [`OperatingPoint`] is where it rests, [`Jacobian`] how it moves around that point, and
+//! [`PresetId`] names the published rigs.
+
+mod equilibrium;
+mod error;
+mod jacobian;
+mod preset;
+mod quadruple;
+mod tank;
+
+pub use equilibrium::OperatingPoint;
+pub use error::PlantError;
+pub use jacobian::Jacobian;
+pub use preset::{DisplayUnit, Preset, PresetId, Printed};
+pub use quadruple::{Disturbance, Pump, QuadrupleTank, Sensor};
+pub use tank::{CrossSection, Outlet, Tank};

@@ -1,0 +1,72 @@
+use serde::{Deserialize, Serialize};
+
+use super::QuadrupleTank;
+
+/// The published rigs. The names are those of the scenario document.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
+pub enum PresetId {
+    /// Johansson (2000), minimum-phase setting P−.
+    #[serde(rename = "johansson-2000-minimum-phase")]
+    JohanssonMinimumPhase,
+    /// Johansson (2000), non-minimum-phase setting P+.
+    #[serde(rename = "johansson-2000-non-minimum-phase")]
+    JohanssonNonMinimumPhase,
+    /// Cocota (2009), minimum-phase setting P−, tank 2 trapezoidal.
+    #[serde(rename = "cocota-2009-minimum-phase")]
+    CocotaMinimumPhase,
+    /// Cocota (2009), non-minimum-phase setting P+, tank 2 trapezoidal.
+    #[serde(rename = "cocota-2009-non-minimum-phase")]
+    CocotaNonMinimumPhase,
+    /// Junqueira, Neves and Angelico, case a: γ = 0.6, minimum phase.
+    #[serde(rename = "junqueira-case-a")]
+    JunqueiraA,
+    /// Junqueira, Neves and Angelico, case b: γ = 0.4, non-minimum phase.
+    #[serde(rename = "junqueira-case-b")]
+    JunqueiraB,
+}
+
+/// The unit in which a source prints its levels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
+#[serde(rename_all = "lowercase")]
+pub enum DisplayUnit {
+    /// Centimetres.
+    Cm,
+    /// Millimetres.
+    Mm,
+}
+
+/// Numbers as a source prints them, in SI, to compare with.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Printed {
+    /// Levels h1…h4 (m).
+    pub levels: [f64; 4],
+    /// Time constants T1…T4 (s).
+    pub time_constants_s: [f64; 4],
+    /// Transmission zeros (1/s).
+    pub zeros: [f64; 2],
+    /// Relative gain λ11.
+    pub rga_11: f64,
+    /// Steady-state gain matrix, by rows (V/V), where it is printed.
+    pub dc_gain: Option<[[f64; 2]; 2]>,
+}
+
+/// A published rig: the plant, the inputs at which it was run, and what the source prints about it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Preset {
+    /// Its name.
+    pub id: PresetId,
+    /// Where it was published (author and year).
+    pub source: &'static str,
+    /// The table that holds the parameters.
+    pub table: &'static str,
+    /// The unit in which the source gives levels.
+    pub display_unit: DisplayUnit,
+    /// The rig.
+    pub plant: QuadrupleTank,
+    /// Pump voltages at the published operating point (V).
+    pub pump_voltage: [f64; 2],
+    /// What the source prints, where it prints anything.
+    pub printed: Option<Printed>,
+}

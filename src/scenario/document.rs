@@ -1,0 +1,87 @@
+use serde::{Deserialize, Serialize};
+
+use crate::control::DecentralisedPi;
+use crate::plant::{DisplayUnit, PresetId, QuadrupleTank};
+use crate::sim::Experiment;
+
+/// The plant of a setup: a published rig by name, or all its parameters.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case")]
+#[expect(clippy::large_enum_variant, reason = "one per scenario, and plain data is easier to share than a box")]
+pub enum PlantSpec {
+    /// A published rig; its valves are overridden by those of the setup.
+    Preset(PresetId),
+    /// A rig of one's own.
+    Parameters {
+        /// All parameters, in SI; the valves are overridden by those of the setup.
+        rig: QuadrupleTank,
+        /// The unit to show levels in.
+        display_unit: DisplayUnit,
+    },
+}
+
+/// How the operating point is given.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case")]
+pub enum OperatingPointSpec {
+    /// The pump voltages (V); the levels follow, for any valves.
+    PumpVoltage([f64; 2]),
+    /// The levels of tanks 1 and 2 (m); the voltages follow, unless γ1 + γ2 = 1.
+    Levels([f64; 2]),
+}
+
+/// Everything that one run depends on.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Setup {
+    /// The plant.
+    pub plant: PlantSpec,
+    /// Valve fractions γ1, γ2, each in [0, 1].
+    pub valves: [f64; 2],
+    /// Where it rests before the experiment.
+    pub operating_point: OperatingPointSpec,
+    /// The controller.
+    pub controller: DecentralisedPi,
+    /// What is done to it.
+    pub experiment: Experiment,
+}
+
+/// What the screen shows beside the run itself. Nothing here changes a number.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields, default)]
+pub struct View {
+    /// Time at which the cursor of the responses stands (s); `None` at rest.
+    pub cursor_s: Option<f64>,
+    /// Shown part of the time axis (s); `None` for all of it.
+    pub zoom_s: Option<[f64; 2]>,
+    /// Whether the linear responses are hidden.
+    pub hide_linear: bool,
+}
+
+/// The document. `version` is checked before anything else is read; see [`crate::scenario::from_json`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Scenario {
+    /// Version of the document: [`Scenario::VERSION`].
+    pub version: u32,
+    /// The run that is worked on.
+    pub setup: Setup,
+    /// Runs pinned to compare with, at most [`Scenario::MAX_PINNED`].
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub pinned: Vec<Setup>,
+    /// What the screen shows.
+    #[serde(default)]
+    pub view: View,
+}
+
+impl Scenario {
+    /// The version that this program writes.
+    pub const VERSION: u32 = 1;
+    /// How many pinned runs a scenario holds.
+    pub const MAX_PINNED: usize = 3;
+}

@@ -1,0 +1,64 @@
+use thiserror::Error;
+
+use crate::linear::LinearError;
+use crate::plant::PlantError;
+
+/// Why a document is not a scenario, or a scenario cannot be computed.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum ScenarioError {
+    /// Not JSON, or not of the right shape; `path` names the field (`setup.controller.loops[0].gain`).
+    #[error("{path}: {reason}")]
+    Malformed {
+        /// Where in the document.
+        path: String,
+        /// What the parser says.
+        reason: String,
+    },
+    /// A number that is outside its limits or not finite.
+    #[error("{field}: {value} is outside {min} to {max}")]
+    OutOfRange {
+        /// Where in the document.
+        field: String,
+        /// The value found.
+        value: f64,
+        /// Smallest allowed value.
+        min: f64,
+        /// Largest allowed value.
+        max: f64,
+    },
+    /// Too many of something.
+    #[error("{field}: {count} entries, at most {max}")]
+    TooMany {
+        /// Where in the document.
+        field: String,
+        /// How many there are.
+        count: usize,
+        /// How many are allowed.
+        max: usize,
+    },
+    /// A version that this program does not know.
+    #[error("version: {found} is unknown, this program reads 1 to {newest}")]
+    UnknownVersion {
+        /// The version found.
+        found: u64,
+        /// The newest version that is read.
+        newest: u32,
+    },
+    /// A document or link longer than any scenario.
+    #[error("the document has {length} bytes, at most {max} are read")]
+    TooLong {
+        /// Its length.
+        length: usize,
+        /// The limit.
+        max: usize,
+    },
+    /// A link that is cut off or damaged.
+    #[error("the link is damaged or cut off")]
+    DamagedLink,
+    /// The plant has no such operating point.
+    #[error(transparent)]
+    Plant(#[from] PlantError),
+    /// The linear model does not answer.
+    #[error(transparent)]
+    Linear(#[from] LinearError),
+}

@@ -1,0 +1,74 @@
+use serde::{Deserialize, Serialize};
+
+/// A step of one reference, relative to the operating point.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct SetPointStep {
+    /// Index of the loop (and lower tank), 0 or 1.
+    pub level: usize,
+    /// When (s).
+    pub time_s: f64,
+    /// By how much (m of level).
+    pub size: f64,
+}
+
+/// What a load step changes.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Load {
+    /// Flow added to that of a pump, ahead of its valve.
+    PumpFlow {
+        /// Index of the pump, 0 or 1.
+        pump: usize,
+        /// Additional flow (m³/s).
+        flow: f64,
+    },
+    /// A hole in the bottom of a tank; its water leaves the plant.
+    Leak {
+        /// Index of the tank, 0 to 3.
+        tank: usize,
+        /// Area of the hole (m²).
+        area: f64,
+    },
+}
+
+/// A load that begins at a time and stays.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct LoadStep {
+    /// When (s).
+    pub time_s: f64,
+    /// What.
+    pub load: Load,
+}
+
+/// What the sensors add to the true level.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Measurement {
+    /// Standard deviation of white Gaussian noise at each sample (m of level); 0 for none.
+    pub noise_std: f64,
+    /// Seed of the noise: the same seed gives the same run everywhere.
+    pub seed: u32,
+    /// Whether the range and the resolution of the sensor apply.
+    pub quantised: bool,
+}
+
+/// What is done to the closed loop, from the operating point on.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Experiment {
+    /// How long (s).
+    pub duration_s: f64,
+    /// Steps of the references.
+    pub set_point_steps: Vec<SetPointStep>,
+    /// Steps of the loads.
+    pub load_steps: Vec<LoadStep>,
+    /// Sensors.
+    pub measurement: Measurement,
+}

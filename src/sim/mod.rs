@@ -1,0 +1,16 @@
+//! Plant + controller + experiment → trajectories, events and metrics; and the poles of the sampled closed loop.
+
+mod closed_loop;
+mod experiment;
+mod integrate;
+mod linear_loop;
+mod metrics;
+mod poles;
+mod trajectory;
+
+pub use closed_loop::simulate;
+pub use experiment::{Experiment, Load, LoadStep, Measurement, SetPointStep};
+pub use linear_loop::simulate_linear;
+pub use metrics::{LoopMetrics, Settling, loop_metrics};
+pub use poles::{ClosedLoop, Stability, closed_loop};
+pub use trajectory::{Event, EventKind, Trajectory};
