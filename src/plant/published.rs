@@ -11,37 +11,46 @@ const MM: f64 = 1e-3;
 const MM2: f64 = 1e-6;
 const MM3: f64 = 1e-9;
 
-/// Johansson (2000), Tables I and II, minimum-phase setting P−.
+/// Johansson (2000), minimum-phase setting P−.
 pub(super) fn johansson_minimum_phase() -> Preset {
-    Preset {
-        pump_voltage: [3.00, 3.00],
-        printed: Some(Printed {
-            levels: [12.4, 12.7, 1.8, 1.4].map(|h| h * CM),
-            time_constants_s: [62.0, 90.0, 23.0, 30.0],
-            zeros: [-0.060, -0.018],
-            rga_11: 1.40,
-            dc_gain: None,
-        }),
-        ..johansson(PresetId::JohanssonMinimumPhase, [3.33, 3.35], [0.70, 0.60])
-    }
+    let printed = Printed {
+        levels: [12.4, 12.7, 1.8, 1.4].map(|h| h * CM),
+        time_constants_s: [62.0, 90.0, 23.0, 30.0],
+        zeros: [-0.060, -0.018],
+        rga_11: 1.40,
+        dc_gain: None,
+    };
+    johansson(PresetId::JohanssonMinimumPhase, "operating point P−", [3.33, 3.35], [0.70, 0.60], [3.00, 3.00], printed)
 }
 
-/// Johansson (2000), Tables I and II, non-minimum-phase setting P+.
+/// Johansson (2000), non-minimum-phase setting P+.
+#[expect(clippy::approx_constant, reason = "k1 = 3.14 cm³/(V s) has nothing to do with π")]
 pub(super) fn johansson_non_minimum_phase() -> Preset {
-    Preset {
-        pump_voltage: [3.15, 3.15],
-        printed: Some(Printed {
-            levels: [12.6, 13.0, 4.8, 4.9].map(|h| h * CM),
-            time_constants_s: [63.0, 91.0, 39.0, 56.0],
-            zeros: [-0.057, 0.013],
-            rga_11: -0.64,
-            dc_gain: None,
-        }),
-        ..johansson(PresetId::JohanssonNonMinimumPhase, [3.14, 3.29], [0.43, 0.34])
-    }
+    let printed = Printed {
+        levels: [12.6, 13.0, 4.8, 4.9].map(|h| h * CM),
+        time_constants_s: [63.0, 91.0, 39.0, 56.0],
+        zeros: [-0.057, 0.013],
+        rga_11: -0.64,
+        dc_gain: None,
+    };
+    johansson(
+        PresetId::JohanssonNonMinimumPhase,
+        "operating point P+",
+        [3.14, 3.29],
+        [0.43, 0.34],
+        [3.15, 3.15],
+        printed,
+    )
 }
 
-fn johansson(id: PresetId, pump_gain_cm3: [f64; 2], valves: [f64; 2]) -> Preset {
+fn johansson(
+    id: PresetId,
+    table: &'static str,
+    pump_gain_cm3: [f64; 2],
+    valves: [f64; 2],
+    pump_voltage: [f64; 2],
+    printed: Printed,
+) -> Preset {
     let height = 20.0 * CM;
     let tank = |section_cm2, outlet_cm2| Tank {
         section: CrossSection::prismatic(section_cm2 * CM2),
@@ -52,7 +61,7 @@ fn johansson(id: PresetId, pump_gain_cm3: [f64; 2], valves: [f64; 2]) -> Preset 
     Preset {
         id,
         source: "Johansson 2000",
-        table: "Tables I, II",
+        table,
         display_unit: DisplayUnit::Cm,
         plant: QuadrupleTank {
             tanks: [odd, even, odd, even],
@@ -62,41 +71,58 @@ fn johansson(id: PresetId, pump_gain_cm3: [f64; 2], valves: [f64; 2]) -> Preset 
             sensor: Sensor { gain: 0.50 / CM, range: height, resolution: 0.0 },
             gravity: 981.0 * CM,
         },
-        pump_voltage: [0.0; 2],
+        pump_voltage,
         remarks: &[Remark::PrintedLevelsNotAtRest],
-        printed: None,
+        printed: Some(printed),
     }
 }
 
-/// Cocota (2009), minimum-phase setting P−.
+/// Cocota (2009), minimum-phase setting P−; printed numbers: Table 3.10, eq. 3.25, §3.7, eq. 4.11.
 pub(super) fn cocota_minimum_phase() -> Preset {
-    Preset {
-        printed: Some(Printed {
-            levels: [156.7, 152.5, 40.4, 43.9].map(|h| h * MM),
-            time_constants_s: [82.0, 78.0, 87.0, 91.0],
-            zeros: [-1.5e-2, -7.5e-3],
-            rga_11: 1.125,
-            dc_gain: Some([[0.79, 0.25], [0.26, 0.73]]),
-        }),
-        ..cocota(PresetId::CocotaMinimumPhase, [4470.0, 4190.0], 0.75, [0.68, 0.675, 0.73, 0.73])
-    }
+    let printed = Printed {
+        levels: [156.7, 152.5, 40.4, 43.9].map(|h| h * MM),
+        time_constants_s: [82.0, 78.0, 87.0, 91.0],
+        zeros: [-1.5e-2, -7.5e-3],
+        rga_11: 1.125,
+        dc_gain: Some([[0.79, 0.25], [0.26, 0.73]]),
+    };
+    cocota(
+        PresetId::CocotaMinimumPhase,
+        "Tables 3.1, 3.3–3.5",
+        [4470.0, 4190.0],
+        0.75,
+        [0.68, 0.675, 0.73, 0.73],
+        printed,
+    )
 }
 
-/// Cocota (2009), non-minimum-phase setting P+.
+/// Cocota (2009), non-minimum-phase setting P+; printed numbers: Table 3.11, eq. 3.26, §3.8, eq. 4.12.
 pub(super) fn cocota_non_minimum_phase() -> Preset {
-    Preset {
-        printed: Some(Printed {
-            levels: [156.1, 157.5, 234.0, 282.3].map(|h| h * MM),
-            time_constants_s: [82.0, 80.0, 219.0, 255.0],
-            zeros: [-9.9e-3, 1.4e-3],
-            rga_11: -1.32,
-            dc_gain: Some([[0.45, 0.57], [0.61, 0.43]]),
-        }),
-        ..cocota(PresetId::CocotaNonMinimumPhase, [4510.0, 4250.0], 0.43, [0.68, 0.68, 0.70, 0.66])
-    }
+    let printed = Printed {
+        levels: [156.1, 157.5, 234.0, 282.3].map(|h| h * MM),
+        time_constants_s: [82.0, 80.0, 219.0, 255.0],
+        zeros: [-9.9e-3, 1.4e-3],
+        rga_11: -1.32,
+        dc_gain: Some([[0.45, 0.57], [0.61, 0.43]]),
+    };
+    cocota(
+        PresetId::CocotaNonMinimumPhase,
+        "Tables 3.1, 3.7–3.9",
+        [4510.0, 4250.0],
+        0.43,
+        [0.68, 0.68, 0.70, 0.66],
+        printed,
+    )
 }
 
-fn cocota(id: PresetId, pump_gain_mm3: [f64; 2], gamma: f64, loss_coefficient: [f64; 4]) -> Preset {
+fn cocota(
+    id: PresetId,
+    table: &'static str,
+    pump_gain_mm3: [f64; 2],
+    gamma: f64,
+    loss_coefficient: [f64; 4],
+    printed: Printed,
+) -> Preset {
     /// Gain of the power module `k_mod`.
     const POWER_GAIN: f64 = 1.2;
     /// Controller outputs c1, c2 at the operating point (V).
@@ -110,7 +136,7 @@ fn cocota(id: PresetId, pump_gain_mm3: [f64; 2], gamma: f64, loss_coefficient: [
     Preset {
         id,
         source: "Cocota 2009",
-        table: "§3.6",
+        table,
         display_unit: DisplayUnit::Mm,
         plant: QuadrupleTank {
             tanks: std::array::from_fn(|j| Tank {
@@ -126,7 +152,7 @@ fn cocota(id: PresetId, pump_gain_mm3: [f64; 2], gamma: f64, loss_coefficient: [
         },
         pump_voltage: CONTROLLER_OUTPUT.map(|c| POWER_GAIN * c),
         remarks: &[Remark::TrapezoidalTank, Remark::PrintedLevelsNotAtRest],
-        printed: None,
+        printed: Some(printed),
     }
 }
 
