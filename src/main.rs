@@ -1,2 +1,5 @@
 //! Mounts the laboratory into the page.
-fn main() {}
+
+fn main() {
+    quadtank::app::mount();
+}

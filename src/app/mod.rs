@@ -1,1 +1,22 @@
-//! The Leptos user interface.
+//! The Leptos user interface: benches, charts on screen, widgets, the drawing of the plant, texts.
+//!
+//! [`lab`] holds the state and the way of one change from an event to pixels; [`quadruple`] is the home bench;
+//! [`widgets`] are the parts that any bench is made of. There is no control arithmetic here: every number comes from
+//! [`crate::scenario`].
+
+mod canvas;
+mod download;
+mod format;
+mod lab;
+mod preset;
+mod quadruple;
+mod share;
+mod shell;
+mod shown;
+mod start;
+mod storage;
+mod texts;
+mod timing;
+mod widgets;
+
+pub use shell::{Laboratory, mount};

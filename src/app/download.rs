@@ -1,0 +1,58 @@
+//! Files that the page hands to its reader, and links on the clipboard.
+
+use leptos::prelude::{document, window};
+use leptos::wasm_bindgen::closure::Closure;
+use leptos::wasm_bindgen::{JsCast, JsValue};
+use web_sys::{Blob, BlobPropertyBag, HtmlAnchorElement, HtmlCanvasElement, Url};
+
+/// Hands over a text as a file.
+pub fn download_text(name: &str, mime: &str, text: &str) {
+    let parts = js_sys::Array::of1(&JsValue::from_str(text));
+    let kind = BlobPropertyBag::new();
+    kind.set_type(mime);
+    if let Ok(blob) = Blob::new_with_str_sequence_and_options(&parts, &kind) {
+        download(name, &blob);
+    }
+}
+
+/// Hands over a canvas as a PNG file.
+pub fn download_canvas(name: &str, canvas: &HtmlCanvasElement) {
+    let name = name.to_owned();
+    let save = Closure::once_into_js(move |blob: Option<Blob>| {
+        if let Some(blob) = blob {
+            download(&name, &blob);
+        }
+    });
+    let _ = canvas.to_blob(save.unchecked_ref());
+}
+
+fn download(name: &str, blob: &Blob) {
+    let Ok(url) = Url::create_object_url_with_blob(blob) else { return };
+    if let Ok(Ok(anchor)) = document().create_element("a").map(JsCast::dyn_into::<HtmlAnchorElement>) {
+        anchor.set_href(&url);
+        anchor.set_download(name);
+        anchor.click();
+    }
+    // The browser has taken its copy by the time of the next task.
+    gloo_timers::callback::Timeout::new(1000, move || {
+        let _ = Url::revoke_object_url(&url);
+    })
+    .forget();
+}
+
+/// Puts a text on the clipboard, then says whether that worked. Where there is no clipboard (an insecure origin, a
+/// sandboxed frame) it did not.
+pub fn copy(text: &str, then: impl FnOnce(bool) + 'static) {
+    let navigator = window().navigator();
+    // The typed accessor assumes a clipboard; on an insecure origin there is none.
+    let has_clipboard =
+        js_sys::Reflect::get(&navigator, &"clipboard".into()).is_ok_and(|clipboard| clipboard.is_object());
+    if !has_clipboard {
+        then(false);
+        return;
+    }
+    let written = navigator.clipboard().write_text(text);
+    leptos::task::spawn_local(async move {
+        then(wasm_bindgen_futures::JsFuture::from(written).await.is_ok());
+    });
+}

@@ -1,0 +1,99 @@
+//! Numbers as a reader of the chosen language expects them.
+
+/// How a language writes numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NumberStyle {
+    /// Sign between whole part and fraction.
+    pub decimal: char,
+}
+
+impl NumberStyle {
+    /// `value` with `digits` decimals, a true minus sign and no "−0".
+    pub fn fixed(self, value: f64, digits: usize) -> String {
+        if !value.is_finite() {
+            return "–".to_owned();
+        }
+        let text = format!("{value:.digits$}");
+        let zero = text.chars().all(|c| matches!(c, '-' | '0' | '.'));
+        text.chars()
+            .filter(|&c| !(zero && c == '-'))
+            .map(|c| match c {
+                '-' => '−',
+                '.' => self.decimal,
+                c => c,
+            })
+            .collect()
+    }
+
+    /// `value` with about `digits` significant digits, never in scientific notation for ordinary sizes.
+    pub fn significant(self, value: f64, digits: usize) -> String {
+        if value == 0.0 || !value.is_finite() {
+            return self.fixed(value, 0);
+        }
+        let magnitude = value.abs().log10().floor();
+        if !(-6.0..7.0).contains(&magnitude) {
+            return format!("{value:.*e}", digits.saturating_sub(1)).replace('-', "−").replace('.', &self.decimal.to_string());
+        }
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between -6 and 13")]
+        let decimals = (digits as f64 - 1.0 - magnitude).clamp(0.0, 12.0) as usize;
+        self.fixed(value, decimals)
+    }
+
+    /// `value` with an explicit sign, for steps and zeros.
+    pub fn signed(self, value: f64, digits: usize) -> String {
+        let text = self.fixed(value, digits);
+        if value > 0.0 && !text.chars().all(|c| matches!(c, '0' | '.' | ',')) { format!("+{text}") } else { text }
+    }
+
+    /// What a person typed, with point or comma and either minus sign.
+    pub fn parse(text: &str) -> Option<f64> {
+        let plain: String = text
+            .trim()
+            .chars()
+            .map(|c| match c {
+                '−' => '-',
+                ',' => '.',
+                c => c,
+            })
+            .collect();
+        plain.parse().ok().filter(|v: &f64| v.is_finite())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const EN: NumberStyle = NumberStyle { decimal: '.' };
+    const PT: NumberStyle = NumberStyle { decimal: ',' };
+
+    #[test]
+    fn a_negative_number_has_a_true_minus_and_zero_has_none() {
+        assert_eq!(EN.fixed(-0.636, 2), "−0.64");
+        assert_eq!(EN.fixed(-0.001, 2), "0.00");
+        assert_eq!(PT.fixed(1.5, 1), "1,5");
+    }
+
+    #[test]
+    fn significant_digits_follow_the_size_of_the_number() {
+        assert_eq!(EN.significant(0.012_758_9, 3), "0.0128");
+        assert_eq!(EN.significant(1430.4, 3), "1430");
+        assert_eq!(EN.significant(0.0, 3), "0");
+        assert_eq!(EN.significant(1.0e-9, 3), "1.00e−9");
+    }
+
+    #[test]
+    fn a_sign_is_shown_only_where_there_is_one() {
+        assert_eq!(EN.signed(1.0, 1), "+1.0");
+        assert_eq!(EN.signed(0.0, 1), "0.0");
+        assert_eq!(EN.signed(-2.0, 1), "−2.0");
+    }
+
+    #[test]
+    fn point_and_comma_are_both_read() {
+        assert_eq!(NumberStyle::parse(" 0,43 "), Some(0.43));
+        assert_eq!(NumberStyle::parse("−1.5"), Some(-1.5));
+        assert_eq!(NumberStyle::parse("inf"), None);
+        assert_eq!(NumberStyle::parse("1.2.3"), None);
+    }
+}

@@ -1,0 +1,173 @@
+//! The state of the laboratory and the way of one change through it.
+//!
+//! A control edits [`Lab::scenario`]. That asks for one animation frame; in it, what the change touched is computed once
+//! (however many events came in between), the results are set, and the charts that show them repaint, all before the
+//! browser shows the frame. Reading, computing and painting never mix.
+
+use std::sync::Arc;
+
+use leptos::prelude::*;
+use leptos_i18n::Locale as _;
+
+use super::format::NumberStyle;
+use super::start::{Control, StartFlags};
+use super::texts::{Locale, number_style};
+use super::timing::Stopwatch;
+use crate::figure::Palette;
+use crate::plant::DisplayUnit;
+use crate::scenario::{self, Analysis, Run, Scenario, ScenarioError, Setup};
+
+/// A result that a panel may show, or why there is none.
+pub type Outcome<T> = Arc<Result<T, ScenarioError>>;
+
+/// Something to tell at the top of the page.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Notice {
+    /// The link or file was not usable; the bench shows what it showed before.
+    Refused(ScenarioError),
+    /// The link is on the clipboard.
+    Copied,
+    /// The clipboard is out of reach: here is the link.
+    CopyByHand(String),
+}
+
+/// The state of the laboratory. A handle: copying it copies nothing.
+#[derive(Clone, Copy)]
+pub struct Lab {
+    /// The document that all of it follows from.
+    pub scenario: RwSignal<Scenario>,
+    /// What theory says.
+    pub analysis: RwSignal<Outcome<Analysis>>,
+    /// What happens.
+    pub run: RwSignal<Outcome<Run>>,
+    /// The pinned runs, in the order of the scenario.
+    pub pinned: RwSignal<Arc<Vec<Outcome<Run>>>>,
+    /// The language of the texts.
+    pub language: RwSignal<Locale>,
+    /// Whether the theme is dark.
+    pub dark: RwSignal<bool>,
+    /// What to tell at the top of the page.
+    pub notice: RwSignal<Option<Notice>>,
+    /// How the page was started.
+    pub flags: StoredValue<StartFlags>,
+    computed: StoredValue<Option<Scenario>>,
+    stopwatch: StoredValue<Stopwatch>,
+}
+
+/// The laboratory of this page.
+pub fn use_lab() -> Lab {
+    expect_context()
+}
+
+impl Lab {
+    /// A laboratory that shows `scenario`, computed at once.
+    pub fn new(scenario: Scenario, language: Locale, dark: bool, flags: StartFlags) -> Self {
+        let lab = Self {
+            analysis: RwSignal::new(Arc::new(scenario::analyse(&scenario.setup))),
+            run: RwSignal::new(Arc::new(scenario::run(&scenario.setup))),
+            pinned: RwSignal::new(run_all(&scenario.pinned)),
+            computed: StoredValue::new(Some(scenario.clone())),
+            scenario: RwSignal::new(scenario),
+            language: RwSignal::new(language),
+            dark: RwSignal::new(dark),
+            notice: RwSignal::new(None),
+            flags: StoredValue::new(flags),
+            stopwatch: StoredValue::new(Stopwatch::default()),
+        };
+        Effect::new(move || {
+            lab.scenario.track();
+            lab.request_frame();
+        });
+        lab
+    }
+
+    /// Changes the run that is worked on.
+    pub fn edit(self, change: impl FnOnce(&mut Setup)) {
+        self.scenario.update(|s| change(&mut s.setup));
+    }
+
+    /// Replaces the whole document, as a link or a file does.
+    pub fn open(self, outcome: Result<Scenario, ScenarioError>) {
+        match outcome {
+            Ok(scenario) => {
+                self.scenario.set(scenario);
+                self.notice.set(None);
+            }
+            Err(error) => self.notice.set(Some(Notice::Refused(error))),
+        }
+    }
+
+    /// A part of the setup, for controls.
+    pub fn part<T>(self, read: impl Fn(&Setup) -> T + Send + Sync + 'static) -> Signal<T>
+    where
+        T: PartialEq + Send + Sync + 'static,
+    {
+        let scenario = self.scenario;
+        Memo::new(move |_| scenario.with(|s| read(&s.setup))).into()
+    }
+
+    /// Whether a group of controls is disabled.
+    pub fn locks(self, control: Control) -> bool {
+        self.flags.with_value(|f| f.locks(control))
+    }
+
+    /// How the chosen language writes numbers.
+    pub fn number_style(self) -> NumberStyle {
+        number_style(self.language.get())
+    }
+
+    /// The colours of the chosen theme.
+    pub fn palette(self) -> Palette {
+        if self.dark.get() { Palette::dark() } else { Palette::light() }
+    }
+
+    /// The unit in which levels are shown.
+    pub fn unit(self) -> Signal<DisplayUnit> {
+        self.part(Setup::display_unit)
+    }
+
+    fn request_frame(self) {
+        if self.stopwatch.try_update_value(Stopwatch::begin) == Some(true) {
+            request_animation_frame(move || self.frame());
+        }
+    }
+
+    /// One frame: compute what changed since the last one, hand it to the panels, and note how long it took.
+    fn frame(self) {
+        let Some(after) = self.scenario.try_get_untracked() else { return };
+        let before = self.computed.try_update_value(Option::take).flatten();
+        let unchanged = |same: fn(&Setup, &Setup) -> bool| {
+            before.as_ref().is_some_and(|b| same(&b.setup, &after.setup))
+        };
+        self.stopwatch.update_value(Stopwatch::start_computing);
+        let analysis = (!unchanged(same_theory)).then(|| Arc::new(scenario::analyse(&after.setup)));
+        let run = (!unchanged(|a, b| a == b)).then(|| Arc::new(scenario::run(&after.setup)));
+        let pinned = (before.as_ref().map(|b| &b.pinned) != Some(&after.pinned)).then(|| run_all(&after.pinned));
+        self.stopwatch.update_value(Stopwatch::stop_computing);
+        if let Some(analysis) = analysis {
+            self.analysis.set(analysis);
+        }
+        if let Some(run) = run {
+            self.run.set(run);
+        }
+        if let Some(pinned) = pinned {
+            self.pinned.set(pinned);
+        }
+        self.computed.set_value(Some(after));
+        let stopwatch = self.stopwatch;
+        // A task after this frame: by then the panels have repainted.
+        gloo_timers::callback::Timeout::new(0, move || {
+            stopwatch.try_update_value(Stopwatch::end);
+        })
+        .forget();
+    }
+}
+
+/// Theory does not depend on the experiment.
+fn same_theory(a: &Setup, b: &Setup) -> bool {
+    a.plant == b.plant && a.valves == b.valves && a.operating_point == b.operating_point && a.controller == b.controller
+}
+
+fn run_all(setups: &[Setup]) -> Arc<Vec<Outcome<Run>>> {
+    Arc::new(setups.iter().map(|s| Arc::new(scenario::run(s))).collect())
+}

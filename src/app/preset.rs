@@ -1,0 +1,82 @@
+//! The choice of a published rig.
+
+use leptos::prelude::*;
+
+use super::lab::{Lab, use_lab};
+use super::start::Control;
+use super::texts::tr;
+use crate::plant::PresetId;
+use crate::scenario::{PlantSpec, Scenario, setup_of};
+
+/// Name of a rig in the language of the laboratory.
+pub fn name_of(lab: Lab, id: PresetId) -> String {
+    match id {
+        PresetId::JohanssonMinimumPhase => tr!(lab, preset.johansson_minus),
+        PresetId::JohanssonNonMinimumPhase => tr!(lab, preset.johansson_plus),
+        PresetId::CocotaMinimumPhase => tr!(lab, preset.cocota_minus),
+        PresetId::CocotaNonMinimumPhase => tr!(lab, preset.cocota_plus),
+        PresetId::JunqueiraA => tr!(lab, preset.junqueira_a),
+        PresetId::JunqueiraB => tr!(lab, preset.junqueira_b),
+    }
+    .to_owned()
+}
+
+/// What to know about a rig.
+pub fn remark_of(lab: Lab, id: Option<PresetId>) -> String {
+    match id {
+        Some(PresetId::JohanssonMinimumPhase) => tr!(lab, preset.remark_johansson_minus),
+        Some(PresetId::JohanssonNonMinimumPhase) => tr!(lab, preset.remark_johansson_plus),
+        Some(PresetId::CocotaMinimumPhase) => tr!(lab, preset.remark_cocota_minus),
+        Some(PresetId::CocotaNonMinimumPhase) => tr!(lab, preset.remark_cocota_plus),
+        Some(PresetId::JunqueiraA | PresetId::JunqueiraB) => tr!(lab, preset.remark_junqueira),
+        None => tr!(lab, preset.remark_own),
+    }
+    .to_owned()
+}
+
+/// Loads a published rig with its published controller and experiment; pinned runs stay.
+pub fn load(lab: Lab, id: PresetId) {
+    lab.scenario.update(|s| {
+        let fresh = Scenario { version: s.version, setup: setup_of(id), pinned: std::mem::take(&mut s.pinned), view: s.view.clone() };
+        *s = fresh;
+        s.view.cursor_s = None;
+        s.view.zoom_s = None;
+    });
+}
+
+/// The select with all published rigs.
+#[component]
+pub fn PresetChoice() -> impl IntoView {
+    let lab = use_lab();
+    let id = lab.part(|s| match s.plant {
+        PlantSpec::Preset(id) => Some(id),
+        PlantSpec::Parameters { .. } => None,
+    });
+    let on_change = move |event| {
+        if let Some(id) = PresetId::from_name(&event_target_value(&event)) {
+            load(lab, id);
+        }
+    };
+    let options = PresetId::ALL
+        .into_iter()
+        .map(|choice| {
+            view! {
+                <option value=choice.name() selected=move || id.get() == Some(choice)>{move || name_of(lab, choice)}</option>
+            }
+        })
+        .collect_view();
+    view! {
+        <select
+            data-testid="preset"
+            aria-label=move || tr!(lab, preset.choose)
+            title=move || remark_of(lab, id.get())
+            disabled=lab.locks(Control::Preset)
+            prop:value=move || id.get().map_or("", PresetId::name)
+            on:change=on_change
+        >
+            {options}
+            {move || id.get().is_none().then(|| view! { <option value="" selected>{tr!(lab, preset.own)}</option> })}
+        </select>
+        <p class="remark">{move || remark_of(lab, id.get())}</p>
+    }
+}

@@ -1,0 +1,285 @@
+//! The decentralised PI controller.
+
+use leptos::prelude::*;
+
+use super::sentences::{self, with_analysis};
+use crate::app::lab::use_lab;
+use crate::app::start::Control;
+use crate::app::texts::tr;
+use crate::app::widgets::{NumberField, Scale, Segmented, SliderField, rich};
+use crate::control::{AntiWindup, LoopMode, Pairing, PiSettings};
+use crate::interaction::PairingVerdict;
+use crate::scenario::limits;
+
+/// Travel of the gain sliders (V/V); the number field takes more.
+const GAIN_TRAVEL: (f64, f64) = (0.05, 50.0);
+/// Travel of the integral-time sliders (s); the number field takes more.
+const INTEGRAL_TRAVEL_S: (f64, f64) = (3.0, 3000.0);
+/// Tt/Ti when anti-windup is switched on (Cocota 2009, ch. 4).
+const TRACKING_RATIO: f64 = 0.5;
+/// When a loop that is put into manual goes back to automatic, unless the student says otherwise (s).
+const MANUAL_UNTIL_S: f64 = 500.0;
+
+const GAIN_IDS: [(&str, &str); 2] = [("gain1", "gain1-number"), ("gain2", "gain2-number")];
+const INTEGRAL_IDS: [(&str, &str); 2] = [("integral1", "integral1-number"), ("integral2", "integral2-number")];
+const SIGN_IDS: [&str; 2] = ["sign1", "sign2"];
+const MANUAL_IDS: [(&str, &str, &str); 2] =
+    [("manual1", "manual1-until", "manual1-output"), ("manual2", "manual2-until", "manual2-output")];
+
+/// Pairing, gains and the fine print of the two loops.
+#[component]
+pub fn ControllerCard() -> impl IntoView {
+    let lab = use_lab();
+    let windup = lab.part(|s| s.controller.loops.iter().any(|l| l.anti_windup != AntiWindup::Off));
+    let remark = move || {
+        let windup = if windup.get() { tr!(lab, pi.windup_on) } else { tr!(lab, pi.windup_off) };
+        tr!(lab, pi.remark, windup = windup).to_string()
+    };
+    let stability = move || sentences::of_stability(lab);
+    view! {
+        <section class="card pi" aria-labelledby="pi-title">
+            <header>
+                <h2 id="pi-title">{move || tr!(lab, pi.title)}</h2>
+                <span class="remark">{remark}</span>
+            </header>
+            <PairingSwitch />
+            <LoopControls index=0 />
+            <LoopControls index=1 />
+            <details class="more">
+                <summary data-testid="pi-more">{move || tr!(lab, pi.more)}</summary>
+                <FinePrint />
+            </details>
+            <p class="sentence" class:warm=move || stability().1 role="status" data-testid="stability">
+                {move || rich(&stability().0)}
+            </p>
+        </section>
+    }
+}
+
+/// Shows the suggestion, obeys the student.
+#[component]
+fn PairingSwitch() -> impl IntoView {
+    let lab = use_lab();
+    let pairing = lab.part(|s| s.controller.pairing);
+    let suggested = Memo::new(move |_| {
+        with_analysis(lab, |a| match a.verdict {
+            PairingVerdict::Diagonal(_) => Some(Pairing::Diagonal),
+            PairingVerdict::Swapped(_) => Some(Pairing::Swapped),
+            PairingVerdict::None(_) => None,
+        })
+        .flatten()
+    });
+    let text = move |choice: Pairing| {
+        Signal::derive(move || {
+            let name = match choice {
+                Pairing::Diagonal => tr!(lab, pi.diagonal),
+                Pairing::Swapped => tr!(lab, pi.swapped),
+            };
+            if suggested.get() == Some(choice) { format!("{name} ✓") } else { name.to_owned() }
+        })
+    };
+    let against = move || suggested.get().is_some_and(|s| s != pairing.get());
+    view! {
+        <Segmented
+            label=Signal::derive(move || tr!(lab, pi.pairing).to_string())
+            choices=vec![
+                (Pairing::Diagonal, "pairing-diagonal", text(Pairing::Diagonal)),
+                (Pairing::Swapped, "pairing-swapped", text(Pairing::Swapped)),
+            ]
+            value=pairing
+            on_choose=move |choice| lab.edit(|s| s.controller.pairing = choice)
+            disabled=lab.locks(Control::Pairing)
+        />
+        {move || against().then(|| view! { <p class="remark warm">{tr!(lab, pi.against)}</p> })}
+    }
+}
+
+#[component]
+fn LoopControls(index: usize) -> impl IntoView {
+    let lab = use_lab();
+    let class = if index == 0 { "loop1-row" } else { "loop2-row" };
+    let heading = move || {
+        let pump = lab.scenario.with(|s| s.setup.controller.pairing.pump_of(index)) + 1;
+        tr!(lab, pi.loop, level = index + 1, pump = pump).to_string()
+    };
+    let gain = lab.part(move |s| s.controller.loops[index].gain);
+    let edit = move |change: &dyn Fn(&mut PiSettings)| lab.edit(|s| change(&mut s.controller.loops[index]));
+    let most = limits::GAIN_MAGNITUDE.max;
+    let locked = lab.locks(Control::Gains);
+    view! {
+        <h3 class=if index == 0 { "loop1" } else { "loop2" }>{heading}</h3>
+        <SliderField
+            id=GAIN_IDS[index]
+            label=format!("K{}", ["₁", "₂"][index])
+            name=Signal::derive(move || tr!(lab, pi.gain, level = index + 1).to_string())
+            value=gain
+            on_change=move |k| if k != 0.0 { edit(&move |l| l.gain = k) }
+            travel=GAIN_TRAVEL
+            limits=Signal::from((-most, most))
+            scale=Scale::Logarithmic
+            digits=None
+            unit="V/V".to_owned()
+            class
+            disabled=locked
+        />
+        <SliderField
+            id=INTEGRAL_IDS[index]
+            label=format!("Ti{}", ["₁", "₂"][index])
+            name=Signal::derive(move || tr!(lab, pi.integral, level = index + 1).to_string())
+            value=lab.part(move |s| s.controller.loops[index].integral_time_s)
+            on_change=move |t| edit(&move |l| l.integral_time_s = t)
+            travel=INTEGRAL_TRAVEL_S
+            limits=Signal::from((limits::INTEGRAL_TIME_S.min, limits::INTEGRAL_TIME_S.max))
+            scale=Scale::Logarithmic
+            digits=None
+            unit="s".to_owned()
+            class
+            disabled=locked
+        />
+    }
+}
+
+/// What most students leave alone: set-point weight, anti-windup, sampling time, sign and manual mode.
+#[component]
+fn FinePrint() -> impl IntoView {
+    let lab = use_lab();
+    let locked = lab.locks(Control::Sampling);
+    let both = move |change: &dyn Fn(&mut PiSettings)| lab.edit(|s| s.controller.loops.iter_mut().for_each(change));
+    let windup = lab.part(|s| s.controller.loops[0].anti_windup);
+    let tracking = Signal::derive(move || match windup.get() {
+        AntiWindup::BackCalculation { tracking_ratio } => tracking_ratio,
+        AntiWindup::Off => TRACKING_RATIO,
+    });
+    let switch_windup = move |event| {
+        let on = event_target_checked(&event);
+        let choice = if on { AntiWindup::BackCalculation { tracking_ratio: TRACKING_RATIO } } else { AntiWindup::Off };
+        both(&move |l| l.anti_windup = choice);
+    };
+    view! {
+        <SliderField
+            id=("weight", "weight-number")
+            label=Signal::derive(move || tr!(lab, pi.weight_label).to_string())
+            name=Signal::derive(move || tr!(lab, pi.weight).to_string())
+            value=lab.part(|s| s.controller.loops[0].set_point_weight)
+            on_change=move |b| both(&move |l| l.set_point_weight = b)
+            travel=(limits::SET_POINT_WEIGHT.min, limits::SET_POINT_WEIGHT.max)
+            scale=Scale::Linear(0.05)
+            digits=Some(2)
+            unit=String::new()
+            class="wide"
+            disabled=locked
+        />
+        <SliderField
+            id=("sampling", "sampling-number")
+            label=Signal::derive(move || tr!(lab, pi.sampling_label).to_string())
+            name=Signal::derive(move || tr!(lab, pi.sampling).to_string())
+            value=lab.part(|s| s.controller.sampling_time_s)
+            on_change=move |t| lab.edit(|s| s.controller.sampling_time_s = t)
+            travel=lab.part(|s| (limits::shortest_sampling_time_s(s.experiment.duration_s), limits::SAMPLING_TIME_S.max))
+            scale=Scale::Logarithmic
+            digits=None
+            unit="s".to_owned()
+            class="wide"
+            disabled=locked
+        />
+        <label class="check">
+            <input
+                type="checkbox"
+                data-testid="antiwindup"
+                prop:checked=move || windup.get() != AntiWindup::Off
+                disabled=locked
+                on:change=switch_windup
+            />
+            {move || tr!(lab, pi.antiwindup)}
+        </label>
+        <SliderField
+            id=("tracking", "tracking-number")
+            label=Signal::derive(move || tr!(lab, pi.tracking_label).to_string())
+            name=Signal::derive(move || tr!(lab, pi.tracking).to_string())
+            value=tracking
+            on_change=move |ratio| both(&move |l| l.anti_windup = AntiWindup::BackCalculation { tracking_ratio: ratio })
+            travel=(0.02, 20.0)
+            scale=Scale::Logarithmic
+            digits=None
+            unit=String::new()
+            class="wide"
+            disabled=Signal::derive(move || locked || windup.get() == AntiWindup::Off)
+        />
+        {(0..2).map(|index| view! { <ManualMode index /> }).collect_view()}
+    }
+}
+
+/// A loop in manual until a time, then handed over without a bump; and the sign of its gain.
+#[component]
+fn ManualMode(index: usize) -> impl IntoView {
+    let lab = use_lab();
+    let locked = lab.locks(Control::Sampling);
+    let (check_id, until_id, output_id) = MANUAL_IDS[index];
+    let mode = lab.part(move |s| s.controller.loops[index].mode);
+    let set = move |mode: LoopMode| lab.edit(|s| s.controller.loops[index].mode = mode);
+    let rest = move || {
+        let pump = lab.scenario.with(|s| s.setup.controller.pairing.pump_of(index));
+        let power = lab.scenario.with(|s| s.setup.plant().power_gain);
+        with_analysis(lab, |a| a.operating_point.pump_voltage[pump] / power).unwrap_or_default()
+    };
+    let parts = Signal::derive(move || match mode.get() {
+        LoopMode::Automatic => None,
+        LoopMode::Manual { output, until_s } => Some((output, until_s)),
+    });
+    let range = lab.part(move |s| s.plant().controller_limits()[s.controller.pairing.pump_of(index)]);
+    let switch = move |event| {
+        set(if event_target_checked(&event) {
+            LoopMode::Manual { output: untrack(rest), until_s: MANUAL_UNTIL_S }
+        } else {
+            LoopMode::Automatic
+        });
+    };
+    view! {
+        <div class="toolbar">
+            <label class="check">
+                <input type="checkbox" data-testid=check_id prop:checked=move || parts.get().is_some() disabled=locked on:change=switch />
+                {move || tr!(lab, pi.manual, level = index + 1).to_string()}
+            </label>
+            <button
+                type="button"
+                class="button small"
+                data-testid=SIGN_IDS[index]
+                disabled=lab.locks(Control::Gains)
+                aria-label=move || tr!(lab, pi.sign, level = index + 1).to_string()
+                on:click=move |_| lab.edit(|s| s.controller.loops[index].gain *= -1.0)
+            >
+                "±K"{["₁", "₂"][index]}
+            </button>
+        </div>
+        {move || parts.get().is_some().then(|| view! {
+            <div class="fields">
+                <div class="row wide">
+                    <NumberField
+                        id=until_id
+                        name=Signal::derive(move || tr!(lab, pi.manual_until, level = index + 1).to_string())
+                        value=Signal::derive(move || parts.get().map_or(0.0, |p| p.1))
+                        on_change=move |until_s| if let Some((output, _)) = parts.get_untracked() { set(LoopMode::Manual { output, until_s }) }
+                        limits=(limits::TIME_S.min, limits::TIME_S.max)
+                        scale=Scale::Linear(10.0)
+                        digits=Some(0)
+                        disabled=locked
+                    />
+                    <span class="unit">"s"</span>
+                </div>
+                <div class="row wide">
+                    <NumberField
+                        id=output_id
+                        name=Signal::derive(move || tr!(lab, pi.manual_output, level = index + 1).to_string())
+                        value=Signal::derive(move || parts.get().map_or(0.0, |p| p.0))
+                        on_change=move |output| if let Some((_, until_s)) = parts.get_untracked() { set(LoopMode::Manual { output, until_s }) }
+                        limits=range
+                        scale=Scale::Linear(0.1)
+                        digits=Some(2)
+                        disabled=locked
+                    />
+                    <span class="unit">"V"</span>
+                </div>
+            </div>
+        })}
+    }
+}

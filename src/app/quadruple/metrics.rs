@@ -1,0 +1,107 @@
+//! How the runs did, as a table.
+
+use leptos::prelude::*;
+
+use crate::app::lab::{Lab, use_lab};
+use crate::app::shown::{length_digits, per_metre, to_shown, unit_name};
+use crate::app::texts::tr;
+use crate::sim::{LoopMetrics, Settling};
+
+/// A row of the table: its name, the class of its colour, its figures.
+struct Row {
+    name: String,
+    class: &'static str,
+    metrics: LoopMetrics,
+}
+
+/// Metrics of the nonlinear and the linear run and of the pinned ones.
+#[component]
+pub fn MetricsTable() -> impl IntoView {
+    let lab = use_lab();
+    let rows = move || rows(lab).iter().map(|row| row_view(lab, row)).collect_view();
+    let unit = move || unit_name(lab.unit().get());
+    let column = |text: Signal<String>| view! { <th scope="col">{text}</th> };
+    let plain = move |read: fn(Lab) -> String| column(Signal::derive(move || read(lab)));
+    view! {
+        <div class="scroll" tabindex="0" role="region" aria-label=move || tr!(lab, responses.metrics)>
+            <table class="plain" data-testid="metrics">
+                <caption class="visually-hidden">{move || tr!(lab, responses.metrics)}</caption>
+                <thead>
+                    <tr>
+                        {plain(|lab| tr!(lab, responses.run).to_string())}
+                        {plain(|lab| tr!(lab, responses.rise).to_string())}
+                        {plain(|lab| tr!(lab, responses.settling_2).to_string())}
+                        {plain(|lab| tr!(lab, responses.settling_5).to_string())}
+                        {plain(|lab| tr!(lab, responses.overshoot).to_string())}
+                        {plain(|lab| tr!(lab, responses.undershoot).to_string())}
+                        {column(Signal::derive(move || tr!(lab, responses.other, unit = unit()).to_string()))}
+                        {column(Signal::derive(move || tr!(lab, responses.iae, unit = unit()).to_string()))}
+                        {column(Signal::derive(move || tr!(lab, responses.ise, unit = unit()).to_string()))}
+                        {column(Signal::derive(move || tr!(lab, responses.itae, unit = unit()).to_string()))}
+                        {plain(|lab| tr!(lab, responses.variation).to_string())}
+                        {plain(|lab| tr!(lab, responses.saturated).to_string())}
+                    </tr>
+                </thead>
+                <tbody>{rows}</tbody>
+            </table>
+        </div>
+    }
+}
+
+fn rows(lab: Lab) -> Vec<Row> {
+    let class = |k: usize| ["loop1", "loop2"][k];
+    let hide_linear = lab.scenario.with(|s| s.view.hide_linear);
+    let mut rows = Vec::new();
+    lab.run.with(|outcome| {
+        let Ok(run) = outcome.as_ref() else { return };
+        for (k, &metrics) in run.metrics.iter().enumerate() {
+            rows.push(Row { name: tr!(lab, responses.row, number = k + 1).to_string(), class: class(k), metrics });
+        }
+        if !hide_linear {
+            for (k, &metrics) in run.linear_metrics.iter().enumerate() {
+                let name = tr!(lab, responses.row_linear, number = k + 1).to_string();
+                rows.push(Row { name, class: class(k), metrics });
+            }
+        }
+    });
+    lab.pinned.with(|runs| {
+        for (at, outcome) in runs.iter().enumerate() {
+            let Ok(run) = outcome.as_ref() else { continue };
+            for (k, &metrics) in run.metrics.iter().enumerate() {
+                let name = tr!(lab, responses.row_pinned, run = at + 1, number = k + 1).to_string();
+                rows.push(Row { name, class: class(k), metrics });
+            }
+        }
+    });
+    rows
+}
+
+fn row_view(lab: Lab, row: &Row) -> impl IntoView + use<> {
+    let style = lab.number_style();
+    let unit = lab.unit().get();
+    let m = row.metrics;
+    let none = || "–".to_owned();
+    let time = |t: Option<f64>| t.map_or_else(none, |t| style.significant(t, 3));
+    let settling = |s: Option<Settling>| match s {
+        None => none(),
+        Some(Settling::Never) => tr!(lab, responses.never).to_string(),
+        Some(Settling::After { time_s }) => style.significant(time_s, 3),
+    };
+    let percent = |share: Option<f64>| share.map_or_else(none, |s| format!("{} %", style.fixed(100.0 * s, 1)));
+    let cells = [
+        time(m.rise_time_s),
+        settling(m.settling_2_percent),
+        settling(m.settling_5_percent),
+        percent(m.overshoot),
+        percent(m.undershoot),
+        style.fixed(to_shown(m.other_peak, unit), length_digits(unit)),
+        style.significant(to_shown(m.iae, unit), 3),
+        style.significant(m.ise * per_metre(unit).powi(2), 3),
+        style.significant(to_shown(m.itae, unit), 3),
+        style.fixed(m.total_variation, 2),
+        style.fixed(m.saturated_s, 0),
+    ];
+    let cells = cells.into_iter().map(|text| view! { <td>{text}</td> }).collect_view();
+    let (name, class) = (row.name.clone(), row.class);
+    view! { <tr><th scope="row" class=class>{name}</th>{cells}</tr> }
+}

@@ -1,0 +1,100 @@
+//! The charts of the home bench, from the results of the laboratory. Building them follows what they read.
+
+use crate::app::lab::{Lab, Outcome};
+use crate::app::shown::{per_metre, unit_name};
+use crate::app::texts::tr;
+use crate::app::widgets::Picture;
+use crate::figure::{self, PoleZero, PoleZeroTexts, ResponseTexts, Responses, RunColumns, ValvePlane, ValvePlaneTexts};
+use crate::linear::Complex;
+use crate::scenario::{Run, RightMostZero, Setup, zero_path};
+
+use leptos::prelude::*;
+
+use super::sentences::with_analysis;
+
+/// The valve plane. It does not depend on the valves themselves, so dragging the point does not repaint it.
+pub fn valve_plane(lab: Lab) -> Picture {
+    let shading = Memo::new(move |_| lab.scenario.with(|s| RightMostZero::of(&s.setup)));
+    Picture::new(move |visit| {
+        let map = shading.get();
+        let texts = ValvePlaneTexts {
+            gamma_1: "γ₁",
+            gamma_2: "γ₂",
+            boundary: "γ₁ + γ₂ = 1",
+            minimum_phase: tr!(lab, valves.minimum),
+            right_half_plane: tr!(lab, valves.right),
+        };
+        visit(&[figure::valve_plane(&ValvePlane {
+            right_most_zero: &|valves| map.at(valves),
+            halfway_zero: map.typical(),
+            published: &[],
+            setting: None,
+            texts,
+        })]);
+    })
+}
+
+/// Poles and zeros.
+pub fn pole_zero(lab: Lab) -> Picture {
+    Picture::new(move |visit| {
+        let zero_paths = lab.scenario.with(|s| zero_path(&s.setup));
+        with_analysis(lab, |a| {
+            let zeros: Vec<Complex> = a.zeros.iter().flatten().map(|z| z.value).collect();
+            visit(&[figure::pole_zero(&PoleZero {
+                poles: &a.poles,
+                zeros: &zeros,
+                zero_paths: &zero_paths,
+                closed_loop: &a.closed_loop.poles_s,
+                decimal: lab.number_style().decimal,
+                texts: PoleZeroTexts {
+                    real: tr!(lab, zeros.real),
+                    imaginary: tr!(lab, zeros.imaginary),
+                    poles: tr!(lab, zeros.pole),
+                    zeros: tr!(lab, zeros.zero),
+                    closed_loop: tr!(lab, zeros.closed),
+                },
+            })]);
+        });
+    })
+}
+
+/// Levels and pump voltages.
+pub fn responses(lab: Lab) -> Picture {
+    let window = Memo::new(move |_| lab.scenario.with(|s| s.view.zoom_s));
+    let hide_linear = Memo::new(move |_| lab.scenario.with(|s| s.view.hide_linear));
+    let plant = lab.part(Setup::plant);
+    Picture::new(move |visit| {
+        let (run, pinned): (Outcome<Run>, _) = (lab.run.get(), lab.pinned.get());
+        let Ok(run) = run.as_ref() else { return };
+        let unit = lab.unit().get();
+        let level = tr!(lab, responses.level_axis, unit = unit_name(unit)).to_string();
+        let number = |text: &dyn Fn(usize) -> String| [text(1), text(2)];
+        let levels = number(&|k| tr!(lab, responses.level, number = k).to_string());
+        let pumps = number(&|k| tr!(lab, responses.pump, number = k).to_string());
+        let references = [1, 2].map(|k| format!("{} {k}", tr!(lab, responses.reference)));
+        let plant = plant.get();
+        let pinned: Vec<RunColumns> =
+            pinned.iter().filter_map(|p| p.as_ref().as_ref().ok()).map(|r| RunColumns::of(&r.nonlinear)).collect();
+        visit(&figure::responses(&Responses {
+            nonlinear: RunColumns::of(&run.nonlinear),
+            references: [&run.nonlinear.references[0], &run.nonlinear.references[1]],
+            linear: (!hide_linear.get()).then(|| RunColumns::of(&run.linear)),
+            pinned: &pinned,
+            level_scale: per_metre(unit),
+            walls: [plant.tanks[0].height, plant.tanks[1].height],
+            voltage_limits: (plant.pumps[0].voltage_min, plant.pumps[0].voltage_max),
+            window_s: window.get().map(Into::into),
+            texts: ResponseTexts {
+                time: tr!(lab, chart.time),
+                level: &level,
+                voltage: tr!(lab, responses.pump_axis),
+                levels: [&levels[0], &levels[1]],
+                references: [&references[0], &references[1]],
+                voltages: [&pumps[0], &pumps[1]],
+                reference: tr!(lab, responses.reference),
+                linear: tr!(lab, responses.linear),
+                pinned: tr!(lab, responses.pinned),
+            },
+        }));
+    })
+}

@@ -1,0 +1,92 @@
+//! Exact equilibrium beside the printed figures of the source.
+
+use leptos::prelude::*;
+
+use super::sentences::with_analysis;
+use crate::app::lab::use_lab;
+use crate::app::shown::{length_digits, to_shown, unit_name};
+use crate::app::texts::tr;
+use crate::plant::Preset;
+use crate::scenario::PlantSpec;
+
+/// A row: what, computed, printed.
+type Row = (String, String, Option<String>);
+
+/// The table of computed and printed figures of the rig.
+#[component]
+pub fn PublishedFigures() -> impl IntoView {
+    let lab = use_lab();
+    let preset = lab.part(|s| match s.plant {
+        PlantSpec::Preset(id) => Some(id),
+        PlantSpec::Parameters { .. } => None,
+    });
+    let preset = move || preset.get().map(|id| id.preset());
+    let rows = move || {
+        rows(lab, preset().as_ref())
+            .into_iter()
+            .map(|(name, exact, printed)| {
+                let key = name.clone();
+                view! {
+                    <tr>
+                        <td>{name}</td>
+                        <td data-exact=key.clone()>{exact}</td>
+                        <td data-printed=key>{printed}</td>
+                    </tr>
+                }
+            })
+            .collect_view()
+    };
+    let note = move || {
+        preset().filter(|p| p.printed.is_some()).map(|p| {
+            let at_home = lab.scenario.with(|s| s.setup == crate::scenario::setup_of(p.id));
+            let lead = tr!(lab, process.charts_use, source = p.source, table = p.table).to_string();
+            let rest = if at_home { String::new() } else { format!(" {}", tr!(lab, process.printed_for)) };
+            lead + &rest
+        })
+    };
+    view! {
+        <div class="scroll" tabindex="0" role="region" aria-label=move || tr!(lab, process.operating_point)>
+            <table class="plain" data-testid="published">
+                <thead>
+                    <tr>
+                        <th scope="col">{move || tr!(lab, process.quantity)}</th>
+                        <th scope="col">{move || tr!(lab, process.exact)}</th>
+                        <th scope="col">{move || tr!(lab, process.printed)}</th>
+                    </tr>
+                </thead>
+                <tbody>{rows}</tbody>
+            </table>
+        </div>
+        <p class="remark">{note}</p>
+    }
+}
+
+fn rows(lab: crate::app::lab::Lab, preset: Option<&Preset>) -> Vec<Row> {
+    let style = lab.number_style();
+    let unit = lab.unit().get();
+    let printed = preset.and_then(|p| p.printed);
+    let length = |m: f64| style.fixed(to_shown(m, unit), length_digits(unit));
+    with_analysis(lab, |a| {
+        let mut rows: Vec<Row> = Vec::new();
+        for tank in 0..4 {
+            let name = format!("h{} ({})", ["₁", "₂", "₃", "₄"][tank], unit_name(unit));
+            rows.push((name, length(a.operating_point.levels[tank]), printed.map(|p| length(p.levels[tank]))));
+        }
+        for tank in 0..4 {
+            let name = format!("T{} (s)", ["₁", "₂", "₃", "₄"][tank]);
+            let exact = a.time_constants_s[tank].map_or_else(|| "0".to_owned(), |t| style.fixed(t, 2));
+            rows.push((name, exact, printed.map(|p| style.fixed(p.time_constants_s[tank], 0))));
+        }
+        if let Ok(zeros) = &a.zeros {
+            for (k, zero) in zeros.iter().enumerate() {
+                let text = style.significant(zero.value.re, 4);
+                let source = printed.and_then(|p| p.zeros.get(k).map(|&z| style.significant(z, 2)));
+                rows.push((format!("z{} (1/s)", ["₁", "₂"].get(k).unwrap_or(&"")), text, source));
+            }
+        }
+        let rga = a.rga_11.as_ref().map_or_else(|_| "∞".to_owned(), |l| style.fixed(*l, 4));
+        rows.push(("λ₁₁".to_owned(), rga, printed.map(|p| style.significant(p.rga_11, 3))));
+        rows
+    })
+    .unwrap_or_default()
+}

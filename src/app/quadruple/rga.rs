@@ -1,0 +1,131 @@
+//! The relative gain array, the pairing it suggests, and the formula with the live numbers.
+
+use leptos::prelude::*;
+
+use super::sentences::with_analysis;
+use crate::app::lab::{Lab, use_lab};
+use crate::app::texts::tr;
+use crate::app::widgets::rich;
+use crate::interaction::{PairingReason, PairingVerdict};
+
+/// The relative gain array.
+#[component]
+pub fn RelativeGainCard() -> impl IntoView {
+    let lab = use_lab();
+    let verdict = move || with_analysis(lab, |a| a.verdict);
+    let warm = move || matches!(verdict(), Some(PairingVerdict::None(_)) | None);
+    view! {
+        <section class="card rga" aria-labelledby="rga-title">
+            <header>
+                <h2 id="rga-title">{move || tr!(lab, rga.title)}</h2>
+                <span class="remark">{move || tr!(lab, rga.remark)}</span>
+            </header>
+            <Gains />
+            <div class="formula" role="region" tabindex="0" aria-label=move || tr!(lab, rga.title)><Formula /></div>
+            <div class=move || if warm() { "verdict warm" } else { "verdict" } role="status" data-testid="rga-verdict">
+                <p>{move || rich(&verdict().map(|v| of_verdict(lab, v)).unwrap_or_else(|| tr!(lab, process.no_equilibrium).to_string()))}</p>
+            </div>
+            <p class="remark" data-testid="niederlinski">{move || of_niederlinski(lab)}</p>
+        </section>
+    }
+}
+
+/// Λ as a table; rows and columns sum to 1, so one number makes it.
+#[component]
+fn Gains() -> impl IntoView {
+    let lab = use_lab();
+    let rga = move || with_analysis(lab, |a| a.rga()).flatten();
+    let chosen = move |row: usize, column: usize| match with_analysis(lab, |a| a.verdict) {
+        Some(PairingVerdict::Diagonal(_)) => row == column,
+        Some(PairingVerdict::Swapped(_)) => row != column,
+        _ => false,
+    };
+    let cell = move |row: usize, column: usize| {
+        let gain = move || rga().map(|gains| gains[row][column]);
+        let class = move || {
+            let sign = if gain().is_some_and(|g| g > 0.0) { "positive" } else { "negative" };
+            if chosen(row, column) { format!("{sign} chosen") } else { sign.to_owned() }
+        };
+        let text = move || gain().map_or_else(|| "∞".to_owned(), |g| lab.number_style().fixed(g, 2));
+        let note = move || chosen(row, column).then(|| view! { <span class="visually-hidden">{format!(" ({})", tr!(lab, rga.suggested))}</span> });
+        view! { <td class=class><span data-testid=format!("lambda-{}{}", row + 1, column + 1)>{text}</span>{note}</td> }
+    };
+    let heading = move |column: usize| view! { <th scope="col">{move || tr!(lab, rga.pump, number = column + 1).to_string()}</th> };
+    let row = move |row: usize| {
+        view! {
+            <tr>
+                <th scope="row">{move || tr!(lab, rga.level, number = row + 1).to_string()}</th>
+                {cell(row, 0)}
+                {cell(row, 1)}
+            </tr>
+        }
+    };
+    view! {
+        <table class="gains">
+            <caption class="visually-hidden">{move || tr!(lab, rga.table)}</caption>
+            <thead><tr><td></td>{heading(0)}{heading(1)}</tr></thead>
+            <tbody>{row(0)}{row(1)}</tbody>
+        </table>
+    }
+}
+
+/// λ11 = γ1γ2/(γ1+γ2−1) with the numbers in it (Cocota 2009, eq. 4.10).
+#[component]
+fn Formula() -> impl IntoView {
+    let lab = use_lab();
+    let valves = lab.part(|s| s.valves);
+    let number = move |v: f64| lab.number_style().fixed(v, 2);
+    let value = move || {
+        with_analysis(lab, |a| a.rga_11.clone().ok()).flatten().map_or_else(|| "∞".to_owned(), number)
+    };
+    view! {
+        <math>
+            <msub><mi>"λ"</mi><mn>"11"</mn></msub>
+            <mo>"="</mo>
+            <mfrac>
+                <mrow><msub><mi>"γ"</mi><mn>"1"</mn></msub><msub><mi>"γ"</mi><mn>"2"</mn></msub></mrow>
+                <mrow>
+                    <msub><mi>"γ"</mi><mn>"1"</mn></msub><mo>"+"</mo><msub><mi>"γ"</mi><mn>"2"</mn></msub><mo>"−"</mo><mn>"1"</mn>
+                </mrow>
+            </mfrac>
+            <mo>"="</mo>
+            <mfrac>
+                <mrow><mn>{move || number(valves.get()[0])}</mn><mo>"·"</mo><mn>{move || number(valves.get()[1])}</mn></mrow>
+                <mrow>
+                    <mn>{move || number(valves.get()[0])}</mn><mo>"+"</mo><mn>{move || number(valves.get()[1])}</mn><mo>"−"</mo><mn>"1"</mn>
+                </mrow>
+            </mfrac>
+            <mo>"="</mo>
+            <mn data-testid="lambda">{value}</mn>
+        </math>
+    }
+}
+
+fn of_verdict(lab: Lab, verdict: PairingVerdict) -> String {
+    let style = lab.number_style();
+    let (lead, reason) = match verdict {
+        PairingVerdict::Diagonal(reason) => (tr!(lab, rga.diagonal), reason),
+        PairingVerdict::Swapped(reason) => (tr!(lab, rga.swapped), reason),
+        PairingVerdict::None(reason) => (tr!(lab, rga.none), reason),
+    };
+    let rest = match reason {
+        PairingReason::OnlyPositiveRelativeGain { relative_gain } => {
+            tr!(lab, rga.only_positive, other = style.fixed(1.0 - relative_gain, 2)).to_string()
+        }
+        PairingReason::RelativeGainCloserToOne { relative_gain } => {
+            tr!(lab, rga.closer, gain = style.fixed(relative_gain, 2)).to_string()
+        }
+        PairingReason::EqualRelativeGains => tr!(lab, rga.equal).to_string(),
+        PairingReason::SingularGain => tr!(lab, rga.singular).to_string(),
+    };
+    format!("{lead}{rest}")
+}
+
+fn of_niederlinski(lab: Lab) -> String {
+    let number = |index: Option<f64>| index.map_or_else(|| "–".to_owned(), |n| lab.number_style().fixed(n, 2));
+    with_analysis(lab, |a| {
+        let [diagonal, swapped] = a.niederlinski.map(number);
+        tr!(lab, rga.niederlinski, diagonal = diagonal, swapped = swapped).to_string()
+    })
+    .unwrap_or_default()
+}

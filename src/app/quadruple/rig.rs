@@ -1,0 +1,173 @@
+//! The drawing of the rig: tanks, pipes, pumps and valves, with the water where it stands and runs.
+
+use leptos::prelude::*;
+
+use super::moment::{Moment, use_moment};
+use crate::app::lab::use_lab;
+use crate::app::shown::{length_digits, to_shown, unit_name};
+use crate::app::texts::tr;
+use crate::plant::{Disturbance, QuadrupleTank};
+use crate::scenario::Setup;
+
+/// Where the tanks stand in the drawing (left, top), tank 1 first.
+const TANKS: [(f64, f64); 4] = [(62.0, 158.0), (150.0, 158.0), (62.0, 40.0), (150.0, 40.0)];
+const TANK: (f64, f64) = (64.0, 78.0);
+/// Width of a stream that carries the most a pump can deliver.
+const WIDEST_STREAM: f64 = 7.0;
+/// The valves, left and right.
+const VALVES: [(f64, f64); 2] = [(42.0, 148.0), (234.0, 148.0)];
+
+/// The drawing with the state of the shown moment.
+#[component]
+pub fn Rig() -> impl IntoView {
+    let lab = use_lab();
+    let moment = use_moment();
+    let plant = lab.part(Setup::plant);
+    let summary = move || {
+        let unit = lab.unit().get();
+        let number = |v: f64| lab.number_style().fixed(to_shown(v, unit), length_digits(unit));
+        moment.get().map(|m| {
+            let v = |k: usize| lab.number_style().fixed(m.pump_voltage[k], 2);
+            tr!(
+                lab,
+                process.drawing,
+                h1 = number(m.levels[0]),
+                h2 = number(m.levels[1]),
+                h3 = number(m.levels[2]),
+                h4 = number(m.levels[3]),
+                unit = unit_name(unit),
+                v1 = v(0),
+                v2 = v(1)
+            )
+            .to_string()
+        })
+    };
+    view! {
+        <svg class="rig" viewBox="0 0 276 296" role="img" aria-label=summary data-testid="rig">
+            <Pipes />
+            {(0..4).map(|tank| view! { <TankView tank plant /> }).collect_view()}
+            {move || moment.get().map(|m| streams(&plant.get(), &m))}
+            <rect class="basin" x="24" y="262" width="228" height="30" rx="3" />
+            {(0..2).map(|pump| view! { <PumpView pump /> }).collect_view()}
+            {(0..2).map(|valve| view! { <ValveView valve /> }).collect_view()}
+        </svg>
+    }
+}
+
+#[component]
+fn Pipes() -> impl IntoView {
+    view! {
+        <path class="pipe" d="M42 258 V18 H194 V34" />
+        <path class="pipe" d="M42 148 H80 V152" />
+        <path class="pipe" d="M234 258 V26 H82 V34" />
+        <path class="pipe" d="M234 148 H196 V152" />
+    }
+}
+
+/// One tank: walls, water, name, level, and a word where it overflows or is dry.
+#[component]
+fn TankView(tank: usize, plant: Signal<QuadrupleTank>) -> impl IntoView {
+    let lab = use_lab();
+    let moment = use_moment();
+    let (left, top) = TANKS[tank];
+    let level = move || moment.get().map_or(0.0, |m| m.levels[tank]);
+    let height = move || plant.with(|p| p.tanks[tank].height);
+    let share = move || (level() / height()).clamp(0.0, 1.0);
+    // How far the far wall leans outwards over the height of the tank, for a trapezoidal tank.
+    let lean = move || {
+        plant.with(|p| {
+            let section = p.tanks[tank].section;
+            let (bottom, brim) = (section.area(0.0), section.area(p.tanks[tank].height));
+            TANK.0 * (1.0 - (bottom / brim).clamp(0.3, 1.0))
+        })
+    };
+    let walls = move || {
+        format!("M{left} {top} V{} H{} L{} {top}", top + TANK.1, left + TANK.0 - lean(), left + TANK.0)
+    };
+    let water = move || {
+        let surface = top + TANK.1 * (1.0 - share());
+        let brim = left + TANK.0 - lean() * (1.0 - share());
+        format!("M{left} {surface} V{} H{} L{brim} {surface} Z", top + TANK.1, left + TANK.0 - lean())
+    };
+    let shown = move || {
+        let unit = lab.unit().get();
+        let number = lab.number_style().fixed(to_shown(level(), unit), length_digits(unit));
+        format!("{number} {}", unit_name(unit))
+    };
+    let alarm = move || {
+        let (level, height) = (level(), height());
+        if level >= height {
+            Some(tr!(lab, process.full).to_string())
+        } else if level <= 0.0 {
+            Some(tr!(lab, process.dry).to_string())
+        } else {
+            None
+        }
+    };
+    let colour = if tank == 0 || tank == 3 { "water1" } else { "water2" };
+    let middle = left + TANK.0 / 2.0;
+    view! {
+        <path class=colour d=water stroke-width="0" />
+        <path class="wall" d=walls />
+        <text class="name" x=left + 4.0 y=top + 12.0>{move || tr!(lab, process.tank, number = tank + 1).to_string()}</text>
+        <text class="value" x=middle y=top + TANK.1 - 8.0 text-anchor="middle" data-testid=format!("rig-level-{}", tank + 1)>
+            {shown}
+        </text>
+        <text class="alarm" x=middle y=top + 26.0 text-anchor="middle">{alarm}</text>
+    }
+}
+
+/// The water that runs: into each tank from its pump, and out of each tank.
+fn streams(plant: &QuadrupleTank, moment: &Moment) -> impl IntoView + use<> {
+    let most = plant.pumps.iter().map(|p| p.gain * p.voltage_max).fold(f64::MIN_POSITIVE, f64::max);
+    let inflow = plant.valve_flows(&moment.pump_voltage, &Disturbance::default());
+    let outflow = plant.outflows(&moment.levels);
+    let width = move |flow: f64| format!("{:.2}", (flow / most).clamp(0.0, 1.5).sqrt() * WIDEST_STREAM);
+    let inlets = [(80.0, 152.0, 1), (196.0, 152.0, 2), (82.0, 34.0, 2), (194.0, 34.0, 1)];
+    let falling = inlets.into_iter().zip(inflow).zip(TANKS).zip(moment.levels).zip(plant.tanks).map(
+        move |((((inlet, flow), (_, top)), level), tank)| {
+            let (x, y, pump) = inlet;
+            let surface = top + TANK.1 * (1.0 - (level / tank.height).clamp(0.0, 1.0));
+            let class = format!("flow stroke{pump}");
+            view! { <line class=class x1=x y1=y x2=x y2=surface stroke-width=width(flow) /> }
+        },
+    );
+    let drains = TANKS.into_iter().zip(outflow).enumerate().map(move |(tank, ((left, top), flow))| {
+        // The upper tanks pour into the lower ones; the lower ones into the basin.
+        let below = if tank < 2 { 268.0 } else { TANKS[tank - 2].1 + 14.0 };
+        let x = left + TANK.0 / 2.0 - 4.0;
+        view! { <line class="flow drain" x1=x y1=top + TANK.1 + 1.0 x2=x y2=below stroke-width=width(flow) /> }
+    });
+    (falling.collect_view(), drains.collect_view())
+}
+
+#[component]
+fn PumpView(pump: usize) -> impl IntoView {
+    let lab = use_lab();
+    let moment = use_moment();
+    let (x, colour, anchor, at) =
+        if pump == 0 { (42.0, "one", "start", 60.0) } else { (234.0, "two", "end", 216.0) };
+    let voltage = move || {
+        moment.get().map(|m| format!("v{} {} V", ["₁", "₂"][pump], lab.number_style().fixed(m.pump_voltage[pump], 2)))
+    };
+    view! {
+        <circle class="pump" cx=x cy="258" r="11" />
+        <path class=colour d=format!("M{} 262 L{x} 251 L{} 262 Z", x - 6.0, x + 6.0) />
+        <text class="value" x=at y="282" text-anchor=anchor data-testid=format!("rig-voltage-{}", pump + 1)>{voltage}</text>
+    }
+}
+
+#[component]
+fn ValveView(valve: usize) -> impl IntoView {
+    let lab = use_lab();
+    let gamma = lab.part(move |s| s.valves[valve]);
+    let (x, y) = VALVES[valve];
+    let (colour, anchor, at) = if valve == 0 { ("one", "end", 33.0) } else { ("two", "start", 243.0) };
+    let text = move || format!("γ{}", ["₁", "₂"][valve]);
+    let number = move || lab.number_style().fixed(gamma.get(), 2);
+    view! {
+        <path class=colour d=format!("M{} {} H{} L{x} {y} L{} {} H{} L{x} {y} Z", x - 6.0, y - 8.0, x + 6.0, x - 6.0, y + 8.0, x + 6.0) />
+        <text class="value" x=at y=y - 2.0 text-anchor=anchor>{text}</text>
+        <text class="value" x=at y=y + 10.0 text-anchor=anchor>{number}</text>
+    }
+}

@@ -1,0 +1,207 @@
+//! The valve plane: γ1 across, γ2 upwards, shaded by the right-most zero, with a point to drag.
+
+use leptos::ev::{KeyboardEvent, PointerEvent};
+use leptos::prelude::*;
+
+use super::{pictures, sentences};
+use crate::app::lab::{Lab, use_lab};
+use crate::app::preset::{load, name_of};
+use crate::app::start::Control;
+use crate::app::texts::tr;
+use crate::app::widgets::{ChartCanvas, ChartMenu, rich};
+use crate::figure::Frame;
+use crate::plant::PresetId;
+use crate::scenario::PlantSpec;
+
+/// Step of the arrow keys, and with Shift.
+const STEPS: (f64, f64) = (0.01, 0.05);
+
+/// The valve plane.
+#[component]
+pub fn ValvePlaneCard() -> impl IntoView {
+    let lab = use_lab();
+    let frames = RwSignal::new(Vec::<Frame>::new());
+    let picture = pictures::valve_plane(lab);
+    let title = Signal::derive(move || tr!(lab, valves.title).to_string());
+    let summary = move || {
+        let [g1, g2] = lab.scenario.with(|s| s.setup.valves);
+        let style = lab.number_style();
+        tr!(lab, valves.summary, gamma1 = style.fixed(g1, 2), gamma2 = style.fixed(g2, 2)).to_string()
+    };
+    view! {
+        <section class="card plane" aria-labelledby="plane-title">
+            <header>
+                <h2 id="plane-title">{title}</h2>
+                <span class="remark">{move || tr!(lab, valves.remark)}</span>
+                <ChartMenu picture=picture.clone() file="valve-plane" title />
+            </header>
+            <div class="chart square">
+                <ChartCanvas picture frames summary=Signal::derive(summary) name="valve-plane" />
+                <Overlay frames />
+            </div>
+            <p class="sentence" data-testid="valves-sentence">{move || rich(&sentences::of_rightmost(lab))}</p>
+        </section>
+    }
+}
+
+/// What lies over the picture: guides, published points and the point to drag.
+#[component]
+fn Overlay(frames: RwSignal<Vec<Frame>>) -> impl IntoView {
+    let lab = use_lab();
+    let frame = Signal::derive(move || frames.with(|f| f.first().copied()));
+    view! {
+        <svg class="over" aria-hidden="false">
+            {move || {
+                frame.get().map(|frame| view! { <Guides frame /> <PublishedPoints frame /> <Handle frame lab /> })
+            }}
+        </svg>
+    }
+}
+
+#[component]
+fn Guides(frame: Frame) -> impl IntoView {
+    let lab = use_lab();
+    let at = move || {
+        let [g1, g2] = lab.scenario.with(|s| s.setup.valves);
+        frame.to_px((g1, g2))
+    };
+    let (left, bottom) = (frame.plot.left, frame.plot.bottom());
+    view! {
+        <line class="guide" x1=left y1=move || at().1 x2=move || at().0 y2=move || at().1 />
+        <line class="guide" x1=move || at().0 y1=bottom x2=move || at().0 y2=move || at().1 />
+    }
+}
+
+/// Settings of the same source, to load with a click.
+#[component]
+fn PublishedPoints(frame: Frame) -> impl IntoView {
+    let lab = use_lab();
+    let family = lab.part(|s| match s.plant {
+        PlantSpec::Preset(id) => Some(id.preset().source),
+        PlantSpec::Parameters { .. } => None,
+    });
+    let points = move || {
+        PresetId::ALL
+            .into_iter()
+            .filter(|id| family.get().is_some_and(|source| id.preset().source == source))
+            .map(|id| view! { <PublishedPoint id frame /> })
+            .collect_view()
+    };
+    view! { {points} }
+}
+
+#[component]
+fn PublishedPoint(id: PresetId, frame: Frame) -> impl IntoView {
+    let lab = use_lab();
+    let valves = id.preset().plant.valves;
+    let (x, y) = frame.to_px((valves[0], valves[1]));
+    let short = match id {
+        PresetId::JohanssonMinimumPhase | PresetId::CocotaMinimumPhase => "P−",
+        PresetId::JohanssonNonMinimumPhase | PresetId::CocotaNonMinimumPhase => "P+",
+        PresetId::JunqueiraA => "a",
+        PresetId::JunqueiraB => "b",
+    };
+    let label = move || {
+        let style = lab.number_style();
+        let (gamma1, gamma2) = (style.fixed(valves[0], 2), style.fixed(valves[1], 2));
+        tr!(lab, valves.published, name = name_of(lab, id), gamma1 = gamma1, gamma2 = gamma2).to_string()
+    };
+    let choose = move || {
+        if !lab.locks(Control::Preset) {
+            load(lab, id);
+        }
+    };
+    let on_key = move |event: KeyboardEvent| {
+        if matches!(event.key().as_str(), "Enter" | " ") {
+            event.prevent_default();
+            choose();
+        }
+    };
+    view! {
+        <g class="published" role="button" tabindex="0" aria-label=label data-testid=format!("point-{}", id.name())
+            on:click=move |_| choose() on:keydown=on_key>
+            <title>{label}</title>
+            <circle class="hit" cx=x cy=y r="14" />
+            <circle class="mark" cx=x cy=y r="4.5" />
+            <text x=x + 9.0 y=y + 4.0>{short}</text>
+        </g>
+    }
+}
+
+/// The point: dragged by mouse, pen or finger, moved by the arrow keys.
+#[component]
+fn Handle(frame: Frame, lab: Lab) -> impl IntoView {
+    let dragging = RwSignal::new(false);
+    let valves = lab.part(|s| s.valves);
+    let locked = lab.locks(Control::Valves);
+    let at = move || frame.to_px(valves.get().into());
+    let set = move |valves: [f64; 2]| {
+        if !locked {
+            lab.edit(|s| s.valves = valves.map(|g| (g.clamp(0.0, 1.0) * 100.0).round() / 100.0));
+        }
+    };
+    let on_down = move |event: PointerEvent| {
+        event.prevent_default();
+        let target = event_target::<web_sys::Element>(&event);
+        let _ = target.set_pointer_capture(event.pointer_id());
+        if let Some(handle) = target.closest("[data-testid=valve-handle]").ok().flatten() {
+            let _ = leptos::wasm_bindgen::JsCast::unchecked_into::<web_sys::HtmlElement>(handle).focus();
+        }
+        dragging.set(true);
+    };
+    let on_move = move |event: PointerEvent| {
+        if !dragging.get_untracked() {
+            return;
+        }
+        let target = event_target::<web_sys::Element>(&event);
+        if let Some(canvas) = target.closest("svg").ok().flatten() {
+            let corner = canvas.get_bounding_client_rect();
+            let (x, y) = (f64::from(event.client_x()) - corner.left(), f64::from(event.client_y()) - corner.top());
+            set(frame.to_data((x, y)).into());
+        }
+    };
+    let on_key = move |event: KeyboardEvent| {
+        let step = if event.shift_key() { STEPS.1 } else { STEPS.0 };
+        let [g1, g2] = valves.get_untracked();
+        let moved = match event.key().as_str() {
+            "ArrowLeft" => [g1 - step, g2],
+            "ArrowRight" => [g1 + step, g2],
+            "ArrowDown" => [g1, g2 - step],
+            "ArrowUp" => [g1, g2 + step],
+            "PageDown" => [g1 - STEPS.1, g2 - STEPS.1],
+            "PageUp" => [g1 + STEPS.1, g2 + STEPS.1],
+            "Home" => [0.0, 0.0],
+            "End" => [1.0, 1.0],
+            _ => return,
+        };
+        event.prevent_default();
+        set(moved);
+    };
+    let spoken = move || {
+        let style = lab.number_style();
+        let [g1, g2] = valves.get();
+        format!("γ₁ {}, γ₂ {}", style.fixed(g1, 2), style.fixed(g2, 2))
+    };
+    view! {
+        <g
+            class="handle"
+            role="slider"
+            tabindex="0"
+            data-testid="valve-handle"
+            aria-label=move || tr!(lab, valves.handle)
+            aria-valuemin="0"
+            aria-valuemax="1"
+            aria-valuenow=move || format!("{:.2}", valves.get()[0])
+            aria-valuetext=spoken
+            aria-disabled=locked.then_some("true")
+            on:pointerdown=on_down
+            on:pointermove=on_move
+            on:pointerup=move |_| dragging.set(false)
+            on:pointercancel=move |_| dragging.set(false)
+            on:keydown=on_key
+        >
+            <circle class="halo" cx=move || at().0 cy=move || at().1 r="17" />
+            <circle class="dot" cx=move || at().0 cy=move || at().1 r="8.5" />
+        </g>
+    }
+}

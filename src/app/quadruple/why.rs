@@ -1,0 +1,54 @@
+//! What no controller can do: the interpolation constraint of a zero in the right half-plane.
+
+use leptos::prelude::*;
+
+use super::sentences::{ZeroSituation, situation, with_analysis};
+use crate::app::lab::use_lab;
+use crate::app::shown::{to_shown, unit_name};
+use crate::app::texts::tr;
+use crate::scenario::interpolation;
+
+/// ∫ ηᵀe(t) e^(−zt) dt = ηᵀr/z for every stabilising controller.
+#[component]
+pub fn WhyCard() -> impl IntoView {
+    let lab = use_lab();
+    let text = move || match situation(lab) {
+        Some(ZeroSituation::Right(z)) => {
+            tr!(lab, why.right, zero = lab.number_style().significant(z, 3)).to_string()
+        }
+        Some(ZeroSituation::Left(_) | ZeroSituation::Uncoupled) => tr!(lab, why.left).to_string(),
+        Some(ZeroSituation::Origin) => tr!(lab, why.origin).to_string(),
+        Some(ZeroSituation::Degenerate) => tr!(lab, why.degenerate).to_string(),
+        Some(ZeroSituation::NoFinite) | None => tr!(lab, why.none).to_string(),
+    };
+    let constraint = move || {
+        let setup = lab.scenario.with(|s| s.setup.clone());
+        with_analysis(lab, |a| interpolation(a, &setup)).flatten()
+    };
+    view! {
+        <section class="card why" aria-labelledby="why-title">
+            <header><h2 id="why-title">{move || tr!(lab, why.title)}</h2></header>
+            <p class="sentence" data-testid="why">{text}</p>
+            {move || constraint().map(|c| {
+                let unit = lab.unit().get();
+                let style = lab.number_style();
+                let value = style.significant(to_shown(c.integral, unit), 3);
+                view! {
+                    <div class="formula" role="region" tabindex="0" aria-label=move || tr!(lab, why.title)>
+                        <math>
+                            <msubsup><mo>"∫"</mo><mn>"0"</mn><mi>"∞"</mi></msubsup>
+                            <msup><mi>"η"</mi><mi>"T"</mi></msup><mi>"e"</mi><mo>"("</mo><mi>"t"</mi><mo>")"</mo>
+                            <msup><mi>"e"</mi><mrow><mo>"−"</mo><mi>"z"</mi><mi>"t"</mi></mrow></msup>
+                            <mi>"d"</mi><mi>"t"</mi>
+                            <mo>"="</mo>
+                            <mfrac><mrow><msup><mi>"η"</mi><mi>"T"</mi></msup><mi>"r"</mi></mrow><mi>"z"</mi></mfrac>
+                            <mo>"="</mo>
+                            <mn>{value}</mn><mtext>{format!(" {} s", unit_name(unit))}</mtext>
+                        </math>
+                    </div>
+                    <p class="sentence">{tr!(lab, why.right_end)}</p>
+                }
+            })}
+        </section>
+    }
+}

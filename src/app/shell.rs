@@ -1,0 +1,232 @@
+//! The page around the bench: header, notices, footer; and how it all starts.
+
+use leptos::ev;
+use leptos::html::Input;
+use leptos::prelude::*;
+use leptos::wasm_bindgen::JsCast;
+
+use super::lab::{Lab, Notice, use_lab};
+use super::quadruple::QuadrupleTankBench;
+use super::share;
+use super::start::StartFlags;
+use super::storage::{LANGUAGE, THEME};
+use super::texts::{Locale, language_of, tag_of, tr};
+use crate::scenario::{Scenario, ScenarioError, setup_of};
+
+/// The element of the page that the laboratory fills; it holds the static outline until then.
+const ROOT: &str = "app";
+
+/// Starts the laboratory in the page: reads the address, fills the root element, and removes the outline.
+pub fn mount() {
+    console_error_panic_hook::set_once();
+    let Some(root) = document().get_element_by_id(ROOT).and_then(|e| e.dyn_into::<web_sys::HtmlElement>().ok()) else {
+        return;
+    };
+    root.set_inner_html("");
+    leptos::mount::mount_to(root, || view! { <Laboratory /> }).forget();
+}
+
+/// The whole laboratory.
+#[component]
+pub fn Laboratory() -> impl IntoView {
+    let lab = start();
+    provide_context(lab);
+    Effect::new(move || show_on_root("data-theme", if lab.dark.get() { "dark" } else { "light" }));
+    Effect::new(move || show_on_root("lang", tag_of(lab.language.get())));
+    let on_hash = window_event_listener(ev::hashchange, move |_| {
+        if let Some(outcome) = share::from_address() {
+            lab.open(outcome);
+        }
+    });
+    on_cleanup(move || on_hash.remove());
+    let embed = lab.flags.with_value(|f| f.embed);
+    view! {
+        <div class=if embed { "embed" } else { "page" }>
+            {(!embed).then(|| view! { <Header /> })}
+            <Notices />
+            <QuadrupleTankBench />
+            <Footer embed />
+        </div>
+    }
+}
+
+/// The state that the address and the remembered choices ask for.
+fn start() -> Lab {
+    let query = window().location().search().unwrap_or_default();
+    let flags = StartFlags::parse(&query);
+    let language = flags.language.clone().or_else(|| LANGUAGE.read()).or_else(|| window().navigator().language());
+    let prefers_dark =
+        || window().match_media("(prefers-color-scheme: dark)").ok().flatten().is_some_and(|query| query.matches());
+    let dark = flags.theme.clone().or_else(|| THEME.read()).map_or_else(prefers_dark, |theme| theme == "dark");
+    let fallback = || {
+        let mut scenario = Scenario::default();
+        if let Some(id) = flags.preset {
+            scenario.setup = setup_of(id);
+        }
+        scenario
+    };
+    let (scenario, refused) = match share::from_address() {
+        None => (fallback(), None),
+        Some(Ok(scenario)) => (scenario, None),
+        Some(Err(error)) => (fallback(), Some(Notice::Refused(error))),
+    };
+    let lab = Lab::new(scenario, language.as_deref().map_or(Locale::en, language_of), dark, flags);
+    lab.notice.set(refused);
+    lab
+}
+
+fn show_on_root(attribute: &str, value: &str) {
+    if let Some(root) = document().document_element() {
+        let _ = root.set_attribute(attribute, value);
+    }
+}
+
+#[component]
+fn Header() -> impl IntoView {
+    let lab = use_lab();
+    view! {
+        <header class="top">
+            <h1>{move || tr!(lab, app.title)}</h1>
+            <span class="tagline">{move || tr!(lab, app.tagline)}</span>
+            <span class="spacer"></span>
+            <button type="button" class="button" data-testid="share" on:click=move |_| share::share(lab)>
+                {move || tr!(lab, app.share)}
+            </button>
+            <FileMenu />
+            <LanguageChoice />
+            <ThemeSwitch />
+        </header>
+    }
+}
+
+#[component]
+fn FileMenu() -> impl IntoView {
+    let lab = use_lab();
+    let picker = NodeRef::<Input>::new();
+    let on_file = move |_| {
+        let Some(input) = picker.get_untracked() else { return };
+        if let Some(file) = input.files().and_then(|files| files.get(0)) {
+            share::open_file(lab, &file);
+        }
+        // The same file can then be opened again.
+        input.set_value("");
+    };
+    let single = is_single_file();
+    view! {
+        <details class="menu" data-testid="file-menu">
+            <summary>{move || tr!(lab, app.export)}</summary>
+            <div>
+                <button type="button" data-testid="save" on:click=move |_| share::save(lab)>{move || tr!(lab, app.export_scenario)}</button>
+                <button type="button" data-testid="open" on:click=move |_| if let Some(input) = picker.get_untracked() { input.click() }>
+                    {move || tr!(lab, app.open_scenario)}
+                </button>
+                {(!single).then(|| view! { <a href="quadtank.html" download="quadtank.html" data-testid="single-file">{move || tr!(lab, app.single_file)}</a> })}
+            </div>
+            <input type="file" accept=".json,application/json" hidden node_ref=picker data-testid="open-input" on:change=on_file />
+        </details>
+    }
+}
+
+/// Whether the page is the one-file build, which has nothing beside it to download.
+fn is_single_file() -> bool {
+    document().document_element().is_some_and(|root| root.has_attribute("data-single"))
+}
+
+#[component]
+fn LanguageChoice() -> impl IntoView {
+    let lab = use_lab();
+    let choose = move |event| {
+        let language = language_of(&event_target_value(&event));
+        lab.language.set(language);
+        LANGUAGE.write(tag_of(language));
+    };
+    let option = move |language: Locale, name: &'static str| {
+        view! { <option value=tag_of(language) lang=tag_of(language) selected=move || lab.language.get() == language>{name}</option> }
+    };
+    view! {
+        <select data-testid="language" aria-label=move || tr!(lab, app.language) on:change=choose prop:value=move || tag_of(lab.language.get())>
+            {option(Locale::en, "English")}
+            {option(Locale::pt_BR, "Português")}
+        </select>
+    }
+}
+
+#[component]
+fn ThemeSwitch() -> impl IntoView {
+    let lab = use_lab();
+    let name = move || if lab.dark.get() { tr!(lab, app.theme_light) } else { tr!(lab, app.theme_dark) };
+    let switch = move |_| {
+        lab.dark.update(|d| *d = !*d);
+        THEME.write(if lab.dark.get_untracked() { "dark" } else { "light" });
+    };
+    view! {
+        <button type="button" class="button" data-testid="theme" aria-label=name title=name on:click=switch>
+            {move || if lab.dark.get() { "☀" } else { "☾" }}
+        </button>
+    }
+}
+
+/// What happened to a link or a file.
+#[component]
+fn Notices() -> impl IntoView {
+    let lab = use_lab();
+    let content = move |notice: Notice| match notice {
+        Notice::Refused(error) => view! { <div>{tr!(lab, refused.lead)} " " {of_error(lab, &error)}</div> }.into_any(),
+        Notice::Copied => view! { <div>{tr!(lab, app.copied)}</div> }.into_any(),
+        Notice::CopyByHand(link) => view! {
+            <div>
+                {tr!(lab, app.copy_by_hand)}
+                <input type="text" class="text-field" readonly data-testid="link" aria-label=tr!(lab, app.share) prop:value=link />
+            </div>
+        }
+        .into_any(),
+    };
+    view! {
+        <div role="status" aria-live="polite">
+            {move || lab.notice.get().map(|notice| {
+                let class = if matches!(notice, Notice::Refused(_)) { "notice" } else { "notice good" };
+                view! {
+                    <div class=class data-testid="notice">
+                        {content(notice)}
+                        <button type="button" class="button small" aria-label=tr!(lab, app.close) on:click=move |_| lab.notice.set(None)>"✕"</button>
+                    </div>
+                }
+            })}
+        </div>
+    }
+}
+
+/// Why a link or file was refused, in the language of the reader; a field keeps its name from the document.
+fn of_error(lab: Lab, error: &ScenarioError) -> String {
+    let number = |v: f64| lab.number_style().significant(v, 4);
+    match error {
+        ScenarioError::Malformed { path, reason } => tr!(lab, refused.malformed, path = path.clone(), reason = reason.clone()).to_string(),
+        ScenarioError::OutOfRange { field, value, min, max } => {
+            tr!(lab, refused.range, field = field.clone(), value = number(*value), min = number(*min), max = number(*max)).to_string()
+        }
+        ScenarioError::TooMany { field, count, max } => {
+            tr!(lab, refused.many, field = field.clone(), count = *count, max = *max).to_string()
+        }
+        ScenarioError::UnknownVersion { found, newest } => tr!(lab, refused.version, found = *found, newest = *newest).to_string(),
+        ScenarioError::TooLong { length, max } => tr!(lab, refused.long, length = *length, max = *max).to_string(),
+        ScenarioError::DamagedLink => tr!(lab, refused.damaged).to_string(),
+        ScenarioError::Plant(error) => error.to_string(),
+        ScenarioError::Linear(error) => error.to_string(),
+    }
+}
+
+#[component]
+fn Footer(embed: bool) -> impl IntoView {
+    let lab = use_lab();
+    view! {
+        <footer class="page">
+            {move || if embed {
+                // The full lab is the same page without its query.
+                let page = window().location().pathname().unwrap_or_default();
+                view! { <a href=page target="_blank" rel="noopener">{tr!(lab, app.embedded)}</a> }.into_any()
+            } else {
+                view! { <span>{tr!(lab, app.footer)}</span> }.into_any()
+            }}
+        </footer>
+    }
+}

@@ -1,0 +1,26 @@
+//! The two things that are remembered: theme and language. Where there is no storage (a sandboxed frame), nothing is.
+
+use leptos::prelude::window;
+
+/// A remembered choice, by its name in the storage of the browser.
+#[derive(Clone, Copy)]
+pub struct Preference(&'static str);
+
+/// The theme that was chosen: `light` or `dark`.
+pub const THEME: Preference = Preference("quadtank-theme");
+/// The language that was chosen: `en` or `pt-BR`.
+pub const LANGUAGE: Preference = Preference("quadtank-language");
+
+impl Preference {
+    /// What was remembered, if anything.
+    pub fn read(self) -> Option<String> {
+        window().local_storage().ok()??.get_item(self.0).ok()?
+    }
+
+    /// Remembers; silently does nothing where the browser does not allow it.
+    pub fn write(self, value: &str) {
+        if let Ok(Some(storage)) = window().local_storage() {
+            let _ = storage.set_item(self.0, value);
+        }
+    }
+}

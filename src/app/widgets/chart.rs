@@ -1,0 +1,119 @@
+use std::sync::Arc;
+
+use leptos::html::Canvas;
+use leptos::prelude::*;
+use leptos_use::{UseElementSizeReturn, use_device_pixel_ratio, use_element_size};
+use web_sys::HtmlCanvasElement;
+
+use crate::app::canvas;
+use crate::app::download::{download_canvas, download_text};
+use crate::app::lab::use_lab;
+use crate::app::texts::tr;
+use crate::figure::{Chart, Frame, Palette, Size, csv, layout, to_svg};
+
+/// How the charts of a picture are had: a function that builds them, in place, for whoever paints or exports them.
+/// Building reads signals, so whoever calls it inside an effect follows them.
+#[derive(Clone)]
+pub struct Picture(Arc<dyn Fn(&mut dyn FnMut(&[Chart])) + Send + Sync>);
+
+impl Picture {
+    /// A picture that `build` hands to its visitor.
+    pub fn new(build: impl Fn(&mut dyn FnMut(&[Chart])) + Send + Sync + 'static) -> Self {
+        Self(Arc::new(build))
+    }
+
+    fn visit<T: Default>(&self, mut visitor: impl FnMut(&[Chart]) -> T) -> T {
+        let mut result = T::default();
+        (self.0)(&mut |charts| result = visitor(charts));
+        result
+    }
+}
+
+/// Charts on a canvas, repainted whenever what they read, their size, the pixel ratio or the theme changes.
+#[component]
+pub fn ChartCanvas(
+    /// The charts.
+    picture: Picture,
+    /// Where the charts stand, for what is laid over them; set after each painting.
+    frames: RwSignal<Vec<Frame>>,
+    /// What the picture says, for those who do not see it.
+    #[prop(into)]
+    summary: Signal<String>,
+    /// Name for tests.
+    name: &'static str,
+) -> impl IntoView {
+    let lab = use_lab();
+    let canvas = NodeRef::<Canvas>::new();
+    let UseElementSizeReturn { width, height } = use_element_size(canvas);
+    let ratio = use_device_pixel_ratio();
+    Effect::new(move || {
+        let size = Size { width: width.get(), height: height.get() };
+        let ratio = ratio.get();
+        let Some(canvas) = canvas.get() else { return };
+        if size.width < 1.0 || size.height < 1.0 {
+            return;
+        }
+        let palette = lab.palette();
+        let placed = picture.visit(|charts| {
+            canvas::paint(&canvas, charts, size, ratio, &palette);
+            layout(charts, size)
+        });
+        if frames.with_untracked(|f| *f != placed) {
+            frames.set(placed);
+        }
+    });
+    view! { <canvas node_ref=canvas role="img" aria-label=summary data-testid=name></canvas> }
+}
+
+/// Width and height of exported pictures (CSS px).
+const EXPORT: Size = Size { width: 900.0, height: 600.0 };
+/// Pixels of an exported PNG for each CSS px.
+const EXPORT_RATIO: f64 = 2.0;
+
+/// The menu that exports a picture as CSV, SVG or PNG.
+#[component]
+pub fn ChartMenu(
+    /// The charts.
+    picture: Picture,
+    /// Stem of the file names.
+    file: &'static str,
+    /// Title inside the exported picture.
+    #[prop(into)]
+    title: Signal<String>,
+) -> impl IntoView {
+    let lab = use_lab();
+    let (for_csv, for_svg, for_png) = (picture.clone(), picture.clone(), picture);
+    let save_csv = move |_| {
+        let text = untrack(|| for_csv.visit(csv));
+        download_text(&format!("{file}.csv"), "text/csv", &text);
+    };
+    let save_svg = move |_| {
+        let text = untrack(|| {
+            let palette = lab.palette();
+            for_svg.visit(|charts| to_svg(charts, EXPORT, &palette, lab.number_style().decimal, &title.get()))
+        });
+        download_text(&format!("{file}.svg"), "image/svg+xml", &text);
+    };
+    let save_png = move |_| {
+        let palette = untrack(|| lab.palette());
+        if let Some(canvas) = untrack(|| for_png.visit(|charts| off_screen(charts, &palette))) {
+            download_canvas(&format!("{file}.png"), &canvas);
+        }
+    };
+    view! {
+        <details class="menu small" data-testid=format!("{file}-menu")>
+            <summary aria-label=move || format!("{}: {}", tr!(lab, chart.export), title.get())>"⤓"</summary>
+            <div>
+                <button type="button" data-testid=format!("{file}-csv") on:click=save_csv>"CSV"</button>
+                <button type="button" data-testid=format!("{file}-svg") on:click=save_svg>"SVG"</button>
+                <button type="button" data-testid=format!("{file}-png") on:click=save_png>"PNG"</button>
+            </div>
+        </details>
+    }
+}
+
+fn off_screen(charts: &[Chart], palette: &Palette) -> Option<HtmlCanvasElement> {
+    let canvas = canvas::new_canvas()?;
+    canvas::paint(&canvas, charts, EXPORT, EXPORT_RATIO, palette);
+    Some(canvas)
+}

@@ -1,0 +1,244 @@
+use leptos::ev::KeyboardEvent;
+use leptos::prelude::*;
+
+use crate::app::format::NumberStyle;
+use crate::app::lab::use_lab;
+use crate::app::texts::tr;
+
+/// How the travel of a slider maps to values.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Scale {
+    /// Evenly, in steps of this size.
+    Linear(f64),
+    /// By equal ratios; for gains and times. A negative value keeps its sign and moves its magnitude.
+    Logarithmic,
+}
+
+/// Positions of a logarithmic slider: fine enough that one step of the arrow keys is about 1 % of most ranges.
+const POSITIONS: f64 = 600.0;
+
+impl Scale {
+    fn position(self, value: f64, min: f64, max: f64) -> f64 {
+        match self {
+            Self::Linear(_) => value,
+            Self::Logarithmic => ((value.abs().max(min) / min).ln() / (max / min).ln() * POSITIONS).round(),
+        }
+    }
+
+    fn value(self, position: f64, min: f64, max: f64, previous: f64) -> f64 {
+        match self {
+            Self::Linear(_) => position,
+            Self::Logarithmic => {
+                let magnitude = min * (max / min).powf(position / POSITIONS);
+                magnitude.copysign(previous)
+            }
+        }
+    }
+
+    /// The value after `steps` presses of an arrow key in the number field.
+    fn nudge(self, value: f64, steps: f64, min: f64, max: f64) -> f64 {
+        match self {
+            Self::Linear(step) => ((value / step).round() + steps) * step,
+            Self::Logarithmic => self.value(self.position(value, min, max) + 3.0 * steps, min, max, value),
+        }
+    }
+}
+
+/// A number field: exact entry, arrows and Page Up/Down. It refuses what is out of range, says the limits, and keeps the
+/// last valid value.
+#[component]
+pub fn NumberField(
+    /// Name for tests and for the label; unique on the page.
+    id: &'static str,
+    /// What the number is, for screen readers.
+    #[prop(into)]
+    name: Signal<String>,
+    /// The value in force, in the shown unit.
+    #[prop(into)]
+    value: Signal<f64>,
+    /// Called with a new, valid value.
+    #[prop(into)]
+    on_change: Callback<f64>,
+    /// Smallest and largest allowed value.
+    #[prop(into)]
+    limits: Signal<(f64, f64)>,
+    /// Travel of the arrow keys.
+    scale: Scale,
+    /// Decimals shown; `None` for three significant digits.
+    digits: Option<usize>,
+    /// Whether the field is locked.
+    #[prop(into)]
+    disabled: Signal<bool>,
+) -> impl IntoView {
+    let lab = use_lab();
+    let draft = RwSignal::new(None::<String>);
+    let refused = RwSignal::new(false);
+    let style = move || lab.number_style();
+    let show = move |v: f64| match digits {
+        Some(digits) => style().fixed(v, digits),
+        None => style().significant(v, 3),
+    };
+    let accept = move |v: f64| {
+        let (min, max) = limits.get_untracked();
+        let fits = (min..=max).contains(&v);
+        refused.set(!fits);
+        if fits {
+            on_change.run(v);
+        }
+        fits
+    };
+    let on_input = move |event| {
+        let text = event_target_value(&event);
+        match NumberStyle::parse(&text) {
+            Some(v) => {
+                accept(v);
+            }
+            None => refused.set(true),
+        }
+        draft.set(Some(text));
+    };
+    let on_key = move |event: KeyboardEvent| {
+        let steps = match event.key().as_str() {
+            "ArrowUp" => 1.0,
+            "ArrowDown" => -1.0,
+            "PageUp" => 10.0,
+            "PageDown" => -10.0,
+            "Escape" => {
+                draft.set(None);
+                refused.set(false);
+                return;
+            }
+            _ => return,
+        };
+        event.prevent_default();
+        let (min, max) = limits.get_untracked();
+        draft.set(None);
+        let floor = if scale == Scale::Logarithmic { min.max(max * 1e-5) } else { min };
+        accept(scale.nudge(value.get_untracked(), steps, floor, max).clamp(min, max));
+    };
+    let problem = move || {
+        refused.get().then(|| {
+            let (min, max) = limits.get();
+            tr!(lab, field.allowed, min = show(min), max = show(max)).to_string()
+        })
+    };
+    view! {
+        <input
+            class="number"
+            type="text"
+            inputmode="decimal"
+            autocomplete="off"
+            data-testid=id
+            aria-label=name
+            aria-invalid=move || refused.get().then_some("true")
+            aria-describedby=move || refused.get().then(|| format!("{id}-problem"))
+            prop:value=move || draft.get().unwrap_or_else(|| show(value.get()))
+            disabled=disabled
+            on:input=on_input
+            on:keydown=on_key
+            on:blur=move |_| draft.set(None)
+        />
+        {move || {
+            problem()
+                .map(|text| view! { <span class="problem" role="alert" id=format!("{id}-problem")>{text}</span> })
+        }}
+    }
+}
+
+/// A slider with a number field beside it.
+#[component]
+pub fn SliderField(
+    /// Name for tests; the number field is called `{id}-number`.
+    id: (&'static str, &'static str),
+    /// Short label, a symbol.
+    #[prop(into)]
+    label: Signal<String>,
+    /// What the number is, for screen readers.
+    #[prop(into)]
+    name: Signal<String>,
+    /// The value in force, in the shown unit.
+    #[prop(into)]
+    value: Signal<f64>,
+    /// Called with a new, valid value.
+    #[prop(into)]
+    on_change: Callback<f64>,
+    /// Smallest and largest value of the slider.
+    #[prop(into)]
+    travel: Signal<(f64, f64)>,
+    /// Smallest and largest value that the number field accepts; the travel where not given.
+    #[prop(optional, into)]
+    limits: Option<Signal<(f64, f64)>>,
+    /// Travel to value.
+    scale: Scale,
+    /// Decimals shown; `None` for three significant digits.
+    digits: Option<usize>,
+    /// Unit behind the number.
+    #[prop(into)]
+    unit: Signal<String>,
+    /// Further classes: the colour of a loop.
+    #[prop(optional)]
+    class: &'static str,
+    /// Whether the control is locked.
+    #[prop(optional, into)]
+    disabled: Signal<bool>,
+) -> impl IntoView {
+    let lab = use_lab();
+    let position = move || {
+        let (min, max) = travel.get();
+        scale.position(value.get(), min, max)
+    };
+    let on_input = move |event| {
+        let (min, max) = travel.get_untracked();
+        if let Some(at) = NumberStyle::parse(&event_target_value(&event)) {
+            on_change.run(scale.value(at, min, max, value.get_untracked()));
+        }
+    };
+    let range = move || match scale {
+        Scale::Linear(step) => (travel.get().0, travel.get().1, step),
+        Scale::Logarithmic => (0.0, POSITIONS, 1.0),
+    };
+    let spoken = move || {
+        let style = lab.number_style();
+        let number = digits.map_or_else(|| style.significant(value.get(), 3), |d| style.fixed(value.get(), d));
+        format!("{number} {}", unit.get())
+    };
+    view! {
+        <div class=format!("row {class}")>
+            <label for=id.0 title=name>{label}</label>
+            <input
+                type="range"
+                id=id.0
+                data-testid=id.0
+                aria-label=name
+                aria-valuetext=spoken
+                min=move || range().0.to_string()
+                max=move || range().1.to_string()
+                step=move || range().2.to_string()
+                prop:value=move || position().to_string()
+                disabled=disabled
+                on:input=on_input
+            />
+            <NumberField id=id.1 name value on_change limits=limits.unwrap_or(travel) scale digits disabled />
+            <span class="unit">{unit}</span>
+        </div>
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_logarithmic_slider_returns_to_its_value_and_keeps_the_sign() {
+        let s = Scale::Logarithmic;
+        for v in [0.01, 0.12, 1.0, 99.0] {
+            let back = s.value(s.position(v, 0.01, 100.0), 0.01, 100.0, -v);
+            assert!((back + v).abs() < 0.01 * v, "{v} became {back}");
+        }
+    }
+
+    #[test]
+    fn a_linear_nudge_lands_on_the_grid() {
+        assert!((Scale::Linear(0.01).nudge(0.431, 1.0, 0.0, 1.0) - 0.44).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,11 @@
+//! Parts that every bench is made of. None of them knows what it shows.
+
+mod chart;
+mod field;
+mod rich;
+mod segmented;
+
+pub use chart::{ChartCanvas, ChartMenu, Picture};
+pub use field::{NumberField, Scale, SliderField};
+pub use rich::rich;
+pub use segmented::Segmented;

@@ -1,0 +1,41 @@
+use leptos::prelude::*;
+
+/// A choice of one among few, as a row of buttons.
+#[component]
+pub fn Segmented<T>(
+    /// What is chosen between, for screen readers.
+    #[prop(into)]
+    label: Signal<String>,
+    /// The choices with their texts, and the name by which tests find each button.
+    choices: Vec<(T, &'static str, Signal<String>)>,
+    /// The choice in force.
+    #[prop(into)]
+    value: Signal<T>,
+    /// Called with the new choice.
+    #[prop(into)]
+    on_choose: Callback<T>,
+    /// Whether the choice is locked.
+    #[prop(into)]
+    disabled: Signal<bool>,
+) -> impl IntoView
+where
+    T: Copy + PartialEq + Send + Sync + 'static,
+{
+    let buttons = choices
+        .into_iter()
+        .map(|(choice, name, text)| {
+            view! {
+                <button
+                    type="button"
+                    data-testid=name
+                    aria-pressed=move || if value.get() == choice { "true" } else { "false" }
+                    disabled=disabled
+                    on:click=move |_| on_choose.run(choice)
+                >
+                    {text}
+                </button>
+            }
+        })
+        .collect_view();
+    view! { <div class="segmented" role="group" aria-label=label>{buttons}</div> }
+}
