@@ -1,6 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-use super::PiSettings;
+use super::{Pi, PiSettings};
 
 /// Which pump each level commands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -11,6 +11,50 @@ pub enum Pairing {
     Diagonal,
     /// Level 1 – pump 2, level 2 – pump 1.
     Swapped,
+}
+
+impl Pairing {
+    /// Both pairings.
+    pub const ALL: [Self; 2] = [Self::Diagonal, Self::Swapped];
+
+    /// The pairing that this one is not.
+    #[must_use]
+    pub const fn other(self) -> Self {
+        match self {
+            Self::Diagonal => Self::Swapped,
+            Self::Swapped => Self::Diagonal,
+        }
+    }
+
+    /// Index of the pump that the loop of level `loop_index` drives; both indices are 0 or 1.
+    pub const fn pump_of(self, loop_index: usize) -> usize {
+        match self {
+            Self::Diagonal => loop_index,
+            Self::Swapped => loop_index ^ 1,
+        }
+    }
+
+    /// Index of the loop that drives pump `pump`, the inverse of [`pump_of`](Self::pump_of).
+    pub const fn loop_of(self, pump: usize) -> usize {
+        self.pump_of(pump)
+    }
+
+    /// Puts values that belong to loops 1 and 2 into the order of the pumps that those loops drive.
+    pub fn by_pump<T>(self, of_loops: [T; 2]) -> [T; 2] {
+        match self {
+            Self::Diagonal => of_loops,
+            Self::Swapped => {
+                let [first, second] = of_loops;
+                [second, first]
+            }
+        }
+    }
+
+    /// Puts values that belong to pumps 1 and 2 into the order of the loops that drive them, the inverse of
+    /// [`by_pump`](Self::by_pump).
+    pub fn by_loop<T>(self, of_pumps: [T; 2]) -> [T; 2] {
+        self.by_pump(of_pumps)
+    }
 }
 
 /// Two PI loops that know nothing of each other. Loop 1 controls level 1, loop 2 level 2, whatever pump they drive.
@@ -24,4 +68,36 @@ pub struct DecentralisedPi {
     pub loops: [PiSettings; 2],
     /// Sampling time Ts of both loops (s).
     pub sampling_time_s: f64,
+}
+
+impl DecentralisedPi {
+    /// Both loops at rest, ready to [`step`](RunningPi::step).
+    ///
+    /// `limits` (lowest, highest controller output, V) and `output` (controller output at rest, V) are by pump,
+    /// `rest_signal` (measured signals at rest, V) is by level.
+    pub fn start(&self, limits: [(f64, f64); 2], output: [f64; 2], rest_signal: [f64; 2]) -> RunningPi {
+        let limits = self.pairing.by_loop(limits);
+        let output = self.pairing.by_loop(output);
+        RunningPi {
+            loops: std::array::from_fn(|i| {
+                Pi::new(self.loops[i], limits[i], self.sampling_time_s, output[i], rest_signal[i])
+            }),
+        }
+    }
+}
+
+/// The two loops of a [`DecentralisedPi`] with their states.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RunningPi {
+    loops: [Pi; 2],
+}
+
+impl RunningPi {
+    /// One sample of both loops at `time_s` (s): takes references and measured signals of levels 1 and 2 (V), returns
+    /// the limited outputs of loops 1 and 2 (V), see [`Pi::step`]. [`Pairing::by_pump`] sorts them by pump.
+    #[inline]
+    pub fn step(&mut self, time_s: f64, references_v: [f64; 2], measured_v: [f64; 2]) -> [f64; 2] {
+        let [first, second] = &mut self.loops;
+        [first.step(time_s, references_v[0], measured_v[0]), second.step(time_s, references_v[1], measured_v[1])]
+    }
 }

@@ -3,5 +3,5 @@
 mod decentralised;
 mod pi;
 
-pub use decentralised::{DecentralisedPi, Pairing};
+pub use decentralised::{DecentralisedPi, Pairing, RunningPi};
 pub use pi::{AntiWindup, LoopMode, Pi, PiSettings};

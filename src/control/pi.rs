@@ -47,8 +47,107 @@ pub struct PiSettings {
     pub mode: LoopMode,
 }
 
-/// A running PI loop: settings, limits and state. See [`Pi::step`].
+/// A running PI loop: settings, limits and state.
+///
+/// It starts from rest: at the signal `rest_signal` and the output `initial_output` the plant stands still. Whatever
+/// the set-point weight, a reference and a measurement equal to `rest_signal` leave the output where it is. Call
+/// [`Pi::step`] once per sampling time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pi {
     settings: PiSettings,
+    limits: (f64, f64),
+    rest_signal: f64,
+    /// `K Ts/(2 Ti)`, the weight of one trapezium of error in the integral.
+    integral_gain: f64,
+    /// `Ts/Tt`, the share of the excess that one sample takes back from the integral.
+    tracking_gain: f64,
+    /// Integral part I (V). It starts at the initial output and carries all of it.
+    integral: f64,
+    previous_error: Option<f64>,
+    /// Output of the last sample (V).
+    output: f64,
+}
+
+impl Pi {
+    /// A loop at rest.
+    ///
+    /// `limits` are the lowest and highest controller output (V), `sampling_time_s` is Ts (s), `initial_output` the
+    /// controller output at rest (V) and `rest_signal` the measured signal, and so the reference, at rest (V).
+    ///
+    /// A tracking time shorter than Ts counts as Ts: the integral cannot give back more than the whole excess.
+    pub fn new(
+        settings: PiSettings,
+        limits: (f64, f64),
+        sampling_time_s: f64,
+        initial_output: f64,
+        rest_signal: f64,
+    ) -> Self {
+        let integral_gain = settings.gain * sampling_time_s / (2.0 * settings.integral_time_s);
+        let tracking_gain = match settings.anti_windup {
+            AntiWindup::Off => 0.0,
+            AntiWindup::BackCalculation { tracking_ratio } => {
+                (sampling_time_s / (tracking_ratio * settings.integral_time_s)).max(0.0).min(1.0)
+            }
+        };
+        Self {
+            settings,
+            limits,
+            rest_signal,
+            integral_gain,
+            tracking_gain,
+            integral: initial_output,
+            previous_error: None,
+            output: limited(initial_output, limits),
+        }
+    }
+
+    /// One sample: takes reference and measurement (V) at time `time_s`, returns the limited controller output (V) to
+    /// be held until the next sample.
+    ///
+    /// In automatic mode, with `e = r − y`, `e_prev = e` at the first sample and the rest signal `r0`:
+    ///
+    /// ```text
+    /// I += K Ts/(2 Ti) (e + e_prev)
+    /// v  = K (e − (1 − b) (r − r0)) + I
+    /// c  = v within the limits
+    /// I += Ts/Tt (c − v)
+    /// ```
+    ///
+    /// This is `K (b r − y)` plus the constant `K (1 − b) r0`, which only moves the value at which I starts: to the
+    /// initial output, for every b. Tustin's rule and the back-calculation are those of Cocota (2009, §4.2).
+    ///
+    /// In manual mode c is the manual output within the limits, and I follows so that the controller would give just
+    /// that; it takes over, without a bump, at the first sample at or after the given time.
+    ///
+    /// A reference or measurement that is not finite leaves state and output as they are.
+    #[inline]
+    pub fn step(&mut self, time_s: f64, reference_v: f64, measured_v: f64) -> f64 {
+        let error = reference_v - measured_v;
+        if !error.is_finite() {
+            return self.output;
+        }
+        let weighted_error = error - (1.0 - self.settings.set_point_weight) * (reference_v - self.rest_signal);
+        let proportional = self.settings.gain * weighted_error;
+        match self.settings.mode {
+            LoopMode::Manual { output, until_s } if time_s < until_s => {
+                self.output = limited(output, self.limits);
+                self.integral = self.output - proportional;
+            }
+            _ => {
+                self.integral += self.integral_gain * (error + self.previous_error.unwrap_or(error));
+                let unlimited = proportional + self.integral;
+                self.output = limited(unlimited, self.limits);
+                self.integral += self.tracking_gain * (self.output - unlimited);
+            }
+        }
+        self.previous_error = Some(error);
+        self.output
+    }
+}
+
+/// `f64::clamp` would panic on limits in the wrong order; here the upper one wins, and a value that is not a number
+/// becomes the lower limit.
+#[inline]
+fn limited(value: f64, (min, max): (f64, f64)) -> f64 {
+    value.max(min).min(max)
 }

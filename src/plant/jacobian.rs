@@ -1,10 +1,19 @@
-use nalgebra::{Matrix2x4, Matrix4, Matrix4x2};
+use nalgebra::{DMatrix, Matrix2x4, Matrix4, Matrix4x2};
+
+use super::{Disturbance, OperatingPoint, QuadrupleTank};
+
+/// Level at or below which a tank counts as dry (m).
+///
+/// A tank of the published size under this much water answers within about 0.01 s, far within a sampling time, and its
+/// √-slope spreads the entries of A over so many decades that poles and zeros would lose digits.
+pub const DRY_LEVEL: f64 = 1e-9;
 
 /// The linear model `dx/dt = A x + B u`, `y = C x` of the plant around an operating point, in deviations: `x` levels
 /// (m), `u` pump voltages (V), `y` measured signals (V).
 ///
-/// A tank that is dry at the operating point has an infinite √-slope: it follows its inflow at once and holds no
-/// water. Such a tank is listed in `dry`, its row and column in A, its row in B and its column in C are zero, and
+/// A tank that is dry at the operating point (level at or below [`DRY_LEVEL`]) has an infinite √-slope: it follows its
+/// inflow at once and holds no water. What enters a dry upper tank therefore enters the lower one: its row of B is added
+/// to that of the tank below, as a flow. Such a tank is listed in `dry`, its row and column in A, its row in B and its column in C are zero, and
 /// [`Jacobian::reduced`] leaves it out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Jacobian {
@@ -16,4 +25,81 @@ pub struct Jacobian {
     pub c: Matrix2x4<f64>,
     /// Which tanks are dry, so that no linear model of them exists.
     pub dry: [bool; 4],
+}
+
+impl Jacobian {
+    /// The model without the dry tanks: `(A, B, C)` with n × n, n × 2 and 2 × n entries, the n tanks that hold water in
+    /// their order. n is 0 when every tank is dry.
+    pub fn reduced(&self) -> (DMatrix<f64>, DMatrix<f64>, DMatrix<f64>) {
+        let wet: Vec<usize> = (0..4).filter(|&j| !self.dry[j]).collect();
+        let n = wet.len();
+        (
+            DMatrix::from_fn(n, n, |i, j| self.a[(wet[i], wet[j])]),
+            DMatrix::from_fn(n, 2, |i, j| self.b[(wet[i], j)]),
+            DMatrix::from_fn(2, n, |i, j| self.c[(i, wet[j])]),
+        )
+    }
+}
+
+impl QuadrupleTank {
+    /// Time constants T1…T4 (s) at any point, at rest or not; `None` for a dry tank (see [`DRY_LEVEL`]):
+    /// `1/T_j = (k_l a/A) √(g/(2h)) + δ_j` with `δ_j = (A′/A²) (inflow − outflow)`, which is 0 at an exact equilibrium
+    /// and for a prismatic tank (Cocota 2009, eqs. 3.14–3.17).
+    pub fn time_constants_s(&self, operating_point: &OperatingPoint) -> [Option<f64>; 4] {
+        self.decay_rates(operating_point).map(|rate| rate.map(f64::recip))
+    }
+
+    /// The exact linear model at any point, at rest or not (Cocota 2009, eqs. 3.14–3.17).
+    pub fn linearise(&self, operating_point: &OperatingPoint) -> Jacobian {
+        let levels = operating_point.levels;
+        let area: [f64; 4] = std::array::from_fn(|j| self.tanks[j].section.area(levels[j]));
+        let rates = self.decay_rates(operating_point);
+        let dry = rates.map(|rate| rate.is_none());
+
+        let mut jacobian = Jacobian { a: Matrix4::zeros(), b: Matrix4x2::zeros(), c: Matrix2x4::zeros(), dry };
+        for (j, rate) in rates.into_iter().enumerate() {
+            jacobian.a[(j, j)] = -rate.unwrap_or(0.0);
+        }
+        let [[k1, k1_above], [k2, k2_above]] = self.valve_gains();
+        // Lower tank, its upper tank, the pump that feeds each of the two, and the gains of those feeds.
+        for (lower, upper, direct_pump, direct, indirect_pump, indirect) in
+            [(0, 2, 0, k1, 1, k2_above), (1, 3, 1, k2, 0, k1_above)]
+        {
+            if !dry[upper] {
+                jacobian.b[(upper, indirect_pump)] = indirect / area[upper];
+            }
+            if dry[lower] {
+                continue;
+            }
+            jacobian.b[(lower, direct_pump)] = direct / area[lower];
+            jacobian.c[(lower, lower)] = self.sensor.gain;
+            if dry[upper] {
+                jacobian.b[(lower, indirect_pump)] = indirect / area[lower];
+            } else {
+                let slope = self.tanks[upper].outflow_slope(levels[upper], self.gravity);
+                jacobian.a[(lower, upper)] = slope / area[lower];
+            }
+        }
+        jacobian
+    }
+
+    /// `1/T_j` (1/s), `None` for a dry tank.
+    fn decay_rates(&self, operating_point: &OperatingPoint) -> [Option<f64>; 4] {
+        let OperatingPoint { levels, pump_voltage } = operating_point;
+        let net_inflow = self.net_inflows(levels, pump_voltage, &Disturbance::default());
+        std::array::from_fn(|j| {
+            let (tank, level) = (&self.tanks[j], levels[j]);
+            let area = tank.section.area(level);
+            let delta = tank.section.area_slope / (area * area) * net_inflow[j];
+            (level > DRY_LEVEL).then(|| tank.outflow_slope(level, self.gravity) / area + delta)
+        })
+    }
+
+    /// For each pump the flow per volt (m³/(s V)) into its lower and into its upper tank.
+    fn valve_gains(&self) -> [[f64; 2]; 2] {
+        std::array::from_fn(|i| {
+            let (k, gamma) = (self.pumps[i].gain, self.valves[i]);
+            [gamma * k, (1.0 - gamma) * k]
+        })
+    }
 }

@@ -10,9 +10,9 @@ mod preset;
 mod quadruple;
 mod tank;
 
-pub use equilibrium::OperatingPoint;
+pub use equilibrium::{OperatingPoint, SINGULAR_MARGIN};
 pub use error::PlantError;
-pub use jacobian::Jacobian;
+pub use jacobian::{DRY_LEVEL, Jacobian};
 pub use preset::{DisplayUnit, Preset, PresetId, Printed};
 pub use quadruple::{Disturbance, Pump, QuadrupleTank, Sensor};
 pub use tank::{CrossSection, Outlet, Tank};

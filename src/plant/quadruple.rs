@@ -1,6 +1,9 @@
+use std::array::from_fn;
+
 use serde::{Deserialize, Serialize};
 
 use super::Tank;
+use super::tank::torricelli_speed;
 
 /// A pump with its voltage limits; its flow is `gain × voltage` (Cocota 2009, eq. 2.25).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -26,6 +29,21 @@ pub struct Sensor {
     pub range: f64,
     /// Smallest signal difference that the sensor tells apart (V); 0 for an ideal one.
     pub resolution: f64,
+}
+
+impl Sensor {
+    /// Signal of an ideal sensor at `level` (V), `k_c h`.
+    #[inline]
+    pub fn measure(&self, level: f64) -> f64 {
+        self.gain * level
+    }
+
+    /// What the real sensor makes of the ideal `signal` (V): limited to its range, then rounded to its resolution.
+    #[inline]
+    pub fn quantise(&self, signal: f64) -> f64 {
+        let limited = signal.max(0.0).min(self.gain * self.range);
+        if self.resolution > 0.0 { (limited / self.resolution).round() * self.resolution } else { limited }
+    }
 }
 
 /// The quadruple-tank process of Johansson (2000), with the trapezoidal tank, the losses and the power module of
@@ -58,4 +76,57 @@ pub struct Disturbance {
     pub pump_flow: [f64; 2],
     /// Area of an additional hole in the bottom of each tank whose water leaves the plant (m²).
     pub leak_area: [f64; 4],
+}
+
+impl QuadrupleTank {
+    /// The same plant with the valves set to `[γ1, γ2]`.
+    #[must_use]
+    pub fn with_valves(self, valves: [f64; 2]) -> Self {
+        Self { valves, ..self }
+    }
+
+    /// Rates of change of the four levels (m/s) at the given levels (m) and pump voltages (V) under the given loads
+    /// (Cocota 2009, eqs. 3.1–3.4).
+    ///
+    /// Neither walls nor voltage limits are applied. A level below 0 drains nothing, and a pump flow that a load turns
+    /// negative counts as none.
+    #[inline]
+    pub fn derivative(&self, levels: &[f64; 4], pump_voltage: &[f64; 2], disturbance: &Disturbance) -> [f64; 4] {
+        let net = self.net_inflows(levels, pump_voltage, disturbance);
+        from_fn(|j| net[j] / self.tanks[j].section.area(levels[j]))
+    }
+
+    /// Water that each tank receives less what it loses (m³/s).
+    #[inline]
+    pub(super) fn net_inflows(
+        &self,
+        levels: &[f64; 4],
+        pump_voltage: &[f64; 2],
+        disturbance: &Disturbance,
+    ) -> [f64; 4] {
+        let inflow = self.valve_flows(pump_voltage, disturbance);
+        let speed = levels.map(|level| torricelli_speed(level, self.gravity));
+        let outflow: [f64; 4] = from_fn(|j| self.tanks[j].outlet.effective_area() * speed[j]);
+        let from_above = [outflow[2], outflow[3], 0.0, 0.0];
+        from_fn(|j| inflow[j] + from_above[j] - outflow[j] - disturbance.leak_area[j] * speed[j])
+    }
+
+    /// Flow that each tank receives through the valves (m³/s): `γ1 q1`, `γ2 q2`, `(1 − γ2) q2`, `(1 − γ1) q1`.
+    #[inline]
+    pub fn valve_flows(&self, pump_voltage: &[f64; 2], disturbance: &Disturbance) -> [f64; 4] {
+        let [gamma_1, gamma_2] = self.valves;
+        let [q1, q2]: [f64; 2] =
+            from_fn(|i| (self.pumps[i].gain * pump_voltage[i] + disturbance.pump_flow[i]).max(0.0));
+        [gamma_1 * q1, gamma_2 * q2, (1.0 - gamma_2) * q2, (1.0 - gamma_1) * q1]
+    }
+
+    /// Flow through the outlet of each tank at the given levels (m³/s).
+    pub fn outflows(&self, levels: &[f64; 4]) -> [f64; 4] {
+        from_fn(|j| self.tanks[j].outflow(levels[j], self.gravity))
+    }
+
+    /// Lowest and highest controller output of each pump (V): its voltage limits ahead of the power module.
+    pub fn controller_limits(&self) -> [(f64, f64); 2] {
+        self.pumps.map(|pump| (pump.voltage_min / self.power_gain, pump.voltage_max / self.power_gain))
+    }
 }

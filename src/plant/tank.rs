@@ -13,6 +13,31 @@ pub struct CrossSection {
     pub area_slope: f64,
 }
 
+impl CrossSection {
+    /// The same cross-section `area` (m²) at every level.
+    pub const fn prismatic(area: f64) -> Self {
+        Self { area_at_empty: area, area_slope: 0.0 }
+    }
+
+    /// A tank of breadth `b` (m) whose bottom has the length `c` (m) and one of whose end walls leans outwards by the
+    /// angle `θ` (rad) from the vertical: `A(h) = b (c + h tan θ)` (Cocota 2009, eq. 2.28).
+    pub fn trapezoidal(breadth: f64, bottom_length: f64, wall_angle_rad: f64) -> Self {
+        Self { area_at_empty: breadth * bottom_length, area_slope: breadth * wall_angle_rad.tan() }
+    }
+
+    /// Area of the water surface at `level` (m²); below the bottom the tank goes on as it is at the bottom.
+    #[inline]
+    pub fn area(&self, level: f64) -> f64 {
+        self.area_at_empty + self.area_slope * level.max(0.0)
+    }
+
+    /// Water held up to `level` (m³), the integral of [`area`](Self::area).
+    pub fn volume(&self, level: f64) -> f64 {
+        let level = level.max(0.0);
+        level * (self.area_at_empty + 0.5 * self.area_slope * level)
+    }
+}
+
 /// The hole through which a tank drains.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
@@ -22,6 +47,14 @@ pub struct Outlet {
     pub area: f64,
     /// Loss coefficient `k_l` by which the area is multiplied (Cocota 2009, eq. 2.32); 1 for an ideal outlet.
     pub loss_coefficient: f64,
+}
+
+impl Outlet {
+    /// `k_l a` (m²), the area that stands in Torricelli's law (Cocota 2009, eqs. 2.32, 2.33).
+    #[inline]
+    pub fn effective_area(&self) -> f64 {
+        self.loss_coefficient * self.area
+    }
 }
 
 /// One tank with its outlet.
@@ -35,4 +68,30 @@ pub struct Tank {
     pub outlet: Outlet,
     /// Height of the walls (m): water above it overflows.
     pub height: f64,
+}
+
+impl Tank {
+    /// Flow through the outlet at `level` (m³/s), `k_l a √(2 g h)` (Cocota 2009, eqs. 2.26, 2.32); 0 at or below the
+    /// bottom.
+    #[inline]
+    pub fn outflow(&self, level: f64, gravity: f64) -> f64 {
+        self.outlet.effective_area() * torricelli_speed(level, gravity)
+    }
+
+    /// Change of [`outflow`](Self::outflow) with level (m²/s), `k_l a √(g/(2h))`; infinite at the bottom.
+    pub fn outflow_slope(&self, level: f64, gravity: f64) -> f64 {
+        self.outlet.effective_area() * (gravity / (2.0 * level.max(0.0))).sqrt()
+    }
+
+    /// Level at which the outlet carries `flow` (m), `(q/(k_l a))²/(2 g)`, the inverse of [`outflow`](Self::outflow);
+    /// 0 without flow, infinite for a plugged outlet. Walls are ignored.
+    pub fn level_for_outflow(&self, flow: f64, gravity: f64) -> f64 {
+        if flow > 0.0 { (flow / self.outlet.effective_area()).powi(2) / (2.0 * gravity) } else { 0.0 }
+    }
+}
+
+/// Speed of water that leaves a hole under `level` (m/s), `√(2 g h)` (Torricelli; Cocota 2009, eq. 2.22).
+#[inline]
+pub(super) fn torricelli_speed(level: f64, gravity: f64) -> f64 {
+    (2.0 * gravity * level.max(0.0)).sqrt()
 }
