@@ -5,7 +5,7 @@
 //! beginning of the stream. The dictionary holds field names and published settings, so a link to a published rig takes
 //! some fifty characters and one with every number changed stays under the limit.
 //!
-//! `dictionary-1.json` must never change, or old links break. A better one would be `q2.`, beside it.
+//! `dictionary-1.jsonl` must never change, or old links break. A better one would be `q2.`, beside it.
 
 use base64::Engine;
 use base64::engine::general_purpose::URL_SAFE_NO_PAD;
@@ -25,7 +25,7 @@ pub const LINK_LIMIT: usize = 2000;
 const MARK: char = 'q';
 /// Number of the format that this program writes, and the newest that it reads.
 const FORMAT: u32 = 1;
-const DICTIONARY_1: &[u8] = include_bytes!("dictionary-1.json");
+const DICTIONARY_1: &[u8] = include_bytes!("dictionary-1.jsonl");
 
 /// Writes a scenario as text for the fragment of a URL: only letters, digits, `.`, `-` and `_`.
 ///
