@@ -86,7 +86,7 @@ impl Pi {
         let tracking_gain = match settings.anti_windup {
             AntiWindup::Off => 0.0,
             AntiWindup::BackCalculation { tracking_ratio } => {
-                (sampling_time_s / (tracking_ratio * settings.integral_time_s)).max(0.0).min(1.0)
+                limited(sampling_time_s / (tracking_ratio * settings.integral_time_s), (0.0, 1.0))
             }
         };
         Self {
@@ -113,8 +113,8 @@ impl Pi {
     /// I += Ts/Tt (c − v)
     /// ```
     ///
-    /// This is `K (b r − y)` plus the constant `K (1 − b) r0`, which only moves the value at which I starts: to the
-    /// initial output, for every b. Tustin's rule and the back-calculation are those of Cocota (2009, §4.2).
+    /// The first term is `K (b r − y)` plus the constant `K (1 − b) r0`, which only moves the value at which I starts: to the
+    /// initial output, for every b. Tustin's rule and the back-calculation are those of Cocota (2009, eq. 4.2, §4.4).
     ///
     /// In manual mode c is the manual output within the limits, and I follows so that the controller would give just
     /// that; it takes over, without a bump, at the first sample at or after the given time.
@@ -145,8 +145,7 @@ impl Pi {
     }
 }
 
-/// `f64::clamp` would panic on limits in the wrong order; here the upper one wins, and a value that is not a number
-/// becomes the lower limit.
+/// Limits in the wrong order: the upper one wins. A value that is not a number becomes the lower limit.
 #[inline]
 fn limited(value: f64, (min, max): (f64, f64)) -> f64 {
     value.max(min).min(max)

@@ -49,8 +49,7 @@ impl QuadrupleTank {
             return Err(error);
         }
         let gamma_sum = self.valves[0] + self.valves[1];
-        // The negation catches a sum that is not a number.
-        if !((gamma_sum - 1.0).abs() >= SINGULAR_MARGIN) {
+        if (gamma_sum - 1.0).abs() < SINGULAR_MARGIN {
             return Err(PlantError::SingularPlant { gamma_sum });
         }
         let needed = self.checked(self.free_equilibrium(self.balancing_voltages(levels)))?;

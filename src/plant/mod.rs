@@ -7,12 +7,13 @@ mod equilibrium;
 mod error;
 mod jacobian;
 mod preset;
+mod published;
 mod quadruple;
 mod tank;
 
 pub use equilibrium::{OperatingPoint, SINGULAR_MARGIN};
 pub use error::PlantError;
 pub use jacobian::{DRY_LEVEL, Jacobian};
-pub use preset::{DisplayUnit, Preset, PresetId, Printed};
+pub use preset::{DisplayUnit, Preset, PresetId, Printed, Remark};
 pub use quadruple::{Disturbance, Pump, QuadrupleTank, Sensor};
 pub use tank::{CrossSection, Outlet, Tank};

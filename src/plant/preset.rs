@@ -1,6 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-use super::QuadrupleTank;
+use super::{QuadrupleTank, published};
 
 /// The published rigs. The names are those of the scenario document.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -26,6 +26,47 @@ pub enum PresetId {
     JunqueiraB,
 }
 
+impl PresetId {
+    /// All of them, in the order of publication.
+    pub const ALL: [Self; 6] = [
+        Self::JohanssonMinimumPhase,
+        Self::JohanssonNonMinimumPhase,
+        Self::CocotaMinimumPhase,
+        Self::CocotaNonMinimumPhase,
+        Self::JunqueiraA,
+        Self::JunqueiraB,
+    ];
+
+    /// The name in the scenario document.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::JohanssonMinimumPhase => "johansson-2000-minimum-phase",
+            Self::JohanssonNonMinimumPhase => "johansson-2000-non-minimum-phase",
+            Self::CocotaMinimumPhase => "cocota-2009-minimum-phase",
+            Self::CocotaNonMinimumPhase => "cocota-2009-non-minimum-phase",
+            Self::JunqueiraA => "junqueira-case-a",
+            Self::JunqueiraB => "junqueira-case-b",
+        }
+    }
+
+    /// The preset of that [`name`](Self::name).
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|id| id.name() == name)
+    }
+
+    /// The rig with its numbers.
+    pub fn preset(self) -> Preset {
+        match self {
+            Self::JohanssonMinimumPhase => published::johansson_minimum_phase(),
+            Self::JohanssonNonMinimumPhase => published::johansson_non_minimum_phase(),
+            Self::CocotaMinimumPhase => published::cocota_minimum_phase(),
+            Self::CocotaNonMinimumPhase => published::cocota_non_minimum_phase(),
+            Self::JunqueiraA => published::junqueira(self, 0.6),
+            Self::JunqueiraB => published::junqueira(self, 0.4),
+        }
+    }
+}
+
 /// The unit in which a source prints its levels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
@@ -37,6 +78,20 @@ pub enum DisplayUnit {
     Mm,
 }
 
+/// What a reader of a preset should know before comparing numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Remark {
+    /// The printed levels are measured or rounded: the printed parameters and inputs have another exact equilibrium.
+    PrintedLevelsNotAtRest,
+    /// Tank 2 is trapezoidal.
+    TrapezoidalTank,
+    /// The source gives no height of the tanks: ours is assumed.
+    AssumedHeight,
+    /// The source gives no operating point: ours is a level of 10 cm in tanks 1 and 2.
+    ChosenOperatingPoint,
+}
+
 /// Numbers as a source prints them, in SI, to compare with.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Printed {
@@ -44,7 +99,7 @@ pub struct Printed {
     pub levels: [f64; 4],
     /// Time constants T1…T4 (s).
     pub time_constants_s: [f64; 4],
-    /// Transmission zeros (1/s).
+    /// Transmission zeros (1/s), the smaller first.
     pub zeros: [f64; 2],
     /// Relative gain λ11.
     pub rga_11: f64,
@@ -67,6 +122,8 @@ pub struct Preset {
     pub plant: QuadrupleTank,
     /// Pump voltages at the published operating point (V).
     pub pump_voltage: [f64; 2],
+    /// What to know before comparing numbers.
+    pub remarks: &'static [Remark],
     /// What the source prints, where it prints anything.
     pub printed: Option<Printed>,
 }
