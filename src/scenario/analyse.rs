@@ -30,8 +30,6 @@ pub struct Analysis {
     pub verdict: PairingVerdict,
     /// The sampled closed loop with the controller of the setup.
     pub closed_loop: ClosedLoop,
-    /// Largest singular value of the sensitivity over frequency, Ms; `None` when the loop is not stable.
-    pub sensitivity_peak: Option<f64>,
 }
 
 /// Asks linear theory about a setup.
@@ -42,10 +40,10 @@ pub struct Analysis {
 pub fn analyse(setup: &Setup) -> Result<Analysis, ScenarioError> {
     let plant = setup.plant();
     let operating_point = setup.operating_point()?;
-    let (a, b, c) = plant.linearise(&operating_point).reduced();
+    let jacobian = plant.linearise(&operating_point);
+    let (a, b, c) = jacobian.reduced();
     let model = StateSpace::strictly_proper(a, b, c)?;
     let gain = model.dc_gain()?;
-    let closed_loop = closed_loop(&model, &setup.controller, plant.power_gain)?;
     Ok(Analysis {
         operating_point,
         out_of_range: plant.violations(&operating_point),
@@ -56,8 +54,7 @@ pub fn analyse(setup: &Setup) -> Result<Analysis, ScenarioError> {
         rga_11: relative_gain_array(&gain).map(|array| array[(0, 0)]),
         niederlinski: niederlinski(&gain),
         verdict: recommend_pairing(&gain),
-        closed_loop,
-        sensitivity_peak: None,
+        closed_loop: closed_loop(&jacobian, &setup.controller, plant.power_gain)?,
         model,
     })
 }

@@ -13,6 +13,7 @@ mod presets;
 mod report;
 mod run;
 mod validate;
+mod valve_map;
 
 pub use analyse::{Analysis, analyse};
 pub use codec::{DOCUMENT_LIMIT, from_json, to_json};
@@ -23,3 +24,4 @@ pub use link::{LINK_LIMIT, from_link, to_link};
 pub use presets::setup_of;
 pub use report::AnalysisReport;
 pub use run::{Run, run};
+pub use valve_map::ValveMap;

@@ -94,7 +94,7 @@ impl From<&Analysis> for AnalysisReport {
                 stability: closed_loop.stability,
                 poles_z: points(&closed_loop.poles_z),
                 poles_s: points(&closed_loop.poles_s),
-                sensitivity_peak: analysis.sensitivity_peak,
+                sensitivity_peak: closed_loop.sensitivity_peak,
             },
         }
     }

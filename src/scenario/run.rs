@@ -1,6 +1,6 @@
-use crate::sim::{LoopMetrics, Trajectory, loop_metrics, simulate, simulate_linear};
-
 use serde::Serialize;
+
+use crate::sim::{LoopMetrics, Trajectory, loop_metrics, simulate, simulate_linear};
 
 use super::{ScenarioError, Setup};
 
@@ -28,8 +28,8 @@ pub fn run(setup: &Setup) -> Result<Run, ScenarioError> {
     let nonlinear = simulate(&plant, &start, controller, experiment);
     let linear = simulate_linear(&plant, &start, controller, experiment);
     Ok(Run {
-        metrics: [0, 1].map(|index| loop_metrics(&nonlinear, index, experiment)),
-        linear_metrics: [0, 1].map(|index| loop_metrics(&linear, index, experiment)),
+        metrics: loop_metrics(&nonlinear, &plant, controller, experiment),
+        linear_metrics: loop_metrics(&linear, &plant, controller, experiment),
         nonlinear,
         linear,
     })
