@@ -103,3 +103,86 @@ impl QuadrupleTank {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+    use crate::plant::PresetId;
+
+    fn johansson(valves: [f64; 2], pump_voltage: [f64; 2]) -> (QuadrupleTank, OperatingPoint) {
+        let plant = PresetId::JohanssonMinimumPhase.preset().plant.with_valves(valves);
+        (plant, plant.free_equilibrium(pump_voltage))
+    }
+
+    #[test]
+    fn delta_2_is_that_of_cocota_and_zero_at_rest() {
+        let preset = PresetId::CocotaMinimumPhase.preset();
+        let levels = preset.printed.map(|printed| printed.levels).unwrap_or_default();
+        let point = OperatingPoint { levels, pump_voltage: preset.pump_voltage };
+        let plant = preset.plant;
+        let [_, tank_2, _, tank_4] = &plant.tanks;
+        let area = tank_2.section.area(levels[1]);
+        let imbalance = tank_2.outflow(levels[1], plant.gravity)
+            - tank_4.outflow(levels[3], plant.gravity)
+            - plant.valves[1] * plant.pumps[1].gain * preset.pump_voltage[1];
+        let delta_2 = -tank_2.section.area_slope / (area * area) * imbalance;
+        let expected = tank_2.outflow_slope(levels[1], plant.gravity) / area + delta_2;
+        assert!(delta_2.abs() > 1e-7);
+        assert_relative_eq!(plant.linearise(&point).a[(1, 1)], -expected, max_relative = 1e-12);
+
+        let rest = plant.free_equilibrium(preset.pump_voltage);
+        let without_delta = tank_2.outflow_slope(rest.levels[1], plant.gravity) / tank_2.section.area(rest.levels[1]);
+        assert_relative_eq!(plant.linearise(&rest).a[(1, 1)], -without_delta, max_relative = 1e-12);
+    }
+
+    #[test]
+    fn an_open_valve_leaves_its_upper_tank_out() {
+        let (plant, point) = johansson([0.7, 1.0], [3.0, 3.0]);
+        let jacobian = plant.linearise(&point);
+        assert_eq!(jacobian.dry, [false, false, true, false]);
+        assert_eq!(plant.time_constants_s(&point)[2], None);
+        assert_eq!(jacobian.b[(0, 1)], 0.0);
+        let (a, b, c) = jacobian.reduced();
+        assert_eq!((a.shape(), b.shape(), c.shape()), ((3, 3), (3, 2), (2, 3)));
+        // Tank 4 is now the third state.
+        assert_eq!(a[(1, 2)], jacobian.a[(1, 3)]);
+        assert_eq!(b[(2, 0)], jacobian.b[(3, 0)]);
+        assert!(a.iter().chain(&b).chain(&c).all(|entry| entry.is_finite()));
+    }
+
+    #[test]
+    fn water_passes_a_dry_tank_at_once() {
+        // Pump 2 is off, so tank 3 is dry although its valve would feed it.
+        let (plant, point) = johansson([0.7, 0.6], [3.0, 0.0]);
+        let jacobian = plant.linearise(&point);
+        assert_eq!(jacobian.dry, [false, false, true, false]);
+        assert_relative_eq!(jacobian.b[(0, 1)], 0.4 * 3.35e-6 / 28e-4, max_relative = 1e-12);
+
+        // The limit of a nearly dry one: the same gain from pump 2 to level 1 at rest.
+        let gain = |voltage| {
+            let (plant, point) = johansson([0.7, 0.6], [3.0, voltage]);
+            let (a, b, c) = plant.linearise(&point).reduced();
+            a.lu().solve(&b).map(|x| (c * x)[(0, 1)])
+        };
+        let (dry, wet) = (gain(0.0).unwrap_or(f64::NAN), gain(1e-3).unwrap_or(f64::NAN));
+        assert_relative_eq!(dry, wet, max_relative = 1e-3);
+    }
+
+    #[test]
+    fn an_empty_plant_has_no_states() {
+        let (plant, point) = johansson([0.7, 0.6], [0.0, 0.0]);
+        let (a, b, c) = plant.linearise(&point).reduced();
+        assert_eq!((a.shape(), b.shape(), c.shape()), ((0, 0), (0, 2), (2, 0)));
+    }
+
+    #[test]
+    fn a_tank_is_dry_at_the_stated_level() {
+        let (plant, mut point) = johansson([0.7, 0.6], [3.0, 3.0]);
+        point.levels[2] = DRY_LEVEL;
+        assert_eq!(plant.time_constants_s(&point)[2], None);
+        point.levels[2] = 1.01 * DRY_LEVEL;
+        assert!(plant.time_constants_s(&point)[2].is_some_and(|t| t > 0.0 && t < 0.01));
+    }
+}
