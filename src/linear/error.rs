@@ -35,8 +35,8 @@ pub enum LinearError {
         /// Number of inputs.
         size: usize,
     },
-    /// G(0) does not exist or cannot be inverted.
-    #[error("the steady-state gain is singular (reciprocal condition {reciprocal_condition})")]
+    /// The gain, G(0) or G at the frequency asked for, does not exist or cannot be inverted.
+    #[error("the gain is singular (reciprocal condition {reciprocal_condition})")]
     SingularGain {
         /// Smallest over largest singular value; 0 where the gain does not exist.
         reciprocal_condition: f64,
@@ -46,5 +46,13 @@ pub enum LinearError {
     NoConvergence {
         /// Rows of the matrix.
         size: usize,
+    },
+    /// An argument for which the question makes no sense, such as a sampling time that is not positive.
+    #[error("{field} = {value} is out of range")]
+    OutOfRange {
+        /// Name of the argument.
+        field: &'static str,
+        /// Its value.
+        value: f64,
     },
 }

@@ -1,14 +1,21 @@
 //! What a linear model says: poles, transmission zeros with their directions, frequency response, exact sampling.
 
 mod discrete;
+mod eigen;
 mod error;
+mod exponential;
 mod frequency;
+mod null_vectors;
 pub mod quadruple;
+mod reduction;
+mod scaling;
 mod state_space;
 mod zeros;
 
 pub use discrete::DiscreteStateSpace;
+pub use eigen::eigenvalues;
 pub use error::LinearError;
+pub use frequency::singular_values;
 pub use state_space::StateSpace;
 pub use zeros::{TransmissionZero, transmission_zeros};
 

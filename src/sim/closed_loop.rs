@@ -1,1 +1,46 @@
-//! To be written.
+//! The nonlinear plant in closed loop.
+
+use crate::control::DecentralisedPi;
+use crate::plant::{Disturbance, OperatingPoint, QuadrupleTank};
+
+use super::course::{self, Events, Process};
+use super::experiment::Experiment;
+use super::integrate::Hydraulics;
+use super::trajectory::Trajectory;
+
+/// The plant with its water.
+struct Rig<'a> {
+    plant: &'a QuadrupleTank,
+    water: Hydraulics,
+}
+
+impl Process for Rig<'_> {
+    fn levels(&self) -> [f64; 4] {
+        self.water.levels()
+    }
+
+    fn set_inputs(&mut self, pump_voltage: &[f64; 2], disturbance: &Disturbance) {
+        self.water.set_inputs(self.plant, pump_voltage, disturbance);
+    }
+
+    fn advance(&mut self, time: f64, duration: f64, events: &mut Events) {
+        self.water.advance(time, duration, events);
+    }
+}
+
+/// Runs an experiment on the nonlinear plant with two sampled PI loops.
+///
+/// The run starts at the operating point, its levels clipped to the walls, with the controllers at rest there. Samples
+/// are at `k Ts`; pump voltages are held between them. A reference steps at the first sample at or after its time, a
+/// load begins at its exact time. Levels stay between bottom and wall: water above the wall is lost. There is a row per
+/// sample, and rows in between where samples are further apart than 1/1500 of the duration. A run of more than
+/// [`MAX_ROWS`](super::MAX_ROWS) rows is cut there.
+pub fn simulate(
+    plant: &QuadrupleTank,
+    op: &OperatingPoint,
+    controller: &DecentralisedPi,
+    experiment: &Experiment,
+) -> Trajectory {
+    let rig = Rig { plant, water: Hydraulics::new(plant, &op.levels) };
+    course::run(rig, plant, op, controller, experiment)
+}

@@ -1,16 +1,22 @@
 //! Plant + controller + experiment → trajectories, events and metrics; and the poles of the sampled closed loop.
 
 mod closed_loop;
+mod course;
 mod experiment;
+mod hold;
 mod integrate;
 mod linear_loop;
 mod metrics;
+mod noise;
+mod open_loop;
 mod poles;
+mod response;
 mod trajectory;
 
 pub use closed_loop::simulate;
+pub use course::MAX_ROWS;
 pub use experiment::{Experiment, Load, LoadStep, Measurement, SetPointStep};
 pub use linear_loop::simulate_linear;
 pub use metrics::{LoopMetrics, Settling, loop_metrics};
-pub use poles::{ClosedLoop, Stability, closed_loop};
+pub use poles::{ClosedLoop, Stability, UNIT_CIRCLE_TOLERANCE, closed_loop};
 pub use trajectory::{Event, EventKind, Trajectory};

@@ -46,3 +46,32 @@ pub struct Trajectory {
     /// What happened, in order; each kind once, when it first began. Empty for a linear run.
     pub events: Vec<Event>,
 }
+
+impl Trajectory {
+    /// No rows yet, with room for `rows`.
+    pub(super) fn with_capacity(rows: usize) -> Self {
+        let column = || Vec::with_capacity(rows);
+        let pair = || [column(), column()];
+        Self {
+            time_s: column(),
+            levels: [column(), column(), column(), column()],
+            references: pair(),
+            controller_output: pair(),
+            pump_voltage: pair(),
+            events: Vec::new(),
+        }
+    }
+
+    /// Adds a row.
+    pub(super) fn push(&mut self, time_s: f64, levels: [f64; 4], references: [f64; 2], controller_output: [f64; 2], pump_voltage: [f64; 2]) {
+        self.time_s.push(time_s);
+        for (column, level) in self.levels.iter_mut().zip(levels) {
+            column.push(level);
+        }
+        for i in 0..2 {
+            self.references[i].push(references[i]);
+            self.controller_output[i].push(controller_output[i]);
+            self.pump_voltage[i].push(pump_voltage[i]);
+        }
+    }
+}

@@ -1,0 +1,218 @@
+//! The course of a run: two sampled loops around any process, step by step along the time axis of the experiment.
+
+use crate::control::{DecentralisedPi, Pairing, RunningPi};
+use crate::plant::{Disturbance, OperatingPoint, QuadrupleTank};
+
+use super::experiment::{Experiment, Load, LoadStep, SetPointStep};
+use super::integrate::Watch;
+use super::noise::Noise;
+use super::trajectory::{Event, EventKind, Trajectory};
+
+/// What the loops act on: the nonlinear plant or its linear model.
+pub(super) trait Process {
+    /// Levels (m).
+    fn levels(&self) -> [f64; 4];
+    /// Sets the inputs that hold from now on.
+    fn set_inputs(&mut self, pump_voltage: &[f64; 2], disturbance: &Disturbance);
+    /// Lets `duration` seconds pass from `time` on.
+    fn advance(&mut self, time: f64, duration: f64, events: &mut Events);
+}
+
+/// Events of a run, each kind once.
+#[derive(Debug, Default)]
+pub(super) struct Events(Vec<Event>);
+
+impl Events {
+    fn note(&mut self, time_s: f64, kind: EventKind) {
+        if self.0.iter().all(|event| event.kind != kind) {
+            self.0.push(Event { time_s, kind });
+        }
+    }
+
+    fn in_order(mut self) -> Vec<Event> {
+        self.0.sort_by(|x, y| x.time_s.total_cmp(&y.time_s));
+        self.0
+    }
+}
+
+impl Watch for Events {
+    fn overflow(&mut self, tank: usize, time: f64) {
+        self.note(time, EventKind::Overflow { tank });
+    }
+
+    fn empty(&mut self, tank: usize, time: f64) {
+        self.note(time, EventKind::Empty { tank });
+    }
+}
+
+/// Most rows of a trajectory; a longer run is cut there. It keeps a hostile document from filling the memory.
+pub const MAX_ROWS: usize = 200_000;
+
+/// Rows that a plot needs to look smooth: between coarse samples there are rows in between.
+const SMOOTH_ROWS: f64 = 1500.0;
+
+/// Slack by which rounding may make a sample come early, in sampling times.
+const TIME_SLACK: f64 = 1e-9;
+
+/// When the rows of a trajectory are, and which of them are samples.
+#[derive(Clone, Copy, Debug)]
+struct TimeAxis {
+    sampling_time_s: f64,
+    rows_per_sample: usize,
+    rows: usize,
+}
+
+impl TimeAxis {
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a float to integer cast saturates")]
+    fn new(duration_s: f64, sampling_time_s: f64) -> Self {
+        let samples = duration_s / sampling_time_s;
+        let rows_per_sample = (SMOOTH_ROWS / samples - TIME_SLACK).ceil().clamp(1.0, SMOOTH_ROWS);
+        let rows = (samples * rows_per_sample + TIME_SLACK).floor() as usize;
+        Self { sampling_time_s, rows_per_sample: rows_per_sample as usize, rows: rows.saturating_add(1).min(MAX_ROWS) }
+    }
+
+    fn time(&self, row: usize) -> f64 {
+        row as f64 * self.sampling_time_s / self.rows_per_sample as f64
+    }
+
+    fn is_sample(&self, row: usize) -> bool {
+        row.is_multiple_of(self.rows_per_sample)
+    }
+}
+
+/// Time between rows of a trajectory (s).
+pub(super) fn row_spacing(experiment: &Experiment, controller: &DecentralisedPi) -> f64 {
+    TimeAxis::new(experiment.duration_s, controller.sampling_time_s).time(1)
+}
+
+/// References that step at the first sample at or after the given times.
+struct References<'a> {
+    value: [f64; 2],
+    pending: Vec<&'a SetPointStep>,
+}
+
+impl<'a> References<'a> {
+    fn new(start: [f64; 2], steps: &'a [SetPointStep]) -> Self {
+        let mut pending: Vec<_> = steps.iter().filter(|step| step.level < 2).collect();
+        pending.sort_by(|x, y| y.time_s.total_cmp(&x.time_s));
+        Self { value: start, pending }
+    }
+
+    fn at(&mut self, time: f64) -> [f64; 2] {
+        while let Some(step) = self.pending.pop_if(|step| step.time_s <= time) {
+            self.value[step.level] += step.size;
+        }
+        self.value
+    }
+}
+
+/// Loads that begin at their exact times.
+struct Loads<'a> {
+    acting: Disturbance,
+    pending: Vec<&'a LoadStep>,
+}
+
+impl<'a> Loads<'a> {
+    fn new(steps: &'a [LoadStep]) -> Self {
+        let mut pending: Vec<_> = steps.iter().collect();
+        pending.sort_by(|x, y| y.time_s.total_cmp(&x.time_s));
+        Self { acting: Disturbance::default(), pending }
+    }
+
+    fn next_before(&self, time: f64) -> Option<f64> {
+        self.pending.last().map(|step| step.time_s).filter(|&begin| begin < time)
+    }
+
+    fn at(&mut self, time: f64) -> &Disturbance {
+        while let Some(step) = self.pending.pop_if(|step| step.time_s <= time) {
+            match step.load {
+                Load::PumpFlow { pump, flow } if pump < 2 => self.acting.pump_flow[pump] += flow,
+                Load::Leak { tank, area } if tank < 4 => self.acting.leak_area[tank] += area,
+                Load::PumpFlow { .. } | Load::Leak { .. } => (),
+            }
+        }
+        &self.acting
+    }
+}
+
+/// The two loops with the limits of the pumps that they drive.
+struct Loops {
+    pairing: Pairing,
+    pi: RunningPi,
+    limits: [(f64, f64); 2],
+    power_gain: f64,
+}
+
+impl Loops {
+    fn new(plant: &QuadrupleTank, op: &OperatingPoint, controller: &DecentralisedPi) -> Self {
+        let limits = plant.controller_limits();
+        let output = op.pump_voltage.map(|voltage| voltage / plant.power_gain);
+        let rest_signal = [op.levels[0], op.levels[1]].map(|level| plant.sensor.measure(level));
+        Self {
+            pairing: controller.pairing,
+            pi: controller.start(limits, output, rest_signal),
+            limits: controller.pairing.by_loop(limits),
+            power_gain: plant.power_gain,
+        }
+    }
+
+    /// One sample: new outputs from references and measured signals (V). Notes the pumps that are at a limit.
+    fn step(&mut self, time: f64, reference: [f64; 2], measured: [f64; 2], events: &mut Events) -> [f64; 2] {
+        let output = self.pi.step(time, reference, measured);
+        for i in 0..2 {
+            if output[i] <= self.limits[i].0 || output[i] >= self.limits[i].1 {
+                events.note(time, EventKind::Saturated { pump: self.pairing.pump_of(i) });
+            }
+        }
+        output
+    }
+
+    fn pump_voltage(&self, output: [f64; 2]) -> [f64; 2] {
+        self.pairing.by_pump(output).map(|output| self.power_gain * output)
+    }
+}
+
+/// Runs an experiment from the operating point on; see [`super::simulate`] for what happens when.
+pub(super) fn run(
+    mut process: impl Process,
+    plant: &QuadrupleTank,
+    op: &OperatingPoint,
+    controller: &DecentralisedPi,
+    experiment: &Experiment,
+) -> Trajectory {
+    let axis = TimeAxis::new(experiment.duration_s, controller.sampling_time_s);
+    let slack = TIME_SLACK * axis.sampling_time_s;
+    let mut references = References::new([op.levels[0], op.levels[1]], &experiment.set_point_steps);
+    let mut loads = Loads::new(&experiment.load_steps);
+    let mut loops = Loops::new(plant, op, controller);
+    let mut noise = Noise::new(&experiment.measurement);
+    let mut events = Events::default();
+    let mut trajectory = Trajectory::with_capacity(axis.rows);
+    let (mut output, mut voltage) = ([0.0; 2], [0.0; 2]);
+    for row in 0..axis.rows {
+        let time = axis.time(row);
+        loads.at(time + slack);
+        if axis.is_sample(row) {
+            let levels = process.levels();
+            let reference = references.at(time + slack).map(|level| plant.sensor.measure(level));
+            let measured = noise.measure(&plant.sensor, [levels[0], levels[1]]);
+            output = loops.step(time, reference, measured, &mut events);
+            voltage = loops.pump_voltage(output);
+        }
+        process.set_inputs(&voltage, &loads.acting);
+        trajectory.push(time, process.levels(), references.value, output, voltage);
+        if row + 1 == axis.rows {
+            break;
+        }
+        let end = axis.time(row + 1);
+        let mut now = time;
+        while let Some(begin) = loads.next_before(end - slack) {
+            process.advance(now, begin - now, &mut events);
+            process.set_inputs(&voltage, loads.at(begin));
+            now = begin;
+        }
+        process.advance(now, end - now, &mut events);
+    }
+    trajectory.events = events.in_order();
+    trajectory
+}

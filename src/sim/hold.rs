@@ -1,0 +1,71 @@
+//! Exact sampling of the four-tank linear model under inputs that are held.
+
+use nalgebra::Matrix4;
+
+/// Terms of the power series; with the norm scaled below 1/2 the next one is below rounding.
+const TERMS: u32 = 14;
+
+/// `x(t + Ts) = Φ x(t) + Ψ f` for `dx/dt = A x + f` with `f` constant: `Φ = exp(A Ts)`, `Ψ = ∫ exp(A τ) dτ` from 0 to Ts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Hold {
+    /// State transition Φ.
+    pub(super) transition: Matrix4<f64>,
+    /// What a held rate of change does, Ψ (s).
+    pub(super) response: Matrix4<f64>,
+}
+
+impl Hold {
+    /// By the power series of Ψ on a short stretch of time, doubled until it is `duration` long.
+    pub(super) fn new(a: &Matrix4<f64>, duration: f64) -> Self {
+        let norm = a.abs().row_sum().max() * duration;
+        let doublings = (2.0 * norm).max(1.0).log2().ceil().min(f64::from(f64::MAX_EXP));
+        let short = duration * (-doublings).exp2();
+        let step = a * short;
+        let mut series = Matrix4::identity();
+        for k in (2..=TERMS + 1).rev() {
+            series = Matrix4::identity() + step * series / f64::from(k);
+        }
+        let mut response = series * short;
+        let mut done = 0.0;
+        while done < doublings {
+            response += (Matrix4::identity() + a * response) * response;
+            done += 1.0;
+        }
+        Self { transition: Matrix4::identity() + a * response, response }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+    use nalgebra::matrix;
+
+    use super::*;
+
+    #[test]
+    fn a_cascade_of_two_equal_tanks_has_its_textbook_response() {
+        let t = 20.0;
+        let a = matrix![
+            -1.0 / t, 0.0, 1.0 / t, 0.0;
+            0.0, -2.0, 0.0, 0.0;
+            0.0, 0.0, -1.0 / t, 0.0;
+            0.0, 0.0, 0.0, 0.0];
+        let hold = Hold::new(&a, 30.0);
+        let decay = (-1.5_f64).exp();
+        assert_relative_eq!(hold.transition[(0, 0)], decay, max_relative = 1e-13);
+        assert_relative_eq!(hold.transition[(0, 2)], 1.5 * decay, max_relative = 1e-13);
+        assert_relative_eq!(hold.transition[(1, 1)], (-60.0_f64).exp(), epsilon = 1e-15);
+        assert_relative_eq!(hold.transition[(3, 3)], 1.0, max_relative = 1e-15);
+        assert_relative_eq!(hold.response[(0, 0)], t * (1.0 - decay), max_relative = 1e-13);
+        assert_relative_eq!(hold.response[(0, 2)], t * (1.0 - 2.5 * decay), max_relative = 1e-13);
+        assert_relative_eq!(hold.response[(3, 3)], 30.0, max_relative = 1e-13);
+    }
+
+    #[test]
+    fn a_tank_that_is_a_million_times_faster_stays_finite() {
+        let a = Matrix4::from_diagonal(&nalgebra::vector![-1e-2, -1e6, -1e-2, -1e12]);
+        let hold = Hold::new(&a, 1.0);
+        assert_relative_eq!(hold.transition[(0, 0)], (-1e-2_f64).exp(), max_relative = 1e-12);
+        assert_relative_eq!(hold.transition[(3, 3)], 0.0, epsilon = 1e-9);
+    }
+}

@@ -1,0 +1,120 @@
+//! The sampled linear loop: plant under zero-order hold and two PI laws, as a state matrix and over frequency.
+
+use nalgebra::{DMatrix, Matrix2, Matrix4, Matrix4x2};
+
+use crate::control::{DecentralisedPi, PiSettings};
+use crate::linear::Complex;
+use crate::plant::Jacobian;
+
+use super::hold::Hold;
+
+/// Frequencies of the grid, from below the slowest pole of the loop up to Nyquist.
+const GRID: u32 = 80;
+
+/// How far the grid reaches below the slowest pole.
+const BELOW_SLOWEST: f64 = 0.1;
+
+/// Cuts of the interval around the highest point of the grid by the golden section; each leaves 62 % of it.
+const REFINEMENTS: u32 = 16;
+
+/// The loop, cut open at the outputs of the controllers. Columns are by loops, not by pumps.
+pub(super) struct OpenLoop<'a> {
+    controller: &'a DecentralisedPi,
+    /// State transition of the plant over one sample.
+    transition: Matrix4<f64>,
+    /// What a controller output held for one sample does to the levels (m/V).
+    input: Matrix4x2<f64>,
+    /// Gain of the level sensors; 0 for a tank that is dry (V/m).
+    sensor: [f64; 2],
+}
+
+impl<'a> OpenLoop<'a> {
+    pub(super) fn new(jacobian: &Jacobian, controller: &'a DecentralisedPi, power_gain: f64) -> Self {
+        let hold = Hold::new(&jacobian.a, controller.sampling_time_s);
+        let by_pump = hold.response * jacobian.b * power_gain;
+        let input = Matrix4x2::from_fn(|tank, i| by_pump[(tank, controller.pairing.pump_of(i))]);
+        let sensor = [jacobian.c[(0, 0)], jacobian.c[(1, 1)]];
+        Self { controller, transition: hold.transition, input, sensor }
+    }
+
+    /// State matrix of the closed loop without the tanks that are `dry`. States are levels (m), then one integral per
+    /// loop that acts, `s = I − K Ts/(2 Ti) e` (V), with which Tustin's rule reads `c = K (1 + Ts/(2 Ti)) e + s` and
+    /// `s⁺ = s + K Ts/Ti e`.
+    pub(super) fn closed(&self, dry: &[bool; 4]) -> DMatrix<f64> {
+        let wet: Vec<usize> = (0..4).filter(|&tank| !dry[tank]).collect();
+        let acting: Vec<usize> = (0..2).filter(|&i| self.controller.loops[i].gain != 0.0).collect();
+        let n = wet.len();
+        let share = |i: usize| self.controller.sampling_time_s / self.controller.loops[i].integral_time_s;
+        let gain = |i: usize| self.controller.loops[i].gain * self.sensor[i];
+        DMatrix::from_fn(n + acting.len(), n + acting.len(), |row, column| {
+            match (wet.get(row), wet.get(column)) {
+                (Some(&to), Some(&from)) => {
+                    let feedback = if from < 2 { gain(from) * (1.0 + share(from) / 2.0) * self.input[(to, from)] } else { 0.0 };
+                    self.transition[(to, from)] - feedback
+                }
+                (Some(&to), None) => self.input[(to, acting[column - n])],
+                (None, Some(&from)) if from == acting[row - n] => -gain(from) * share(from),
+                (None, None) if row == column => 1.0,
+                (None, _) => 0.0,
+            }
+        })
+    }
+
+    /// Largest singular value of the sensitivity `S = (I + L)⁻¹` at the frequency `w` (rad/s).
+    fn sensitivity(&self, w: f64) -> f64 {
+        let z = Complex::cis(w * self.controller.sampling_time_s);
+        largest_singular_value_of_inverse(&(Matrix2::identity() + self.loop_gain(z)))
+    }
+
+    /// `L(z)`, outputs by inputs of the loops. Only the tank above stands between an input and a lower tank.
+    fn loop_gain(&self, z: Complex) -> Matrix2<Complex> {
+        let settings = &self.controller.loops;
+        let law = settings.map(|settings| tustin_pi(&settings, self.controller.sampling_time_s, z));
+        Matrix2::from_fn(|lower, input| {
+            let upper = lower + 2;
+            let above = self.input[(upper, input)] / (z - self.transition[(upper, upper)]);
+            let flow = above * self.transition[(lower, upper)] + self.input[(lower, input)];
+            flow * self.sensor[lower] / (z - self.transition[(lower, lower)]) * law[input]
+        })
+    }
+
+    /// Peak Ms over all frequencies up to Nyquist of a stable loop with the given poles (1/s), where a narrow peak may
+    /// hide between two points of the grid.
+    pub(super) fn sensitivity_peak(&self, poles_s: &[Complex]) -> f64 {
+        let nyquist = std::f64::consts::PI / self.controller.sampling_time_s;
+        let resonances = poles_s.iter().map(|s| s.norm().min(nyquist));
+        let slowest = BELOW_SLOWEST * resonances.clone().fold(nyquist, f64::min);
+        let ratio = (nyquist / slowest).powf(1.0 / f64::from(GRID));
+        let grid = (0..=GRID).map(|k| nyquist * ratio.powf(-f64::from(k)));
+        let sampled = grid.chain(resonances).map(|w| (self.sensitivity(w), w));
+        let highest = sampled.fold((0.0, nyquist), |best, new| if new.0 > best.0 { new } else { best });
+        self.refine(highest, ratio, nyquist)
+    }
+
+    /// Golden-section search on a logarithmic axis, one point of the grid to either side of the best frequency.
+    fn refine(&self, (mut peak, best): (f64, f64), ratio: f64, nyquist: f64) -> f64 {
+        let golden = (5.0_f64.sqrt() - 1.0) / 2.0;
+        let (mut low, mut high) = ((best / ratio).ln(), (best * ratio).min(nyquist).ln());
+        for _ in 0..REFINEMENTS {
+            let (left, right) = (high - golden * (high - low), low + golden * (high - low));
+            let (at_left, at_right) = (self.sensitivity(left.exp()), self.sensitivity(right.exp()));
+            peak = peak.max(at_left).max(at_right);
+            if at_left > at_right { high = right } else { low = left }
+        }
+        peak
+    }
+}
+
+/// `K (1 + Ts/(2 Ti) (z + 1)/(z − 1))` (Cocota 2009, eq. 4.2).
+fn tustin_pi(settings: &PiSettings, sampling_time_s: f64, z: Complex) -> Complex {
+    let integral = sampling_time_s / (2.0 * settings.integral_time_s);
+    ((z + 1.0) / (z - 1.0) * integral + 1.0) * settings.gain
+}
+
+/// `1/σ_min` of a 2 × 2 matrix, from `σ₁² + σ₂² = ‖M‖²` and `σ₁ σ₂ = |det M|`.
+fn largest_singular_value_of_inverse(m: &Matrix2<Complex>) -> f64 {
+    let sum = m.iter().map(Complex::norm_sqr).sum::<f64>();
+    let product = (m[(0, 0)] * m[(1, 1)] - m[(0, 1)] * m[(1, 0)]).norm();
+    let difference = ((sum - 2.0 * product) * (sum + 2.0 * product)).max(0.0).sqrt();
+    ((sum + difference) / 2.0).sqrt() / product
+}
