@@ -1,4 +1,4 @@
-use super::{Axis, Chart};
+use super::{Axis, Chart, legend};
 
 /// Heights and widths of what surrounds a plot (CSS px).
 pub(super) mod measure {
@@ -6,6 +6,8 @@ pub(super) mod measure {
     pub const FONT: f64 = 11.0;
     /// Width of a digit at that size, on the wide side.
     pub const DIGIT: f64 = 6.4;
+    /// Width of a character of running text at that size, on the wide side.
+    pub const CHARACTER: f64 = 6.0;
     /// Space between the plot and its tick numbers.
     pub const TICK_GAP: f64 = 6.0;
     /// Room for a line of text.
@@ -127,9 +129,10 @@ fn ticks_in(length: f64, distance: f64) -> usize {
 pub fn layout(charts: &[Chart], size: Size) -> Vec<Frame> {
     let size = size.clamped();
     let weights = charts.iter().map(|chart| weight(chart)).sum::<f64>();
-    let decoration = charts.iter().map(|chart| above(chart) + below(&chart.x)).sum::<f64>();
+    let decoration = charts.iter().map(|chart| above(chart, size.width) + below(&chart.x)).sum::<f64>();
     let height_per_weight = (size.height - decoration).max(0.0) / weights.max(f64::MIN_POSITIVE);
-    let heights = charts.iter().map(|chart| above(chart) + below(&chart.x) + weight(chart) * height_per_weight);
+    let heights =
+        charts.iter().map(|chart| above(chart, size.width) + below(&chart.x) + weight(chart) * height_per_weight);
     let tops = heights.clone().scan(0.0, |top, height| Some(std::mem::replace(top, *top + height)));
     let outers: Vec<Rect> =
         tops.zip(heights).map(|(top, height)| Rect { left: 0.0, top, width: size.width, height }).collect();
@@ -141,8 +144,8 @@ fn weight(chart: &Chart) -> f64 {
     if chart.weight.is_finite() { chart.weight.clamp(1e-3, 1e3) } else { 1.0 }
 }
 
-fn above(chart: &Chart) -> f64 {
-    TOP + if chart.legend.is_empty() { 0.0 } else { LINE + 2.0 }
+fn above(chart: &Chart, width: f64) -> f64 {
+    TOP + legend::height(&chart.legend, width)
 }
 
 fn below(x: &Axis) -> f64 {
@@ -152,7 +155,7 @@ fn below(x: &Axis) -> f64 {
 
 /// Width that the y axis needs to the left of the plot.
 fn beside(chart: &Chart, outer: &Rect) -> f64 {
-    let rows = ticks_in(outer.height - above(chart) - below(&chart.x), TICK_DISTANCE.1);
+    let rows = ticks_in(outer.height - above(chart, outer.width) - below(&chart.x), TICK_DISTANCE.1);
     let numbers = chart.y.ticks(rows).iter().map(|tick| tick.text('.').chars().count()).max().unwrap_or(0);
     let numbers = if chart.y.numbered { numbers.max(LEAST_CHARACTERS) as f64 * DIGIT + TICK_GAP } else { TOP };
     numbers + if chart.y.label.is_empty() { 0.0 } else { LINE }
@@ -160,14 +163,15 @@ fn beside(chart: &Chart, outer: &Rect) -> f64 {
 
 fn frame(chart: &Chart, outer: Rect, left: f64) -> Frame {
     let width = (outer.width - left - RIGHT).max(1.0);
-    let height = (outer.height - above(chart) - below(&chart.x)).max(1.0);
+    let height = (outer.height - above(chart, outer.width) - below(&chart.x)).max(1.0);
     let side = width.min(height);
     let (width, height, indent) = if chart.square { (side, side, (width - side) / 2.0) } else { (width, height, 0.0) };
     let plot = Rect {
         left: (outer.left + left + indent).round(),
-        top: (outer.top + above(chart)).round(),
+        top: (outer.top + above(chart, outer.width)).round(),
         width: width.floor().max(1.0),
         height: height.floor().max(1.0),
     };
+    let outer = Rect { left: outer.left + indent, width: outer.width - indent, ..outer };
     Frame { outer, plot, x: chart.x.span(), y: chart.y.span() }
 }
