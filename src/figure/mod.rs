@@ -1,1 +1,40 @@
 //! Charts as data, and how to paint them on any plotters backend.
+//!
+//! A picture is made in three steps that know little of each other:
+//!
+//! 1. A builder ([`valve_plane`], [`pole_zero`], [`responses`]) turns numbers and words into [`Chart`]s: axes and
+//!    layers, in the units of the axes. The words come from the caller; this room knows no language.
+//! 2. [`layout`] says where on the page each chart stands. Its [`Frame`]s map data to CSS pixels and back; the painter
+//!    uses them, and so does the app for cursors and handles.
+//! 3. [`paint`] draws on any plotters [`DrawingBackend`](plotters::prelude::DrawingBackend): the canvas on screen, the
+//!    recorder of the tests, or the SVG backend behind [`to_svg`].
+//!
+//! Plotters gives the backends and the shapes. Its own charts are not used: they measure text with fonts that the
+//! browser does not offer them, take whole pixels, and draw every point of a curve even outside the plot.
+
+mod axis;
+mod chart;
+mod field;
+mod frame;
+mod legend;
+mod number;
+mod paint;
+mod palette;
+mod pole_zero;
+mod responses;
+mod svg;
+mod table;
+mod trace;
+mod valve_plane;
+
+pub use axis::{Axis, Tick};
+pub use chart::{Anchor, Chart, Course, Entry, Field, Label, Layer, Marker, Pen, Role, Sample, Series, Shape};
+pub use frame::{Frame, Rect, Size, layout};
+pub use number::signed;
+pub use paint::{FONT_FAMILY, PaintError, Style, paint};
+pub use palette::{Palette, Rgb};
+pub use pole_zero::{PoleZero, PoleZeroTexts, pole_zero};
+pub use responses::{ResponseTexts, Responses, RunColumns, responses};
+pub use svg::to_svg;
+pub use table::{Summary, Table, table};
+pub use valve_plane::{ValvePlane, ValvePlaneTexts, valve_plane};

@@ -1,7 +1,9 @@
-use crate::interaction::PairingVerdict;
-use crate::linear::{Complex, LinearError, StateSpace, TransmissionZero};
+use crate::interaction::{PairingVerdict, niederlinski, recommend_pairing, relative_gain_array};
+use crate::linear::{Complex, LinearError, StateSpace, TransmissionZero, transmission_zeros};
 use crate::plant::{OperatingPoint, PlantError};
-use crate::sim::ClosedLoop;
+use crate::sim::{ClosedLoop, closed_loop};
+
+use super::{ScenarioError, Setup};
 
 /// All that linear theory says about a setup, at the exact equilibrium of its inputs.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,6 +30,31 @@ pub struct Analysis {
     pub verdict: PairingVerdict,
     /// The sampled closed loop with the controller of the setup.
     pub closed_loop: ClosedLoop,
-    /// Largest singular value of the sensitivity over frequency, Ms; `None` when the loop is not stable.
-    pub sensitivity_peak: Option<f64>,
+}
+
+/// Asks linear theory about a setup.
+///
+/// # Errors
+/// [`ScenarioError::Plant`] when levels are given and no input holds them, [`ScenarioError::Linear`] when the model has
+/// no poles or no steady-state gain. Questions that only singular plants leave open are answered by an error in place.
+pub fn analyse(setup: &Setup) -> Result<Analysis, ScenarioError> {
+    let plant = setup.plant();
+    let operating_point = setup.operating_point()?;
+    let jacobian = plant.linearise(&operating_point);
+    let (a, b, c) = jacobian.reduced();
+    let model = StateSpace::strictly_proper(a, b, c)?;
+    let gain = model.dc_gain()?;
+    Ok(Analysis {
+        operating_point,
+        out_of_range: plant.violations(&operating_point),
+        time_constants_s: plant.time_constants_s(&operating_point),
+        poles: model.poles()?,
+        zeros: transmission_zeros(&model),
+        dc_gain: [[gain[(0, 0)], gain[(0, 1)]], [gain[(1, 0)], gain[(1, 1)]]],
+        rga_11: relative_gain_array(&gain).map(|array| array[(0, 0)]),
+        niederlinski: niederlinski(&gain),
+        verdict: recommend_pairing(&gain),
+        closed_loop: closed_loop(&jacobian, &setup.controller, plant.power_gain)?,
+        model,
+    })
 }

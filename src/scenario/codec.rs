@@ -1,1 +1,59 @@
-//! To be written.
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+
+use super::{Scenario, ScenarioError};
+
+/// Longest document that is read (bytes): far more than any scenario needs.
+pub const DOCUMENT_LIMIT: usize = 64 * 1024;
+
+/// The part of a document that every version has; all else is skipped.
+#[derive(Deserialize)]
+struct Versioned {
+    version: u64,
+}
+
+/// Reads a scenario from JSON: length, then version, then shape, then every number.
+///
+/// # Errors
+/// [`ScenarioError::TooLong`], [`ScenarioError::UnknownVersion`], [`ScenarioError::Malformed`] (which names the field),
+/// or what [`Scenario::validate`] finds.
+pub fn from_json(text: &str) -> Result<Scenario, ScenarioError> {
+    if text.len() > DOCUMENT_LIMIT {
+        return Err(ScenarioError::TooLong { length: text.len(), max: DOCUMENT_LIMIT });
+    }
+    let Versioned { version } = parse(text)?;
+    // A later version is read here too: into its own types, then brought up to date.
+    let scenario: Scenario = match version {
+        1 => parse(text)?,
+        found => return Err(ScenarioError::UnknownVersion { found, newest: Scenario::VERSION }),
+    };
+    scenario.validate()?;
+    Ok(scenario)
+}
+
+/// Writes a scenario as JSON, indented; all digits of all numbers are kept.
+///
+/// # Errors
+/// What [`Scenario::validate`] finds: a document that could not be read again is not written.
+pub fn to_json(scenario: &Scenario) -> Result<String, ScenarioError> {
+    scenario.validate()?;
+    serde_json::to_string_pretty(scenario).map_err(|error| malformed(DOCUMENT, &error))
+}
+
+/// Path of an error that concerns no single field.
+const DOCUMENT: &str = "document";
+
+/// Reads JSON to its end; an error names the field by its path.
+fn parse<T: DeserializeOwned>(text: &str) -> Result<T, ScenarioError> {
+    let mut json = serde_json::Deserializer::from_str(text);
+    let value = serde_path_to_error::deserialize(&mut json).map_err(|error| {
+        let path = error.path().to_string();
+        malformed(if path == "." { DOCUMENT } else { &path }, error.inner())
+    })?;
+    json.end().map_err(|error| malformed(DOCUMENT, &error))?;
+    Ok(value)
+}
+
+pub(super) fn malformed(path: &str, reason: &serde_json::Error) -> ScenarioError {
+    ScenarioError::Malformed { path: path.to_owned(), reason: reason.to_string() }
+}

@@ -1,13 +1,15 @@
 use serde::{Deserialize, Serialize};
 
 use crate::control::DecentralisedPi;
-use crate::plant::{DisplayUnit, PresetId, QuadrupleTank};
+use crate::plant::{DisplayUnit, OperatingPoint, PresetId, QuadrupleTank};
 use crate::sim::Experiment;
+
+use super::ScenarioError;
 
 /// The plant of a setup: a published rig by name, or all its parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
-#[serde(rename_all = "kebab-case")]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
 #[expect(clippy::large_enum_variant, reason = "one per scenario, and plain data is easier to share than a box")]
 pub enum PlantSpec {
     /// A published rig; its valves are overridden by those of the setup.
@@ -47,6 +49,37 @@ pub struct Setup {
     pub controller: DecentralisedPi,
     /// What is done to it.
     pub experiment: Experiment,
+}
+
+impl Setup {
+    /// The rig, with the valves of this setup.
+    pub fn plant(&self) -> QuadrupleTank {
+        let rig = match self.plant {
+            PlantSpec::Preset(id) => id.preset().plant,
+            PlantSpec::Parameters { rig, .. } => rig,
+        };
+        rig.with_valves(self.valves)
+    }
+
+    /// The unit to show levels in.
+    pub fn display_unit(&self) -> DisplayUnit {
+        match self.plant {
+            PlantSpec::Preset(id) => id.preset().display_unit,
+            PlantSpec::Parameters { display_unit, .. } => display_unit,
+        }
+    }
+
+    /// The equilibrium that the experiment starts from, whether or not walls and pumps allow it.
+    ///
+    /// # Errors
+    /// [`ScenarioError::Plant`] when levels are given and no input holds them.
+    pub fn operating_point(&self) -> Result<OperatingPoint, ScenarioError> {
+        let plant = self.plant();
+        match self.operating_point {
+            OperatingPointSpec::PumpVoltage(voltage) => Ok(plant.free_equilibrium(voltage)),
+            OperatingPointSpec::Levels(levels) => Ok(plant.inputs_for_levels(levels)?),
+        }
+    }
 }
 
 /// What the screen shows beside the run itself. Nothing here changes a number.

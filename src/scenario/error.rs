@@ -45,9 +45,9 @@ pub enum ScenarioError {
         newest: u32,
     },
     /// A document or link longer than any scenario.
-    #[error("the document has {length} bytes, at most {max} are read")]
+    #[error("the document is longer than {max} bytes")]
     TooLong {
-        /// Its length.
+        /// Its length, as far as it was read.
         length: usize,
         /// The limit.
         max: usize,
@@ -56,7 +56,7 @@ pub enum ScenarioError {
     #[error("the link is damaged or cut off")]
     DamagedLink,
     /// The plant has no such operating point.
-    #[error(transparent)]
+    #[error("setup.operating_point: {0}")]
     Plant(#[from] PlantError),
     /// The linear model does not answer.
     #[error(transparent)]

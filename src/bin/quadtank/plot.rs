@@ -1,0 +1,135 @@
+use clap::ValueEnum;
+use quadtank::figure::{
+    self, Palette, PoleZero, PoleZeroTexts, ResponseTexts, Responses, RunColumns, Size, Style, ValvePlane,
+    ValvePlaneTexts, to_svg,
+};
+use quadtank::plant::{DisplayUnit, PresetId};
+use quadtank::scenario::{ScenarioError, Setup, ValveMap, analyse, run};
+use quadtank::sim::Trajectory;
+
+/// What can be drawn.
+#[derive(Clone, Copy, ValueEnum)]
+pub enum Chart {
+    /// Levels, references and pump voltages over time
+    Responses,
+    /// The right-most zero over the valves
+    ValvePlane,
+    /// Poles and zeros, open and closed loop
+    PoleZero,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+pub enum Colours {
+    Light,
+    Dark,
+}
+
+/// Draws a chart of a setup as an SVG document.
+pub fn svg(setup: &Setup, chart: Chart, colours: Colours) -> Result<String, ScenarioError> {
+    let palette = match colours {
+        Colours::Light => Palette::LIGHT,
+        Colours::Dark => Palette::DARK,
+    };
+    let style = Style { palette, decimal: '.', scale: 8 };
+    match chart {
+        Chart::Responses => responses(setup, &style),
+        Chart::ValvePlane => valve_plane(setup, &style),
+        Chart::PoleZero => pole_zero(setup, &style),
+    }
+}
+
+fn responses(setup: &Setup, style: &Style) -> Result<String, ScenarioError> {
+    let run = run(setup)?;
+    let plant = setup.plant();
+    let (level, level_scale) = match setup.display_unit() {
+        DisplayUnit::Cm => ("level (cm)", 100.0),
+        DisplayUnit::Mm => ("level (mm)", 1000.0),
+    };
+    let [pump_1, pump_2] = plant.pumps;
+    let charts = figure::responses(&Responses {
+        nonlinear: columns(&run.nonlinear),
+        references: run.nonlinear.references.each_ref().map(Vec::as_slice),
+        linear: Some(columns(&run.linear)),
+        pinned: None,
+        level_scale,
+        walls: [plant.tanks[0].height, plant.tanks[1].height],
+        voltage_limits: (pump_1.voltage_min.min(pump_2.voltage_min), pump_1.voltage_max.max(pump_2.voltage_max)),
+        window_s: None,
+        texts: ResponseTexts {
+            time: "time (s)",
+            level,
+            voltage: "pump voltage (V)",
+            levels: ["level 1", "level 2"],
+            references: ["reference 1", "reference 2"],
+            voltages: ["pump 1", "pump 2"],
+            reference: "reference",
+            linear: "linear model",
+            pinned: "",
+        },
+    });
+    let size = Size { width: 840.0, height: 560.0 };
+    let description = "Levels of tanks 1 and 2 with their references, and the voltages of pumps 1 and 2.";
+    Ok(to_svg(&charts, size, style, "Responses", description))
+}
+
+fn columns(trajectory: &Trajectory) -> RunColumns<'_> {
+    let Trajectory { time_s, levels: [level_1, level_2, ..], pump_voltage, .. } = trajectory;
+    RunColumns { time_s, levels: [level_1, level_2], voltages: pump_voltage.each_ref().map(Vec::as_slice) }
+}
+
+fn valve_plane(setup: &Setup, style: &Style) -> Result<String, ScenarioError> {
+    let map = ValveMap::of(setup)?;
+    let published = PresetId::ALL.map(|id| (label(id), id.preset().plant.valves));
+    let [t3, t4] = map.upper_time_constants_s([0.5, 0.5]);
+    let chart = figure::valve_plane(&ValvePlane {
+        right_most_zero: &|valves| map.rightmost_zero(valves),
+        halfway_zero: (t3 * t4).sqrt().recip(),
+        published: &published,
+        setting: Some(setup.valves),
+        texts: ValvePlaneTexts {
+            gamma_1: "γ1",
+            gamma_2: "γ2",
+            boundary: "γ1 + γ2 = 1",
+            minimum_phase: "minimum phase",
+            right_half_plane: "zero in the right half-plane",
+        },
+    });
+    let size = Size { width: 560.0, height: 560.0 };
+    let description = "The valve fractions, shaded by the right-most transmission zero, with the published settings.";
+    Ok(to_svg(&[chart], size, style, "Valve plane", description))
+}
+
+fn label(id: PresetId) -> &'static str {
+    match id {
+        PresetId::JohanssonMinimumPhase => "Johansson P−",
+        PresetId::JohanssonNonMinimumPhase => "Johansson P+",
+        PresetId::CocotaMinimumPhase => "Cocota P−",
+        PresetId::CocotaNonMinimumPhase => "Cocota P+",
+        PresetId::JunqueiraA => "Junqueira a",
+        PresetId::JunqueiraB => "Junqueira b",
+    }
+}
+
+fn pole_zero(setup: &Setup, style: &Style) -> Result<String, ScenarioError> {
+    /// Points along the way of a zero.
+    const POINTS: usize = 200;
+    let analysis = analyse(setup)?;
+    let zeros: Vec<_> = analysis.zeros.iter().flatten().map(|zero| zero.value).collect();
+    let chart = figure::pole_zero(&PoleZero {
+        poles: &analysis.poles,
+        zeros: &zeros,
+        zero_paths: &ValveMap::of(setup)?.zero_paths(POINTS),
+        closed_loop: &analysis.closed_loop.poles_s,
+        decimal: '.',
+        texts: PoleZeroTexts {
+            real: "real part (1/s)",
+            imaginary: "imaginary part (1/s)",
+            poles: "poles",
+            zeros: "zeros",
+            closed_loop: "closed loop",
+        },
+    });
+    let size = Size { width: 720.0, height: 480.0 };
+    let description = "Poles and transmission zeros of the linear model, and the poles of the closed loop.";
+    Ok(to_svg(&[chart], size, style, "Poles and zeros", description))
+}

@@ -1,0 +1,241 @@
+use std::borrow::Cow;
+
+use super::Axis;
+
+/// A chart as plain data: two axes and what is drawn between them, from the back to the front. Nothing here knows
+/// pixels or colours; [`layout`](super::layout) and [`Palette`](super::Palette) add those.
+///
+/// Series borrow their columns from whoever owns them (a trajectory, say), so a chart is cheap to build anew for every
+/// frame; a chart of owned columns is a `Chart<'static>`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Chart<'a> {
+    /// The horizontal axis.
+    pub x: Axis,
+    /// The vertical axis.
+    pub y: Axis,
+    /// What is drawn, from the back to the front.
+    pub layers: Vec<Layer<'a>>,
+    /// Explanation of lines and markers above the plot; empty where the page around the chart explains them.
+    pub legend: Vec<Entry>,
+    /// Share of the height among the charts of a figure.
+    pub weight: f64,
+    /// Whether the plot is as high as wide.
+    pub square: bool,
+}
+
+impl<'a> Chart<'a> {
+    /// A chart without content.
+    pub fn new(x: Axis, y: Axis) -> Self {
+        Self { x, y, layers: Vec::new(), legend: Vec::new(), weight: 1.0, square: false }
+    }
+
+    /// The series among the layers, from the back to the front.
+    pub fn series(&self) -> impl Iterator<Item = &Series<'a>> {
+        self.layers.iter().filter_map(|layer| match layer {
+            Layer::Line(series) => Some(series),
+            _ => None,
+        })
+    }
+}
+
+/// One thing that is drawn in a chart. What lies outside the plot rectangle is cut off.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Layer<'a> {
+    /// Smooth shading of the whole plane.
+    Field(Field),
+    /// A rectangle in a pale shade of its role; bounds may be infinite, so half-planes and bands are regions too.
+    Region {
+        /// Left and right bound.
+        x: (f64, f64),
+        /// Lower and upper bound.
+        y: (f64, f64),
+        /// What it stands for.
+        role: Role,
+    },
+    /// A curve.
+    Line(Series<'a>),
+    /// A straight line across the plot, upright at a value of x.
+    Upright {
+        /// Where.
+        x: f64,
+        /// What it stands for.
+        role: Role,
+        /// How it is drawn.
+        pen: Pen,
+    },
+    /// A straight line across the plot, level at a value of y.
+    Level {
+        /// Where.
+        y: f64,
+        /// What it stands for.
+        role: Role,
+        /// How it is drawn.
+        pen: Pen,
+    },
+    /// A mark at a point.
+    Marker(Marker),
+    /// A word at a point.
+    Label(Label),
+}
+
+/// What a thing in a chart stands for; decides its colour.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Role {
+    /// Loop 1 with its level, reference and pump.
+    Loop1,
+    /// Loop 2 with its level, reference and pump.
+    Loop2,
+    /// Left half-plane, minimum phase.
+    MinimumPhase,
+    /// Right half-plane: a zero or a pole on the wrong side.
+    RightHalfPlane,
+    /// Poles of the closed loop.
+    ClosedLoop,
+    /// Anything else.
+    Neutral,
+    /// Anything else, in the background.
+    Muted,
+}
+
+impl Role {
+    /// The role of loop 1 or 2, by index 0 or 1.
+    pub fn of_loop(index: usize) -> Self {
+        if index == 0 { Self::Loop1 } else { Self::Loop2 }
+    }
+}
+
+/// How a line is drawn. The meaning is the same in every chart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Pen {
+    /// What happens: the nonlinear plant.
+    Solid,
+    /// What the linear model says.
+    Dotted,
+    /// What is wanted: references; and limits.
+    Dashed,
+    /// What was: a pinned run.
+    Faded,
+    /// A thin line that only guides the eye.
+    Hair,
+}
+
+/// How a curve goes from one point to the next.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Course {
+    /// Straight.
+    Straight,
+    /// It holds its value until the next point, as the input of a sampled loop does.
+    Held,
+}
+
+/// A curve: two columns of equal length (if not, the shorter counts). A point that is not finite interrupts it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Series<'a> {
+    /// Name as shown in tables; may be empty.
+    pub name: Cow<'a, str>,
+    /// What it stands for.
+    pub role: Role,
+    /// How it is drawn.
+    pub pen: Pen,
+    /// From point to point.
+    pub course: Course,
+    /// Abscissae. Rising ones are drawn at a cost that hardly depends on their number.
+    pub x: Cow<'a, [f64]>,
+    /// Ordinates in the unit of their source.
+    pub y: Cow<'a, [f64]>,
+    /// Factor from that unit to the one of the axis.
+    pub y_scale: f64,
+}
+
+/// A function on a rectangle, for shading: −1 is deep in the minimum-phase colour, 0 the background, +1 deep in the
+/// colour of the right half-plane.
+///
+/// Values are sampled on a grid of nodes, row by row from below. Shading of either sign must be one interval in every
+/// row, which holds for any function that is monotone in x.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Field {
+    /// Left and right end.
+    pub x: (f64, f64),
+    /// Lower and upper end.
+    pub y: (f64, f64),
+    /// Nodes in a row, at least 2.
+    pub columns: usize,
+    /// Shades at the nodes, `rows × columns`.
+    pub shades: Vec<f64>,
+}
+
+/// A mark at a point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Marker {
+    /// Where (x, y).
+    pub at: (f64, f64),
+    /// Its shape.
+    pub shape: Shape,
+    /// What it stands for.
+    pub role: Role,
+    /// Whether a point outside the plot shows as an arrow at its edge instead of nothing.
+    pub points_beyond: bool,
+}
+
+/// The shape of a mark.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Shape {
+    /// × (poles).
+    Cross,
+    /// ○ (zeros).
+    Ring,
+    /// ◆ (closed-loop poles).
+    Diamond,
+    /// A small ring with the background inside (published points).
+    Point,
+    /// A large disc that can be dragged.
+    Handle,
+}
+
+/// A word at a point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Label {
+    /// Where (x, y).
+    pub at: (f64, f64),
+    /// Offset from there in CSS px, to the right and downwards.
+    pub offset: (f64, f64),
+    /// Which side of the text is there.
+    pub anchor: Anchor,
+    /// The text.
+    pub text: String,
+    /// Its colour.
+    pub role: Role,
+    /// Whether it is bold.
+    pub bold: bool,
+}
+
+/// Which part of a text stands at its point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Anchor {
+    /// Its left end.
+    Left,
+    /// Its middle.
+    Middle,
+    /// Its right end.
+    Right,
+}
+
+/// A line of the legend.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Entry {
+    /// The sample in front of the text.
+    pub sample: Sample,
+    /// What it stands for.
+    pub role: Role,
+    /// The text.
+    pub text: String,
+}
+
+/// The sample of a legend.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sample {
+    /// A piece of line.
+    Line(Pen),
+    /// A mark.
+    Mark(Shape),
+}

@@ -1,0 +1,363 @@
+use plotters::coord::Shift;
+use plotters::drawing::DrawingAreaErrorKind;
+use plotters::element::{Circle, PathElement, Polygon};
+use plotters::prelude::{DrawingArea, DrawingBackend};
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plotters::style::{FontDesc, FontFamily, FontStyle, FontTransform, RGBAColor, ShapeStyle, TextStyle};
+
+use super::frame::measure::{CHARACTER, FONT, LINE, TICK_GAP};
+use super::legend::{self, SAMPLE};
+use super::trace::{self, Px};
+use super::{
+    Anchor, Axis, Chart, Frame, Label, Layer, Marker, Palette, Pen, Rect, Rgb, Sample, Shape, Size, field, layout,
+};
+
+/// What can go wrong while painting: only what the backend reports.
+pub type PaintError<DB> = DrawingAreaErrorKind<<DB as DrawingBackend>::ErrorType>;
+
+/// Fonts of the charts, as a CSS family list: those of the page, nothing to load.
+pub const FONT_FAMILY: &str = "system-ui, -apple-system, Segoe UI, Roboto, DejaVu Sans, sans-serif";
+
+/// How charts look, apart from what they show.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Style {
+    /// Colours.
+    pub palette: Palette,
+    /// Decimal separator of the reader's language.
+    pub decimal: char,
+    /// Backend pixels per CSS px. Backends of plotters take whole pixels only; curves are smooth with 8.
+    pub scale: u32,
+}
+
+/// A part of a chart, as announced while painting.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Part<'a> {
+    /// Shades under the grid, or lines and marks on it.
+    Layer(&'a Layer<'a>),
+    /// Grid, edge, numbers and labels.
+    Axes,
+    /// Legend.
+    Legend,
+}
+
+/// Paints charts on top of each other onto `area`, which stands for a figure of `size` in CSS px and has
+/// `style.scale` pixels for each of them. The background is left as it is. The frames are those of [`layout`].
+///
+/// # Errors
+/// What the backend reports.
+pub fn paint<DB: DrawingBackend>(
+    area: &DrawingArea<DB, Shift>,
+    charts: &[Chart],
+    size: Size,
+    style: &Style,
+) -> Result<(), PaintError<DB>> {
+    paint_parts(area, charts, size, style, |_| ())
+}
+
+/// As [`paint`], and announces every part before it is painted.
+pub(super) fn paint_parts<DB: DrawingBackend>(
+    area: &DrawingArea<DB, Shift>,
+    charts: &[Chart],
+    size: Size,
+    style: &Style,
+    mut announce: impl FnMut(Part),
+) -> Result<(), PaintError<DB>> {
+    for (chart, frame) in charts.iter().zip(layout(charts, size)) {
+        let brush = Brush { area, style, frame };
+        let shades = |layer: &&Layer| matches!(layer, Layer::Field(_) | Layer::Region { .. });
+        for layer in chart.layers.iter().filter(shades) {
+            announce(Part::Layer(layer));
+            brush.layer(layer)?;
+        }
+        announce(Part::Axes);
+        brush.axes(chart)?;
+        for layer in chart.layers.iter().filter(|layer| !shades(layer)) {
+            announce(Part::Layer(layer));
+            brush.layer(layer)?;
+        }
+        if !chart.legend.is_empty() {
+            announce(Part::Legend);
+            brush.legend(chart)?;
+        }
+    }
+    Ok(())
+}
+
+/// Width of a line (CSS px).
+fn width(pen: Pen) -> f64 {
+    match pen {
+        Pen::Solid => 2.0,
+        Pen::Dotted => 1.8,
+        Pen::Dashed => 1.3,
+        Pen::Faded => 1.3,
+        Pen::Hair => 1.0,
+    }
+}
+
+/// Lengths drawn and left out (CSS px).
+fn dash(pen: Pen) -> Option<(f64, f64)> {
+    match pen {
+        Pen::Dotted => Some((1.8, 2.7)),
+        Pen::Dashed => Some((5.0, 3.5)),
+        Pen::Solid | Pen::Faded | Pen::Hair => None,
+    }
+}
+
+/// Paints the things of one chart, given in CSS px.
+struct Brush<'a, DB: DrawingBackend> {
+    area: &'a DrawingArea<DB, Shift>,
+    style: &'a Style,
+    frame: Frame,
+}
+
+impl<DB: DrawingBackend> Brush<'_, DB> {
+    fn layer(&self, layer: &Layer) -> Result<(), PaintError<DB>> {
+        let (palette, plot) = (&self.style.palette, &self.frame.plot);
+        match layer {
+            Layer::Field(field) => field::patches(field).iter().try_for_each(|patch| {
+                let outline: Vec<Px> = patch.outline.iter().map(|&point| self.inside(point)).collect();
+                self.polygon(&outline, palette.shade(patch.shade))
+            }),
+            &Layer::Region { x, y, role } => {
+                let ((left, bottom), (right, top)) = (self.inside((x.0, y.0)), self.inside((x.1, y.1)));
+                let corners = [(left, top), (right, top), (right, bottom), (left, bottom)];
+                self.polygon(&corners, palette.region(role))
+            }
+            Layer::Line(series) => trace::polylines(series, &self.frame)
+                .iter()
+                .try_for_each(|run| self.line(run, palette.line(series.role, series.pen), series.pen)),
+            &Layer::Upright { x, role, pen } => {
+                let x = self.frame.x_px(x);
+                self.straight((x, plot.bottom()), (x, plot.top), palette.line(role, pen), pen)
+            }
+            &Layer::Level { y, role, pen } => {
+                let y = self.frame.y_px(y);
+                self.straight((plot.left, y), (plot.right(), y), palette.line(role, pen), pen)
+            }
+            Layer::Marker(marker) => self.marker(marker),
+            Layer::Label(label) => self.label(label),
+        }
+    }
+
+    /// A line across the plot, if it is in it.
+    fn straight(&self, from: Px, to: Px, color: Rgb, pen: Pen) -> Result<(), PaintError<DB>> {
+        let finite = [from.0, from.1, to.0, to.1].into_iter().all(f64::is_finite);
+        match trace::clipped(&self.frame.plot, from, to).filter(|_| finite) {
+            Some((from, to)) => self.line(&[from, to], color, pen),
+            None => Ok(()),
+        }
+    }
+
+    fn line(&self, run: &[Px], color: Rgb, pen: Pen) -> Result<(), PaintError<DB>> {
+        match dash(pen) {
+            None => self.path(run, color, width(pen)),
+            Some((on, off)) => {
+                trace::dashes(run, on, off).iter().try_for_each(|dash| self.path(dash, color, width(pen)))
+            }
+        }
+    }
+
+    /// Pixel of a point of the data, or of the nearest point of the plot.
+    fn inside(&self, point: (f64, f64)) -> Px {
+        let (x, y) = self.frame.to_px(point);
+        let plot = &self.frame.plot;
+        let within = |v: f64, low: f64, high: f64| if v.is_nan() { low } else { v.clamp(low, high) };
+        (within(x, plot.left, plot.right()), within(y, plot.top, plot.bottom()))
+    }
+
+    fn marker(&self, marker: &Marker) -> Result<(), PaintError<DB>> {
+        let color = self.style.palette.color(marker.role);
+        let point = self.frame.to_px(marker.at);
+        if point.0.is_nan() || point.1.is_nan() {
+            return Ok(());
+        }
+        let edge = self.inside(marker.at);
+        // Half a pixel of rounding is not outside.
+        if (point.0 - edge.0).abs().max((point.1 - edge.1).abs()) < 0.5 {
+            self.mark(marker.shape, edge, color)
+        } else if marker.points_beyond {
+            self.arrow(edge, point, color)
+        } else {
+            Ok(())
+        }
+    }
+
+    fn mark(&self, shape: Shape, (x, y): Px, color: Rgb) -> Result<(), PaintError<DB>> {
+        let background = self.style.palette.background;
+        match shape {
+            Shape::Cross => {
+                let arm = 4.0;
+                self.path(&[(x - arm, y - arm), (x + arm, y + arm)], color, 1.9)?;
+                self.path(&[(x - arm, y + arm), (x + arm, y - arm)], color, 1.9)
+            }
+            Shape::Ring => {
+                self.disc((x, y), 5.0, background)?;
+                self.circle((x, y), 5.0, color, 2.0)
+            }
+            Shape::Diamond => self.polygon(&[(x - 4.5, y), (x, y - 4.5), (x + 4.5, y), (x, y + 4.5)], color),
+            Shape::Point => {
+                self.disc((x, y), 3.6, background)?;
+                self.circle((x, y), 3.6, color, 1.5)
+            }
+            Shape::Handle => {
+                self.disc((x, y), 8.0, background)?;
+                self.disc((x, y), 6.0, color)
+            }
+        }
+    }
+
+    /// A small arrow at the edge of the plot towards a point outside.
+    fn arrow(&self, (x, y): Px, target: Px, color: Rgb) -> Result<(), PaintError<DB>> {
+        let (dx, dy) = (target.0 - x, target.1 - y);
+        let (u, v) = if dx.abs() >= dy.abs() { (dx.signum(), 0.0) } else { (0.0, dy.signum()) };
+        let back = |along: f64, across: f64| (x - u * along - v * across, y - v * along + u * across);
+        self.polygon(&[back(1.0, 0.0), back(9.0, 5.0), back(9.0, -5.0)], color)
+    }
+
+    fn label(&self, label: &Label) -> Result<(), PaintError<DB>> {
+        let (x, y) = self.inside(label.at);
+        let length = label.text.chars().count() as f64 * if label.bold { CHARACTER * 1.08 } else { CHARACTER };
+        let (h_pos, behind, ahead) = match label.anchor {
+            Anchor::Left => (HPos::Left, 0.0, length),
+            Anchor::Middle => (HPos::Center, length / 2.0, length / 2.0),
+            Anchor::Right => (HPos::Right, length, 0.0),
+        };
+        let plot = &self.frame.plot;
+        let x = (x + label.offset.0).min(plot.right() - 2.0 - ahead).max(plot.left + 2.0 + behind);
+        let font = if label.bold { FontStyle::Bold } else { FontStyle::Normal };
+        let text = Text { text: &label.text, color: self.style.palette.color(label.role), font, h_pos, turned: false };
+        self.text(&text, (x, y + label.offset.1))
+    }
+
+    fn axes(&self, chart: &Chart) -> Result<(), PaintError<DB>> {
+        let Palette { grid, edge, .. } = self.style.palette;
+        let plot = &self.frame.plot;
+        let (columns, rows) = self.frame.tick_counts();
+        let (uprights, levels) = (chart.x.ticks(columns), chart.y.ticks(rows));
+        for tick in &uprights {
+            let x = snapped(self.frame.x_px(tick.value), plot.left, plot.right());
+            self.path(&[(x, plot.top), (x, plot.bottom())], grid, 1.0)?;
+        }
+        for tick in &levels {
+            let y = snapped(self.frame.y_px(tick.value), plot.top, plot.bottom());
+            self.path(&[(plot.left, y), (plot.right(), y)], grid, 1.0)?;
+        }
+        self.edge(plot, edge)?;
+        if chart.x.numbered {
+            for tick in &uprights {
+                let below = (self.frame.x_px(tick.value), plot.bottom() + TICK_GAP + LINE / 2.0 - 2.0);
+                self.note(&tick.text(self.style.decimal), HPos::Center, below)?;
+            }
+        }
+        if chart.y.numbered {
+            for tick in &levels {
+                let beside = (plot.left - TICK_GAP, self.frame.y_px(tick.value));
+                self.note(&tick.text(self.style.decimal), HPos::Right, beside)?;
+            }
+        }
+        self.axis_labels(&chart.x, &chart.y)
+    }
+
+    fn axis_labels(&self, x: &Axis, y: &Axis) -> Result<(), PaintError<DB>> {
+        let Frame { outer, plot, .. } = &self.frame;
+        let below = plot.bottom() + LINE / 2.0 + if x.numbered { TICK_GAP + LINE - 3.0 } else { 4.0 };
+        self.note(&x.label, HPos::Center, (plot.left + plot.width / 2.0, below))?;
+        let font = FontStyle::Normal;
+        let color = self.style.palette.muted;
+        let text = Text { text: &y.label, color, font, h_pos: HPos::Center, turned: true };
+        self.text(&text, (outer.left + LINE / 2.0, plot.top + plot.height / 2.0))
+    }
+
+    /// The edge of the plot, just inside it.
+    fn edge(&self, plot: &Rect, color: Rgb) -> Result<(), PaintError<DB>> {
+        let (left, right, top, bottom) = (plot.left + 0.5, plot.right() - 0.5, plot.top + 0.5, plot.bottom() - 0.5);
+        let corners = [(left, top), (right, top), (right, bottom), (left, bottom), (left, top)];
+        self.path(&corners, color, 1.0)
+    }
+
+    fn legend(&self, chart: &Chart) -> Result<(), PaintError<DB>> {
+        let Frame { outer, plot, .. } = &self.frame;
+        let palette = &self.style.palette;
+        for (entry, (left, row)) in chart.legend.iter().zip(legend::places(&chart.legend, outer.right())) {
+            let (x, y) = (plot.left + left, outer.top + (row + 0.5) * LINE + 2.0);
+            match entry.sample {
+                Sample::Line(pen) => self.line(&[(x, y), (x + SAMPLE - 5.0, y)], palette.line(entry.role, pen), pen)?,
+                Sample::Mark(shape) => self.mark(shape, (x + SAMPLE / 2.0, y), palette.color(entry.role))?,
+            }
+            self.note(&entry.text, HPos::Left, (x + SAMPLE, y))?;
+        }
+        Ok(())
+    }
+
+    /// Small print.
+    fn note(&self, text: &str, h_pos: HPos, at: Px) -> Result<(), PaintError<DB>> {
+        let color = self.style.palette.muted;
+        self.text(&Text { text, color, font: FontStyle::Normal, h_pos, turned: false }, at)
+    }
+
+    fn text(&self, text: &Text, at: Px) -> Result<(), PaintError<DB>> {
+        if text.text.is_empty() {
+            return Ok(());
+        }
+        let turn = if text.turned { FontTransform::Rotate270 } else { FontTransform::None };
+        let size = FONT * f64::from(self.style.scale);
+        let font = FontDesc::new(FontFamily::Name(FONT_FAMILY), size, text.font).transform(turn);
+        let color = opaque(text.color);
+        let style = TextStyle::from(font).color(&color).pos(Pos::new(text.h_pos, VPos::Center));
+        self.area.draw_text(text.text, &style, self.fine(at))
+    }
+
+    fn path(&self, points: &[Px], color: Rgb, width: f64) -> Result<(), PaintError<DB>> {
+        let points: Vec<_> = points.iter().map(|&point| self.fine(point)).collect();
+        self.area.draw(&PathElement::new(points, self.stroke(color, width)))
+    }
+
+    fn polygon(&self, points: &[Px], color: Rgb) -> Result<(), PaintError<DB>> {
+        let points: Vec<_> = points.iter().map(|&point| self.fine(point)).collect();
+        self.area.draw(&Polygon::new(points, opaque(color)))
+    }
+
+    fn circle(&self, center: Px, radius: f64, color: Rgb, width: f64) -> Result<(), PaintError<DB>> {
+        self.area.draw(&Circle::new(self.fine(center), self.length(radius), self.stroke(color, width)))
+    }
+
+    fn disc(&self, center: Px, radius: f64, color: Rgb) -> Result<(), PaintError<DB>> {
+        let filled = ShapeStyle::from(opaque(color)).filled();
+        self.area.draw(&Circle::new(self.fine(center), self.length(radius), filled))
+    }
+
+    fn stroke(&self, color: Rgb, width: f64) -> ShapeStyle {
+        ShapeStyle { color: opaque(color), filled: false, stroke_width: self.length(width) }
+    }
+
+    /// Pixel of the backend.
+    #[expect(clippy::cast_possible_truncation, reason = "the size of a figure is clamped far below i32")]
+    fn fine(&self, (x, y): Px) -> (i32, i32) {
+        let scale = f64::from(self.style.scale);
+        ((x * scale).round() as i32, (y * scale).round() as i32)
+    }
+
+    /// Length in pixels of the backend.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "lengths are small and positive")]
+    fn length(&self, length: f64) -> u32 {
+        (length * f64::from(self.style.scale)).round().max(1.0) as u32
+    }
+}
+
+/// A line of text, centred upwards on its point.
+struct Text<'a> {
+    text: &'a str,
+    color: Rgb,
+    font: FontStyle,
+    h_pos: HPos,
+    turned: bool,
+}
+
+/// The middle of the pixel in which a thin line is sharp.
+fn snapped(at: f64, low: f64, high: f64) -> f64 {
+    (at.floor() + 0.5).min(high - 0.5).max(low)
+}
+
+fn opaque(Rgb(red, green, blue): Rgb) -> RGBAColor {
+    RGBAColor(red, green, blue, 1.0)
+}

@@ -1,0 +1,95 @@
+use super::{Anchor, Axis, Chart, Course, Field, Label, Layer, Marker, Pen, Role, Series, Shape};
+
+/// Steps of the shading along each axis.
+const STEPS: u32 = 40;
+
+/// What the valve plane shows.
+pub struct ValvePlane<'a> {
+    /// Right-most transmission zero at the valve fractions γ1, γ2 (1/s); `None` where there is none that is finite.
+    pub right_most_zero: &'a dyn Fn([f64; 2]) -> Option<f64>,
+    /// The zero that is shaded halfway (1/s, positive); the reciprocal of a typical time constant of the upper tanks.
+    pub halfway_zero: f64,
+    /// Published settings: name, γ1, γ2.
+    pub published: &'a [(&'a str, [f64; 2])],
+    /// The present setting, for pictures; on screen it is a handle laid over the chart.
+    pub setting: Option<[f64; 2]>,
+    /// Words.
+    pub texts: ValvePlaneTexts<'a>,
+}
+
+/// The words of the valve plane.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ValvePlaneTexts<'a> {
+    /// Name of γ1, with its unit if it has one.
+    pub gamma_1: &'a str,
+    /// Name of γ2.
+    pub gamma_2: &'a str,
+    /// Beside the line γ1 + γ2 = 1.
+    pub boundary: &'a str,
+    /// Above that line.
+    pub minimum_phase: &'a str,
+    /// Below it.
+    pub right_half_plane: &'a str,
+}
+
+/// The plane of the two valves (Johansson 2000, sec. IV): shaded by the right-most zero, which crosses into the right
+/// half-plane where γ1 + γ2 falls below 1.
+pub fn valve_plane(spec: &ValvePlane) -> Chart<'static> {
+    let mut chart = Chart::new(Axis::new(spec.texts.gamma_1, (0.0, 1.0)), Axis::new(spec.texts.gamma_2, (0.0, 1.0)));
+    chart.square = true;
+    chart.layers.push(Layer::Field(shading(spec)));
+    chart.layers.push(line(Role::Neutral, Pen::Solid, [(0.0, 1.0), (1.0, 0.0)]));
+    chart.layers.extend(words(&spec.texts));
+    for &(name, [x, y]) in spec.published {
+        chart.layers.push(mark((x, y), Shape::Point));
+        chart.layers.push(word((x, y), (8.0, 0.0), Anchor::Left, name));
+    }
+    if let Some([x, y]) = spec.setting {
+        chart.layers.push(line(Role::Neutral, Pen::Dotted, [(0.0, y), (x, y)]));
+        chart.layers.push(line(Role::Neutral, Pen::Dotted, [(x, y), (x, 0.0)]));
+        chart.layers.push(mark((x, y), Shape::Handle));
+    }
+    chart
+}
+
+fn shading(spec: &ValvePlane) -> Field {
+    let node = |step: u32| f64::from(step) / f64::from(STEPS);
+    let shades = (0..=STEPS).flat_map(|row| (0..=STEPS).map(move |column| shade(spec, [node(column), node(row)])));
+    Field { x: (0.0, 1.0), y: (0.0, 1.0), columns: STEPS as usize + 1, shades: shades.collect() }
+}
+
+/// From −1 for a zero far to the left to 1 for one far to the right. Without a finite zero the side of the line counts.
+fn shade(spec: &ValvePlane, gammas: [f64; 2]) -> f64 {
+    match (spec.right_most_zero)(gammas).filter(|zero| zero.is_finite()) {
+        Some(zero) => zero / (zero.abs() + spec.halfway_zero.abs().max(f64::MIN_POSITIVE)),
+        None => 1.0 - gammas.iter().sum::<f64>(),
+    }
+}
+
+fn words(texts: &ValvePlaneTexts) -> [Layer<'static>; 3] {
+    [
+        word((0.0, 1.0), (22.0, 11.0), Anchor::Left, texts.boundary),
+        word((1.0, 0.86), (-6.0, 0.0), Anchor::Right, texts.minimum_phase),
+        word((0.0, 0.08), (6.0, 0.0), Anchor::Left, texts.right_half_plane),
+    ]
+}
+
+fn word(at: (f64, f64), offset: (f64, f64), anchor: Anchor, text: &str) -> Layer<'static> {
+    Layer::Label(Label { at, offset, anchor, text: text.into(), role: Role::Neutral, bold: false })
+}
+
+fn mark(at: (f64, f64), shape: Shape) -> Layer<'static> {
+    Layer::Marker(Marker { at, shape, role: Role::Neutral, points_beyond: false })
+}
+
+fn line(role: Role, pen: Pen, [from, to]: [(f64, f64); 2]) -> Layer<'static> {
+    Layer::Line(Series {
+        name: "".into(),
+        role,
+        pen,
+        course: Course::Straight,
+        x: vec![from.0, to.0].into(),
+        y: vec![from.1, to.1].into(),
+        y_scale: 1.0,
+    })
+}

@@ -1,0 +1,111 @@
+//! Between which values every number of a scenario lies: the one table that validation, sliders and number fields share.
+//!
+//! The limits are wide on purpose: they keep a document computable (no overflow, no endless run), not sensible. What a
+//! rig can really do is a matter of its walls and pumps, which [`crate::plant::QuadrupleTank::violations`] checks.
+
+/// A closed interval of allowed values.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// Smallest allowed value.
+    pub min: f64,
+    /// Largest allowed value.
+    pub max: f64,
+}
+
+impl Limits {
+    /// The interval from `min` to `max`.
+    pub const fn new(min: f64, max: f64) -> Self {
+        Self { min, max }
+    }
+
+    /// Whether `value` is allowed; never true of NaN.
+    pub fn contains(self, value: f64) -> bool {
+        self.min <= value && value <= self.max
+    }
+
+    /// The allowed value nearest to `value`; the smallest one for NaN.
+    pub fn clamp(self, value: f64) -> f64 {
+        if value.is_nan() { self.min } else { value.max(self.min).min(self.max) }
+    }
+}
+
+/// Valve fraction γ.
+pub const VALVE: Limits = Limits::new(0.0, 1.0);
+/// Pump voltage at the operating point (V), and the voltage limits of a pump.
+pub const PUMP_VOLTAGE: Limits = Limits::new(0.0, 1000.0);
+/// Level at the operating point (m).
+pub const LEVEL: Limits = Limits::new(0.0, 10.0);
+
+/// Magnitude of a loop gain K (V/V); its sign is free.
+pub const GAIN_MAGNITUDE: Limits = Limits::new(1e-3, 1e3);
+/// Integral time Ti (s).
+pub const INTEGRAL_TIME_S: Limits = Limits::new(0.1, 1e5);
+/// Set-point weight b.
+pub const SET_POINT_WEIGHT: Limits = Limits::new(0.0, 1.0);
+/// Tracking time of the anti-windup over the integral time, Tt/Ti.
+pub const TRACKING_RATIO: Limits = Limits::new(0.01, 100.0);
+/// Controller output in manual mode (V).
+pub const MANUAL_OUTPUT: Limits = Limits::new(0.0, 1000.0);
+/// Sampling time Ts (s).
+pub const SAMPLING_TIME_S: Limits = Limits::new(0.05, 60.0);
+
+/// Duration of an experiment (s).
+pub const DURATION_S: Limits = Limits::new(10.0, 20_000.0);
+/// Samples of one run: duration over sampling time.
+pub const SAMPLES: Limits = Limits::new(0.0, 20_000.0);
+/// Time of a step, of the hand-over to automatic, or of the cursor (s).
+pub const TIME_S: Limits = Limits::new(0.0, DURATION_S.max);
+/// Size of a set-point step (m).
+pub const SET_POINT_STEP: Limits = Limits::new(-LEVEL.max, LEVEL.max);
+/// Flow added to that of a pump (m³/s).
+pub const LOAD_FLOW: Limits = Limits::new(-0.01, 0.01);
+/// Area of a leak (m²).
+pub const LEAK_AREA: Limits = Limits::new(0.0, 0.01);
+/// Standard deviation of the measurement noise (m).
+pub const NOISE_STD: Limits = Limits::new(0.0, 1.0);
+/// Steps in one list of an experiment.
+pub const MAX_STEPS: usize = 8;
+
+/// Cross-section of a tank at any level (m²).
+pub const TANK_AREA: Limits = Limits::new(1e-5, 10.0);
+/// Growth of the cross-section per metre of level (m²/m).
+pub const TANK_AREA_SLOPE: Limits = Limits::new(-10.0, 10.0);
+/// Height of the walls (m).
+pub const TANK_HEIGHT: Limits = Limits::new(0.01, 10.0);
+/// Outlet area (m²); see also [`OUTLET_SHARE`].
+pub const OUTLET_AREA: Limits = Limits::new(1e-8, 0.01);
+/// Largest outlet area as a share of the cross-section of its tank, so that Torricelli's law holds (Cocota 2009, eq. 2.22).
+pub const OUTLET_SHARE: f64 = 0.1;
+/// Loss coefficient of an outlet.
+pub const LOSS_COEFFICIENT: Limits = Limits::new(0.01, 1.0);
+/// Flow of a pump per volt (m³/(s V)).
+pub const PUMP_GAIN: Limits = Limits::new(1e-9, 1e-3);
+/// Gain of the power module.
+pub const POWER_GAIN: Limits = Limits::new(0.01, 100.0);
+/// Sensor gain (V/m).
+pub const SENSOR_GAIN: Limits = Limits::new(0.01, 1e4);
+/// Range of a sensor (m).
+pub const SENSOR_RANGE: Limits = Limits::new(0.01, 10.0);
+/// Resolution of a sensor (V).
+pub const SENSOR_RESOLUTION: Limits = Limits::new(0.0, 10.0);
+/// Acceleration of gravity (m/s²).
+pub const GRAVITY: Limits = Limits::new(0.1, 100.0);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bounds_belong_to_the_interval_and_nan_never_does() {
+        assert!(VALVE.contains(0.0) && VALVE.contains(1.0));
+        assert!(!VALVE.contains(-1e-300) && !VALVE.contains(1.0 + f64::EPSILON) && !VALVE.contains(f64::NAN));
+    }
+
+    #[test]
+    fn clamping_ends_inside_whatever_comes_in() {
+        for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 0.3, -2.0, 7.0] {
+            assert!(VALVE.contains(VALVE.clamp(value)), "{value}");
+        }
+        assert_eq!(VALVE.clamp(0.3), 0.3);
+    }
+}

@@ -1,0 +1,496 @@
+//! The scenario as a document: what goes out comes back, what is broken is named, and nothing that comes in panics.
+#![cfg(not(target_arch = "wasm32"))]
+
+use proptest::collection::vec;
+use proptest::prelude::*;
+use quadtank::control::{AntiWindup, DecentralisedPi, LoopMode, Pairing, PiSettings};
+use quadtank::plant::{CrossSection, DisplayUnit, Outlet, PresetId, Pump, QuadrupleTank, Sensor, Tank};
+use quadtank::scenario::{
+    DOCUMENT_LIMIT, LINK_LIMIT, Limits, OperatingPointSpec, PlantSpec, Scenario, ScenarioError, Setup, View, from_json,
+    from_link, limits, setup_of, to_json, to_link,
+};
+use quadtank::sim::{Experiment, Load, LoadStep, Measurement, SetPointStep};
+use serde_json::{Value, json};
+
+// Random valid scenarios: any number within its limits, with all its digits.
+
+fn within(limits: Limits) -> impl Strategy<Value = f64> {
+    limits.min..=limits.max
+}
+
+fn pair(limits: Limits) -> impl Strategy<Value = [f64; 2]> {
+    [within(limits), within(limits)]
+}
+
+fn tank() -> impl Strategy<Value = Tank> {
+    let section = (1e-4..=limits::TANK_AREA.max, 0.0..=limits::TANK_AREA_SLOPE.max, within(limits::TANK_HEIGHT));
+    (section, 0.0..=1.0, within(limits::LOSS_COEFFICIENT)).prop_map(|((area, slope, height), share, loss_coefficient)| {
+        let widest = limits::OUTLET_AREA.max.min(limits::OUTLET_SHARE * area);
+        let area_of_outlet = f64::max(share * widest, limits::OUTLET_AREA.min);
+        Tank {
+            section: CrossSection { area_at_empty: area, area_slope: slope },
+            outlet: Outlet { area: area_of_outlet, loss_coefficient },
+            height,
+        }
+    })
+}
+
+fn pump() -> impl Strategy<Value = Pump> {
+    (within(limits::PUMP_GAIN), pair(limits::PUMP_VOLTAGE)).prop_map(|(gain, [one, other])| Pump {
+        gain,
+        voltage_min: one.min(other),
+        voltage_max: one.max(other),
+    })
+}
+
+fn rig() -> impl Strategy<Value = QuadrupleTank> {
+    let sensor = (within(limits::SENSOR_GAIN), within(limits::SENSOR_RANGE), within(limits::SENSOR_RESOLUTION))
+        .prop_map(|(gain, range, resolution)| Sensor { gain, range, resolution });
+    let parts = ([tank(), tank(), tank(), tank()], [pump(), pump()], pair(limits::VALVE), sensor);
+    (parts, within(limits::POWER_GAIN), within(limits::GRAVITY)).prop_map(
+        |((tanks, pumps, valves, sensor), power_gain, gravity)| QuadrupleTank {
+            tanks,
+            pumps,
+            valves,
+            power_gain,
+            sensor,
+            gravity,
+        },
+    )
+}
+
+fn plant() -> impl Strategy<Value = PlantSpec> {
+    prop_oneof![
+        prop::sample::select(PresetId::ALL.to_vec()).prop_map(PlantSpec::Preset),
+        (rig(), prop_oneof![Just(DisplayUnit::Cm), Just(DisplayUnit::Mm)])
+            .prop_map(|(rig, display_unit)| PlantSpec::Parameters { rig, display_unit }),
+    ]
+}
+
+fn settings() -> impl Strategy<Value = PiSettings> {
+    let anti_windup = prop_oneof![
+        Just(AntiWindup::Off),
+        within(limits::TRACKING_RATIO).prop_map(|tracking_ratio| AntiWindup::BackCalculation { tracking_ratio }),
+    ];
+    let mode = prop_oneof![
+        Just(LoopMode::Automatic),
+        (within(limits::MANUAL_OUTPUT), within(limits::TIME_S))
+            .prop_map(|(output, until_s)| LoopMode::Manual { output, until_s }),
+    ];
+    let gain = (within(limits::GAIN_MAGNITUDE), prop::bool::ANY).prop_map(|(size, up)| if up { size } else { -size });
+    (gain, within(limits::INTEGRAL_TIME_S), within(limits::SET_POINT_WEIGHT), anti_windup, mode).prop_map(
+        |(gain, integral_time_s, set_point_weight, anti_windup, mode)| PiSettings {
+            gain,
+            integral_time_s,
+            set_point_weight,
+            anti_windup,
+            mode,
+        },
+    )
+}
+
+fn controller() -> impl Strategy<Value = DecentralisedPi> {
+    let pairing = prop_oneof![Just(Pairing::Diagonal), Just(Pairing::Swapped)];
+    // From 1 s on any duration is few enough samples.
+    (pairing, [settings(), settings()], 1.0..=limits::SAMPLING_TIME_S.max)
+        .prop_map(|(pairing, loops, sampling_time_s)| DecentralisedPi { pairing, loops, sampling_time_s })
+}
+
+fn experiment(steps: usize) -> impl Strategy<Value = Experiment> {
+    let set_point = (0..2_usize, within(limits::TIME_S), within(limits::SET_POINT_STEP))
+        .prop_map(|(level, time_s, size)| SetPointStep { level, time_s, size });
+    let load = prop_oneof![
+        (0..2_usize, within(limits::LOAD_FLOW)).prop_map(|(pump, flow)| Load::PumpFlow { pump, flow }),
+        (0..4_usize, within(limits::LEAK_AREA)).prop_map(|(tank, area)| Load::Leak { tank, area }),
+    ];
+    let load = (within(limits::TIME_S), load).prop_map(|(time_s, load)| LoadStep { time_s, load });
+    let measurement = (within(limits::NOISE_STD), any::<u32>(), any::<bool>())
+        .prop_map(|(noise_std, seed, quantised)| Measurement { noise_std, seed, quantised });
+    (within(limits::DURATION_S), vec(set_point, 0..=steps), vec(load, 0..=steps), measurement).prop_map(
+        |(duration_s, set_point_steps, load_steps, measurement)| Experiment {
+            duration_s,
+            set_point_steps,
+            load_steps,
+            measurement,
+        },
+    )
+}
+
+fn setup(steps: usize) -> impl Strategy<Value = Setup> {
+    let operating_point = prop_oneof![
+        pair(limits::PUMP_VOLTAGE).prop_map(OperatingPointSpec::PumpVoltage),
+        pair(limits::LEVEL).prop_map(OperatingPointSpec::Levels),
+    ];
+    (plant(), pair(limits::VALVE), operating_point, controller(), experiment(steps)).prop_map(
+        |(plant, valves, operating_point, controller, experiment)| Setup {
+            plant,
+            valves,
+            operating_point,
+            controller,
+            experiment,
+        },
+    )
+}
+
+fn view() -> impl Strategy<Value = View> {
+    let zoom = pair(limits::TIME_S).prop_map(|[one, other]| [one.min(other), one.max(other)]);
+    (prop::option::of(within(limits::TIME_S)), prop::option::of(zoom), any::<bool>())
+        .prop_map(|(cursor_s, zoom_s, hide_linear)| View { cursor_s, zoom_s, hide_linear })
+}
+
+fn scenario(steps: usize, pinned: usize) -> impl Strategy<Value = Scenario> {
+    (setup(steps), vec(setup(steps), 0..=pinned), view()).prop_map(|(setup, pinned, view)| Scenario {
+        version: Scenario::VERSION,
+        setup,
+        pinned,
+        view,
+    })
+}
+
+proptest! {
+    #[test]
+    fn json_brings_back_every_digit(scenario in scenario(limits::MAX_STEPS, Scenario::MAX_PINNED)) {
+        prop_assert_eq!(from_json(&to_json(&scenario).unwrap()), Ok(scenario));
+    }
+
+    /// Two steps of each kind, as an experiment has: then every number of the rig may be different.
+    #[test]
+    fn links_bring_back_every_digit(scenario in scenario(2, 0)) {
+        let link = to_link(&scenario).unwrap();
+        prop_assert!(link.len() <= LINK_LIMIT);
+        prop_assert!(link.bytes().all(|byte| byte.is_ascii_alphanumeric() || b".-_".contains(&byte)), "{}", link);
+        prop_assert_eq!(from_link(&link), Ok(scenario));
+    }
+
+    #[test]
+    fn a_link_that_is_cut_off_is_damaged(scenario in scenario(1, 0), keep in 0.0..1.0) {
+        let link = to_link(&scenario).unwrap();
+        let shorter = &link[..(keep * link.len() as f64) as usize];
+        prop_assert_eq!(from_link(shorter), Err(ScenarioError::DamagedLink));
+    }
+
+    #[test]
+    fn a_link_with_one_wrong_character_is_damaged(scenario in scenario(1, 0), at in 0.0..1.0, wrong in "[A-Za-z0-9_-]") {
+        let link = to_link(&scenario).unwrap();
+        let payload = "q1.".len();
+        let at = payload + (at * (link.len() - payload) as f64) as usize;
+        let changed = format!("{}{wrong}{}", &link[..at], &link[at + 1..]);
+        prop_assume!(changed != link);
+        prop_assert_eq!(from_link(&changed), Err(ScenarioError::DamagedLink));
+    }
+
+    #[test]
+    fn no_text_is_too_strange(text in any::<String>(), payload in "q1\\.[A-Za-z0-9_-]{0,300}") {
+        prop_assert!(from_json(&text).is_err());
+        prop_assert!(from_link(&text).is_err());
+        prop_assert!(from_link(&payload).is_err());
+    }
+
+    /// Cuts and swaps in a good document, which get further than noise does.
+    #[test]
+    fn no_damaged_document_is_too_strange(at in 0..1500_usize, length in 0..40_usize, put in "[-0-9.eE\\[\\]{}\",:a-z]{0,6}") {
+        let mut text = to_json(&Scenario::default()).unwrap();
+        let start = at.min(text.len());
+        let end = (start + length).min(text.len());
+        text.replace_range(start..end, &put);
+        let _ = from_json(&text);
+    }
+
+    /// Whatever is read can be written, and reads the same.
+    #[test]
+    fn what_is_read_can_be_written(value in any::<f64>(), field in 0..LEAVES.len()) {
+        let mut document = full();
+        *document.pointer_mut(LEAVES[field].1).unwrap() = json!(value);
+        if let Ok(scenario) = from_json(&document.to_string()) {
+            prop_assert_eq!(from_json(&to_json(&scenario).unwrap()), Ok(scenario));
+        }
+    }
+}
+
+// Length.
+
+/// A rig of one's own with 17 digits everywhere and all steps that fit into an experiment; other digits for each series.
+fn largest_setup(series: usize) -> Setup {
+    let digits = |index: usize| 0.1 + 0.8 * ((100 * series + index) as f64 * std::f64::consts::SQRT_2).fract();
+    let mut setup = setup_of(PresetId::CocotaMinimumPhase);
+    let mut rig = setup.plant();
+    for (index, tank) in rig.tanks.iter_mut().enumerate() {
+        let index = 10 * index;
+        tank.section = CrossSection { area_at_empty: 0.02 * digits(index), area_slope: digits(index + 1) };
+        tank.outlet = Outlet { area: 1e-4 * digits(index + 2), loss_coefficient: digits(index + 3) };
+        tank.height = digits(index + 4);
+    }
+    for (index, pump) in rig.pumps.iter_mut().enumerate() {
+        pump.gain = 1e-5 * digits(50 + index);
+        pump.voltage_max = 10.0 + digits(52 + index);
+    }
+    rig.valves = [digits(54), digits(55)];
+    rig.power_gain = 1.0 + digits(56);
+    rig.sensor = Sensor { gain: 40.0 * digits(57), range: digits(58), resolution: 0.01 * digits(59) };
+    rig.gravity = 9.0 + digits(60);
+    setup.plant = PlantSpec::Parameters { rig, display_unit: DisplayUnit::Mm };
+    setup.valves = [digits(61), digits(62)];
+    setup.operating_point = OperatingPointSpec::PumpVoltage([9.0 + digits(63), 9.0 + digits(64)]);
+    for (index, settings) in setup.controller.loops.iter_mut().enumerate() {
+        settings.gain = digits(65 + index);
+        settings.integral_time_s = 100.0 * digits(67 + index);
+        settings.set_point_weight = digits(69 + index);
+    }
+    setup.experiment.set_point_steps = (0..limits::MAX_STEPS)
+        .map(|index| SetPointStep { level: index % 2, time_s: 200.0 * index as f64, size: 0.05 * digits(80 + index) })
+        .collect();
+    setup.experiment.load_steps = (0..limits::MAX_STEPS)
+        .map(|index| LoadStep {
+            time_s: 150.0 * index as f64,
+            load: Load::PumpFlow { pump: index % 2, flow: 1e-5 * digits(90 + index) },
+        })
+        .collect();
+    setup.experiment.measurement.noise_std = 0.01 * digits(99);
+    setup
+}
+
+#[test]
+fn the_largest_scenario_with_a_pinned_run_fits_into_a_link() {
+    let setup = largest_setup(0);
+    let mut pinned = setup.clone();
+    pinned.valves = [0.123_456_789_012_345_6, 0.654_321_098_765_432_1];
+    pinned.controller.loops[0].gain = 1.234_567_890_123_456_7;
+    let scenario = Scenario { pinned: vec![pinned], ..Scenario::from(setup) };
+    let link = to_link(&scenario).unwrap();
+    assert!(link.len() <= LINK_LIMIT, "{} characters", link.len());
+    assert_eq!(from_link(&link), Ok(scenario));
+}
+
+#[test]
+fn a_published_setup_takes_a_short_link() {
+    for id in PresetId::ALL {
+        let link = to_link(&Scenario::from(setup_of(id))).unwrap();
+        assert!(link.len() <= 60, "{id:?}: {} characters", link.len());
+    }
+}
+
+#[test]
+fn what_does_not_fit_into_a_link_says_so() {
+    let scenario = Scenario { pinned: vec![largest_setup(1), largest_setup(2)], ..Scenario::from(largest_setup(0)) };
+    let error = to_link(&scenario).unwrap_err();
+    assert!(matches!(error, ScenarioError::TooLong { length, max: LINK_LIMIT } if length > LINK_LIMIT), "{error}");
+    let too_long = format!("q1.{}", "A".repeat(LINK_LIMIT));
+    assert_eq!(from_link(&too_long), Err(ScenarioError::TooLong { length: LINK_LIMIT + 3, max: LINK_LIMIT }));
+}
+
+#[test]
+fn a_document_longer_than_any_scenario_is_not_read() {
+    let text = " ".repeat(DOCUMENT_LIMIT + 1);
+    assert_eq!(from_json(&text), Err(ScenarioError::TooLong { length: DOCUMENT_LIMIT + 1, max: DOCUMENT_LIMIT }));
+}
+
+/// 1.4 kB that would inflate to 1 MB.
+#[test]
+fn a_bomb_does_not_go_off() {
+    use base64::Engine;
+    use base64::engine::general_purpose::URL_SAFE_NO_PAD;
+    let packed = miniz_oxide::deflate::compress_to_vec(&vec![b' '; 1_000_000], 10);
+    let link = format!("q1.{}", URL_SAFE_NO_PAD.encode(packed));
+    assert!((1000..LINK_LIMIT).contains(&link.len()), "{}", link.len());
+    assert_eq!(from_link(&link), Err(ScenarioError::DamagedLink));
+}
+
+#[test]
+fn more_behind_the_end_of_a_link_is_damage() {
+    let link = to_link(&Scenario::default()).unwrap();
+    for more in ["A", "AA", "AAA", "AAAA", "=", ".", " ", "\0"] {
+        assert_eq!(from_link(&format!("{link}{more}")), Err(ScenarioError::DamagedLink), "{more:?}");
+    }
+}
+
+// Versions.
+
+#[test]
+fn an_unknown_version_is_refused_before_anything_else_is_read() {
+    for found in [0, 2, 99, u64::MAX] {
+        let text = json!({ "version": found, "whatever": [1, 2, 3] }).to_string();
+        assert_eq!(from_json(&text), Err(ScenarioError::UnknownVersion { found, newest: 1 }));
+    }
+    assert_eq!(from_link("q2.AAAA"), Err(ScenarioError::UnknownVersion { found: 2, newest: 1 }));
+    for text in ["{}", r#"{"version": "1"}"#, r#"{"version": -1}"#, "[]", "null", "", "{"] {
+        assert!(matches!(from_json(text), Err(ScenarioError::Malformed { .. })), "{text}");
+    }
+    assert_eq!(from_link("q.AAAA"), Err(ScenarioError::DamagedLink));
+    assert_eq!(from_link(""), Err(ScenarioError::DamagedLink));
+}
+
+// Broken fields.
+
+/// A document in which every kind of field occurs.
+fn full() -> Value {
+    let mut scenario = Scenario::from(largest_setup(0));
+    let setup = &mut scenario.setup;
+    setup.controller.loops[0].mode = LoopMode::Manual { output: 5.0, until_s: 60.0 };
+    setup.experiment.load_steps[1].load = Load::Leak { tank: 3, area: 1e-6 };
+    let mut pinned = setup_of(PresetId::JohanssonMinimumPhase);
+    pinned.operating_point = OperatingPointSpec::Levels([0.1, 0.12]);
+    scenario.pinned = vec![pinned];
+    scenario.view = View { cursor_s: Some(10.0), zoom_s: Some([0.0, 100.0]), hide_linear: false };
+    serde_json::to_value(&scenario).unwrap()
+}
+
+/// Fields (by the path that an error gives, and by JSON pointer) and a number that is out of their range.
+const LEAVES: [(&str, &str, f64); 40] = [
+    ("setup.plant.parameters.rig.tanks[2].section.area_at_empty", "/setup/plant/parameters/rig/tanks/2/section/area_at_empty", 0.0),
+    ("setup.plant.parameters.rig.tanks[1].section.area_slope", "/setup/plant/parameters/rig/tanks/1/section/area_slope", -1.0),
+    ("setup.plant.parameters.rig.tanks[0].outlet.area", "/setup/plant/parameters/rig/tanks/0/outlet/area", 0.0),
+    ("setup.plant.parameters.rig.tanks[0].outlet.area", "/setup/plant/parameters/rig/tanks/0/outlet/area", 0.009),
+    ("setup.plant.parameters.rig.tanks[3].outlet.loss_coefficient", "/setup/plant/parameters/rig/tanks/3/outlet/loss_coefficient", 1.5),
+    ("setup.plant.parameters.rig.tanks[3].height", "/setup/plant/parameters/rig/tanks/3/height", -0.2),
+    ("setup.plant.parameters.rig.pumps[0].gain", "/setup/plant/parameters/rig/pumps/0/gain", -4e-6),
+    ("setup.plant.parameters.rig.pumps[0].voltage_min", "/setup/plant/parameters/rig/pumps/0/voltage_min", -1.0),
+    ("setup.plant.parameters.rig.pumps[1].voltage_max", "/setup/plant/parameters/rig/pumps/1/voltage_max", -1.0),
+    ("setup.plant.parameters.rig.valves[0]", "/setup/plant/parameters/rig/valves/0", 1.1),
+    ("setup.plant.parameters.rig.power_gain", "/setup/plant/parameters/rig/power_gain", 0.0),
+    ("setup.plant.parameters.rig.sensor.gain", "/setup/plant/parameters/rig/sensor/gain", 0.0),
+    ("setup.plant.parameters.rig.sensor.range", "/setup/plant/parameters/rig/sensor/range", 0.0),
+    ("setup.plant.parameters.rig.sensor.resolution", "/setup/plant/parameters/rig/sensor/resolution", -1.0),
+    ("setup.plant.parameters.rig.gravity", "/setup/plant/parameters/rig/gravity", 0.0),
+    ("setup.valves[1]", "/setup/valves/1", -0.1),
+    ("setup.operating_point.pump-voltage[0]", "/setup/operating_point/pump-voltage/0", -3.0),
+    ("setup.controller.loops[0].gain", "/setup/controller/loops/0/gain", 0.0),
+    ("setup.controller.loops[1].gain", "/setup/controller/loops/1/gain", -1e4),
+    ("setup.controller.loops[0].integral_time_s", "/setup/controller/loops/0/integral_time_s", 0.0),
+    ("setup.controller.loops[0].set_point_weight", "/setup/controller/loops/0/set_point_weight", 2.0),
+    ("setup.controller.loops[1].anti_windup.tracking_ratio", "/setup/controller/loops/1/anti_windup/tracking_ratio", 0.0),
+    ("setup.controller.loops[0].mode.output", "/setup/controller/loops/0/mode/output", -1.0),
+    ("setup.controller.loops[0].mode.until_s", "/setup/controller/loops/0/mode/until_s", -1.0),
+    ("setup.controller.sampling_time_s", "/setup/controller/sampling_time_s", 0.0),
+    ("setup.experiment.duration_s", "/setup/experiment/duration_s", 1.0),
+    ("setup.experiment.duration_s", "/setup/controller/sampling_time_s", 0.06),
+    ("setup.experiment.set_point_steps[0].time_s", "/setup/experiment/set_point_steps/0/time_s", -1.0),
+    ("setup.experiment.set_point_steps[3].size", "/setup/experiment/set_point_steps/3/size", 11.0),
+    ("setup.experiment.load_steps[1].time_s", "/setup/experiment/load_steps/1/time_s", 1e6),
+    ("setup.experiment.load_steps[1].load.area", "/setup/experiment/load_steps/1/load/area", 1.0),
+    ("setup.experiment.load_steps[2].load.flow", "/setup/experiment/load_steps/2/load/flow", 1.0),
+    ("setup.experiment.measurement.noise_std", "/setup/experiment/measurement/noise_std", -0.1),
+    ("pinned[0].valves[0]", "/pinned/0/valves/0", 7.0),
+    ("pinned[0].operating_point.levels[1]", "/pinned/0/operating_point/levels/1", 70.0),
+    ("pinned[0].controller.sampling_time_s", "/pinned/0/controller/sampling_time_s", 100.0),
+    ("view.cursor_s", "/view/cursor_s", -1.0),
+    ("view.zoom_s[0]", "/view/zoom_s/0", -1.0),
+    ("view.zoom_s[1]", "/view/zoom_s/1", -1.0),
+    ("setup.experiment.duration_s", "/setup/experiment/duration_s", 1e9),
+];
+
+#[test]
+fn a_full_document_is_allowed() {
+    assert!(from_json(&full().to_string()).is_ok());
+}
+
+#[test]
+fn every_number_out_of_range_names_itself_and_its_limits() {
+    for (path, pointer, wrong) in LEAVES {
+        let mut document = full();
+        // The experiment lasts 1750 s: with a sampling time of 0.06 s that would be too many samples.
+        *document.pointer_mut(pointer).unwrap() = json!(wrong);
+        match from_json(&document.to_string()) {
+            Err(ScenarioError::OutOfRange { field, value, min, max }) => {
+                assert_eq!(field, path);
+                assert!(value < min || value > max, "{path}: {value} in {min} to {max}");
+            }
+            other => panic!("{path}: {other:?}"),
+        }
+    }
+}
+
+#[test]
+fn an_index_beyond_its_list_names_itself() {
+    for (path, pointer) in [
+        ("setup.experiment.set_point_steps[0].level", "/setup/experiment/set_point_steps/0/level"),
+        ("setup.experiment.load_steps[0].load.pump", "/setup/experiment/load_steps/0/load/pump"),
+        ("setup.experiment.load_steps[1].load.tank", "/setup/experiment/load_steps/1/load/tank"),
+    ] {
+        let mut document = full();
+        *document.pointer_mut(pointer).unwrap() = json!(4);
+        let error = from_json(&document.to_string()).unwrap_err();
+        assert!(matches!(&error, ScenarioError::OutOfRange { field, value: 4.0, .. } if field == path), "{error}");
+    }
+}
+
+#[test]
+fn too_many_entries_are_counted() {
+    for (path, pointer, count, max) in [
+        ("setup.experiment.set_point_steps", "/setup/experiment/set_point_steps", 9, limits::MAX_STEPS),
+        ("setup.experiment.load_steps", "/setup/experiment/load_steps", 30, limits::MAX_STEPS),
+        ("pinned", "/pinned", 4, Scenario::MAX_PINNED),
+    ] {
+        let mut document = full();
+        let list = document.pointer_mut(pointer).unwrap();
+        *list = json!(vec![list[0].clone(); count]);
+        let expected = ScenarioError::TooMany { field: path.to_owned(), count, max };
+        assert_eq!(from_json(&document.to_string()), Err(expected));
+    }
+}
+
+#[test]
+fn every_field_of_the_wrong_kind_names_itself() {
+    for (path, pointer, _) in LEAVES {
+        let mut document = full();
+        *document.pointer_mut(pointer).unwrap() = json!("much");
+        let error = from_json(&document.to_string()).unwrap_err();
+        let ScenarioError::Malformed { path: found, reason } = &error else { panic!("{path}: {error}") };
+        // The tag of a tagged choice is read first, so its fields are named by the choice as a whole.
+        assert!(error_names(found, pointer), "{path}: {found}");
+        assert!(reason.contains("much") && reason.contains("line"), "{path}: {reason}");
+    }
+}
+
+/// Whether the path of an error is that of the pointer, or of the object that holds it.
+fn error_names(path: &str, pointer: &str) -> bool {
+    let as_pointer = format!("/{}", path.replace('[', ".").replace(']', "").replace('.', "/"));
+    let holder = pointer.rsplit_once('/').map_or("", |(holder, _)| holder);
+    as_pointer == pointer || as_pointer == holder
+}
+
+#[test]
+fn numbers_that_are_none_are_refused() {
+    let text = full().to_string();
+    for none in ["NaN", "1e999", "-1e999", "Infinity", "null", "\"1\"", "[]", "{}", "--1", "0x10", ""] {
+        let broken = text.replace("\"sampling_time_s\":1.0", &format!("\"sampling_time_s\":{none}"));
+        assert_ne!(broken, text);
+        let error = from_json(&broken).unwrap_err();
+        assert!(matches!(error, ScenarioError::Malformed { .. }), "{none}: {error}");
+    }
+    let mut scenario = Scenario::default();
+    scenario.setup.valves[0] = f64::NAN;
+    assert!(matches!(to_json(&scenario), Err(ScenarioError::OutOfRange { field, .. }) if field == "setup.valves[0]"));
+    assert!(matches!(to_link(&scenario), Err(ScenarioError::OutOfRange { .. })));
+}
+
+#[test]
+fn unknown_missing_and_double_fields_are_refused_by_name() {
+    let mut unknown = full();
+    unknown["setup"]["controller"]["loops"][0]["derivative_time_s"] = json!(1.0);
+    let error = from_json(&unknown.to_string()).unwrap_err().to_string();
+    assert!(error.starts_with("setup.controller.loops[0].derivative_time_s: unknown field"), "{error}");
+
+    let mut missing = full();
+    missing["setup"]["experiment"].as_object_mut().unwrap().remove("duration_s");
+    let error = from_json(&missing.to_string()).unwrap_err().to_string();
+    assert!(error.starts_with("setup.experiment: missing field `duration_s`"), "{error}");
+
+    let double = to_json(&Scenario::default()).unwrap().replacen("\"valves\"", "\"valves\": [0, 0], \"valves\"", 1);
+    let error = from_json(&double).unwrap_err().to_string();
+    assert!(error.starts_with("setup: duplicate field `valves`"), "{error}");
+
+    let more = format!("{} {{}}", full());
+    let error = from_json(&more).unwrap_err().to_string();
+    assert!(error.starts_with("document: trailing characters"), "{error}");
+
+    let mut other_rig = full();
+    other_rig["pinned"][0]["plant"] = json!({ "preset": "johansson-1999" });
+    let error = from_json(&other_rig.to_string()).unwrap_err().to_string();
+    assert!(error.starts_with("pinned[0].plant.preset: unknown variant `johansson-1999`"), "{error}");
+}
+
+#[test]
+fn deep_nesting_ends_in_an_error() {
+    let text = format!("{{\"version\":1,\"setup\":{}", "[".repeat(DOCUMENT_LIMIT / 2));
+    assert!(matches!(from_json(&text), Err(ScenarioError::Malformed { .. })));
+}
