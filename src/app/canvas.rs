@@ -2,13 +2,17 @@
 
 use leptos::prelude::document;
 use leptos::wasm_bindgen::JsCast;
+use plotters::drawing::IntoDrawingArea;
 use plotters_backend::{
     BackendColor, BackendCoord, BackendStyle, BackendTextStyle, DrawingBackend, DrawingErrorKind, FontTransform,
 };
 use plotters_canvas::CanvasBackend;
 use web_sys::{CanvasRenderingContext2d, HtmlCanvasElement};
 
-use crate::figure::{self, Chart, Palette, SUBPIXELS, Size};
+use crate::figure::{self, Chart, Size, Style};
+
+/// Pixels of the backend for each CSS px: plotters counts in whole ones, and curves are smooth with this many.
+pub const FINE: u32 = 8;
 
 type CanvasError = <CanvasBackend as DrawingBackend>::ErrorType;
 type Outcome<T = ()> = Result<T, DrawingErrorKind<CanvasError>>;
@@ -89,9 +93,18 @@ pub fn new_canvas() -> Option<HtmlCanvasElement> {
     document().create_element("canvas").ok()?.dyn_into().ok()
 }
 
+/// Fills a canvas with the background of the theme; an exported picture has no page behind it.
+pub fn fill_background(canvas: &HtmlCanvasElement, style: &Style) {
+    let Some(context) = context_of(canvas) else { return };
+    let _ = context.reset_transform();
+    context.set_global_composite_operation("destination-over").unwrap_or_default();
+    context.set_fill_style_str(&style.palette.background.hex());
+    context.fill_rect(0.0, 0.0, canvas.width().into(), canvas.height().into());
+}
+
 /// Paints charts on a canvas of `size` CSS px on a screen with `ratio` pixels for each of them. A canvas that the browser
 /// cannot paint on stays empty.
-pub fn paint(canvas: &HtmlCanvasElement, charts: &[Chart], size: Size, ratio: f64, palette: &Palette) {
+pub fn paint(canvas: &HtmlCanvasElement, charts: &[Chart], size: Size, ratio: f64, style: &Style) {
     let Some(context) = context_of(canvas) else { return };
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a size on a screen")]
     let pixels = |length: f64, ratio: f64| (length * ratio).round() as u32;
@@ -100,15 +113,16 @@ pub fn paint(canvas: &HtmlCanvasElement, charts: &[Chart], size: Size, ratio: f6
         canvas.set_width(device.0);
         canvas.set_height(device.1);
     }
-    let fine = f64::from(SUBPIXELS);
+    let fine = f64::from(style.scale);
     if context.set_transform(ratio / fine, 0.0, 0.0, ratio / fine, 0.0, 0.0).is_err() {
         return;
     }
+    context.clear_rect(0.0, 0.0, size.width * fine, size.height * fine);
     let Some(inner) = CanvasBackend::with_canvas_object(canvas.clone()) else { return };
     let backend =
         FineCanvas { inner, context, size: (pixels(size.width, fine), pixels(size.height, fine)) };
     // Fails only if the canvas does, and then there is nowhere to say so.
-    let _ = figure::paint(backend, charts, size, palette);
+    let _ = figure::paint(&backend.into_drawing_area(), charts, size, style);
 }
 
 fn context_of(canvas: &HtmlCanvasElement) -> Option<CanvasRenderingContext2d> {

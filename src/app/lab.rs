@@ -7,13 +7,13 @@
 use std::sync::Arc;
 
 use leptos::prelude::*;
-use leptos_i18n::Locale as _;
 
+use super::canvas;
 use super::format::NumberStyle;
 use super::start::{Control, StartFlags};
 use super::texts::{Locale, number_style};
 use super::timing::Stopwatch;
-use crate::figure::Palette;
+use crate::figure::{Palette, Style};
 use crate::plant::DisplayUnit;
 use crate::scenario::{self, Analysis, Run, Scenario, ScenarioError, Setup};
 
@@ -116,9 +116,10 @@ impl Lab {
         number_style(self.language.get())
     }
 
-    /// The colours of the chosen theme.
-    pub fn palette(self) -> Palette {
-        if self.dark.get() { Palette::dark() } else { Palette::light() }
+    /// How charts look in the chosen theme and language.
+    pub fn chart_style(self) -> Style {
+        let palette = if self.dark.get() { Palette::DARK } else { Palette::LIGHT };
+        Style { palette, decimal: self.number_style().decimal, scale: canvas::FINE }
     }
 
     /// The unit in which levels are shown.

@@ -1,7 +1,7 @@
-use crate::interaction::{PairingVerdict, niederlinski, recommend_pairing, relative_gain_array};
+use crate::interaction::{PairingVerdict, interpolation_integral, niederlinski, recommend_pairing, relative_gain_array};
 use crate::linear::{Complex, LinearError, StateSpace, TransmissionZero, transmission_zeros};
 use crate::plant::{OperatingPoint, PlantError};
-use crate::sim::{ClosedLoop, closed_loop};
+use crate::sim::{ClosedLoop, Experiment, closed_loop};
 
 use super::{ScenarioError, Setup};
 
@@ -57,4 +57,23 @@ pub fn analyse(setup: &Setup) -> Result<Analysis, ScenarioError> {
         closed_loop: closed_loop(&jacobian, &setup.controller, plant.power_gain)?,
         model,
     })
+}
+
+impl Analysis {
+    /// The relative gain array by rows; its rows and columns sum to 1. `None` where G(0) is singular.
+    pub fn rga(&self) -> Option<[[f64; 2]; 2]> {
+        let lambda = *self.rga_11.as_ref().ok()?;
+        Some([[lambda, 1.0 - lambda], [1.0 - lambda, lambda]])
+    }
+
+    /// The right-most transmission zero, which limits the loops.
+    pub fn rightmost_zero(&self) -> Option<&TransmissionZero> {
+        self.zeros.as_ref().ok()?.last()
+    }
+
+    /// `∫ ηᵀe(t) e^(−zt) dt` (m s) from the first set-point step of an experiment on, for every stabilising controller
+    /// (see [`interpolation_integral`]). `None` without a zero in the right half-plane or without a step.
+    pub fn interpolation_integral(&self, experiment: &Experiment) -> Option<f64> {
+        interpolation_integral(self.rightmost_zero()?, experiment.first_reference_step()?)
+    }
 }

@@ -21,6 +21,13 @@ impl ValveMap {
         Ok(Self { plant: setup.plant(), pump_voltage: setup.operating_point()?.pump_voltage })
     }
 
+    /// The same map without a present setting: equal for any two settings of one rig at the same voltages, so that what
+    /// shows the whole plane is redone only when the plane changes.
+    #[must_use]
+    pub fn without_setting(self) -> Self {
+        Self { plant: self.plant.with_valves([1.0, 1.0]), ..self }
+    }
+
     /// Right-most finite zero (1/s) at valve fractions γ1, γ2; `None` where there is none.
     pub fn rightmost_zero(&self, valves: [f64; 2]) -> Option<f64> {
         let [t3, t4] = self.upper_time_constants_s(valves);

@@ -72,3 +72,18 @@ pub struct Experiment {
     /// Sensors.
     pub measurement: Measurement,
 }
+
+impl Experiment {
+    /// The reference step (m) that comes first, in all levels that step at that time; `None` when no reference moves.
+    pub fn first_reference_step(&self) -> Option<[f64; 2]> {
+        let moving = || self.set_point_steps.iter().filter(|s| s.size != 0.0);
+        let first = moving().map(|s| s.time_s).min_by(f64::total_cmp)?;
+        let mut step = [0.0; 2];
+        for s in moving().filter(|s| s.time_s == first) {
+            if let Some(size) = step.get_mut(s.level) {
+                *size += s.size;
+            }
+        }
+        Some(step)
+    }
+}

@@ -62,6 +62,12 @@ impl Trajectory {
         }
     }
 
+    /// The row in force at a time (s): the last one not after it, or the first; `None` for a run without rows.
+    pub fn row_at(&self, time_s: f64) -> Option<usize> {
+        let after = self.time_s.partition_point(|&t| t <= time_s);
+        (!self.time_s.is_empty()).then(|| after.saturating_sub(1))
+    }
+
     /// Adds a row.
     pub(super) fn push(&mut self, time_s: f64, levels: [f64; 4], references: [f64; 2], controller_output: [f64; 2], pump_voltage: [f64; 2]) {
         self.time_s.push(time_s);

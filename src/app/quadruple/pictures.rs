@@ -6,17 +6,22 @@ use crate::app::texts::tr;
 use crate::app::widgets::Picture;
 use crate::figure::{self, PoleZero, PoleZeroTexts, ResponseTexts, Responses, RunColumns, ValvePlane, ValvePlaneTexts};
 use crate::linear::Complex;
-use crate::scenario::{Run, RightMostZero, Setup, zero_path};
+use crate::scenario::{Run, Setup, ValveMap};
 
 use leptos::prelude::*;
 
 use super::sentences::with_analysis;
 
+/// The setting whose zero is shaded half way to the full colour.
+const TYPICAL_SETTING: [f64; 2] = [0.3, 0.3];
+/// Points on the paths of the zeros.
+const PATH_POINTS: usize = 61;
+
 /// The valve plane. It does not depend on the valves themselves, so dragging the point does not repaint it.
 pub fn valve_plane(lab: Lab) -> Picture {
-    let shading = Memo::new(move |_| lab.scenario.with(|s| RightMostZero::of(&s.setup)));
+    let map = Memo::new(move |_| lab.scenario.with(|s| ValveMap::of(&s.setup).ok().map(ValveMap::without_setting)));
     Picture::new(move |visit| {
-        let map = shading.get();
+        let Some(map) = map.get() else { return };
         let texts = ValvePlaneTexts {
             gamma_1: "γ₁",
             gamma_2: "γ₂",
@@ -25,8 +30,8 @@ pub fn valve_plane(lab: Lab) -> Picture {
             right_half_plane: tr!(lab, valves.right),
         };
         visit(&[figure::valve_plane(&ValvePlane {
-            right_most_zero: &|valves| map.at(valves),
-            halfway_zero: map.typical(),
+            right_most_zero: &|valves| map.rightmost_zero(valves),
+            halfway_zero: map.rightmost_zero(TYPICAL_SETTING).unwrap_or(1.0),
             published: &[],
             setting: None,
             texts,
@@ -37,7 +42,8 @@ pub fn valve_plane(lab: Lab) -> Picture {
 /// Poles and zeros.
 pub fn pole_zero(lab: Lab) -> Picture {
     Picture::new(move |visit| {
-        let zero_paths = lab.scenario.with(|s| zero_path(&s.setup));
+        let map = lab.scenario.with(|s| ValveMap::of(&s.setup));
+        let zero_paths = map.map(|m| m.zero_paths(PATH_POINTS)).unwrap_or_default();
         with_analysis(lab, |a| {
             let zeros: Vec<Complex> = a.zeros.iter().flatten().map(|z| z.value).collect();
             visit(&[figure::pole_zero(&PoleZero {
@@ -74,12 +80,12 @@ pub fn responses(lab: Lab) -> Picture {
         let references = [1, 2].map(|k| format!("{} {k}", tr!(lab, responses.reference)));
         let plant = plant.get();
         let pinned: Vec<RunColumns> =
-            pinned.iter().filter_map(|p| p.as_ref().as_ref().ok()).map(|r| RunColumns::of(&r.nonlinear)).collect();
+            pinned.iter().filter_map(|p| p.as_ref().as_ref().ok()).map(|r| columns(&r.nonlinear)).collect();
         visit(&figure::responses(&Responses {
-            nonlinear: RunColumns::of(&run.nonlinear),
+            nonlinear: columns(&run.nonlinear),
             references: [&run.nonlinear.references[0], &run.nonlinear.references[1]],
-            linear: (!hide_linear.get()).then(|| RunColumns::of(&run.linear)),
-            pinned: &pinned,
+            linear: (!hide_linear.get()).then(|| columns(&run.linear)),
+            pinned: pinned.first().copied(),
             level_scale: per_metre(unit),
             walls: [plant.tanks[0].height, plant.tanks[1].height],
             voltage_limits: (plant.pumps[0].voltage_min, plant.pumps[0].voltage_max),
@@ -97,4 +103,12 @@ pub fn responses(lab: Lab) -> Picture {
             },
         }));
     })
+}
+
+fn columns(run: &crate::sim::Trajectory) -> RunColumns<'_> {
+    RunColumns {
+        time_s: &run.time_s,
+        levels: [&run.levels[0], &run.levels[1]],
+        voltages: [&run.pump_voltage[0], &run.pump_voltage[1]],
+    }
 }

@@ -5,7 +5,7 @@ use leptos::prelude::*;
 use crate::app::lab::Lab;
 use crate::app::shown::{length_digits, to_shown, unit_name};
 use crate::app::texts::tr;
-use crate::linear::{Complex, LinearError, TransmissionZero};
+use crate::linear::{Complex, LinearError};
 use crate::plant::PlantError;
 use crate::scenario::{Analysis, ScenarioError};
 use crate::sim::Stability;
@@ -35,7 +35,7 @@ impl ZeroSituation {
         }
         match &analysis.zeros {
             Err(_) => Self::Degenerate,
-            Ok(zeros) => match (rightmost(zeros), &analysis.rga_11) {
+            Ok(_) => match (analysis.rightmost_zero(), &analysis.rga_11) {
                 (None, _) => Self::NoFinite,
                 (Some(_), Err(LinearError::SingularGain { .. })) => Self::Origin,
                 (Some(z), _) if z.value.re > 0.0 => Self::Right(z.value.re),
@@ -48,11 +48,6 @@ impl ZeroSituation {
     pub fn is_hard(&self) -> bool {
         matches!(self, Self::Right(_) | Self::Origin | Self::Degenerate)
     }
-}
-
-/// The zero that decides: the right-most.
-pub fn rightmost(zeros: &[TransmissionZero]) -> Option<&TransmissionZero> {
-    zeros.iter().max_by(|x, y| x.value.re.total_cmp(&y.value.re))
 }
 
 /// The analysis in force, if there is one.
@@ -154,11 +149,6 @@ pub fn of_rightmost(lab: Lab) -> String {
     match situation(lab) {
         Some(ZeroSituation::Left(z) | ZeroSituation::Right(z)) => from_zero(z),
         Some(ZeroSituation::Origin) => tr!(lab, valves.at_origin).to_string(),
-        Some(ZeroSituation::Uncoupled) => with_analysis(lab, |a| {
-            a.zeros.as_ref().ok().and_then(|z| rightmost(z)).map(|z| from_zero(z.value.re))
-        })
-        .flatten()
-        .unwrap_or_else(|| tr!(lab, valves.none).to_string()),
         _ => tr!(lab, valves.none).to_string(),
     }
 }
@@ -171,7 +161,7 @@ pub fn of_direction(lab: Lab) -> String {
     let style = lab.number_style();
     with_analysis(lab, |analysis| match &analysis.zeros {
         Err(_) => tr!(lab, zeros.degenerate).to_string(),
-        Ok(zeros) => match rightmost(zeros) {
+        Ok(_) => match analysis.rightmost_zero() {
             None => tr!(lab, zeros.none).to_string(),
             Some(zero) => {
                 let y: [f64; 2] = [zero.output_direction[0].re, zero.output_direction[1].re];
@@ -201,7 +191,7 @@ pub fn of_stability(lab: Lab) -> (String, bool) {
         match (analysis.closed_loop.stability, slowest) {
             (Stability::Stable, Some(pole)) => {
                 let time = style.significant(1.0 / pole.re.abs(), 3);
-                let text = match analysis.sensitivity_peak {
+                let text = match analysis.closed_loop.sensitivity_peak {
                     Some(peak) => {
                         let peak = style.significant(peak, 3);
                         tr!(lab, pi.stable, pole = number(pole), time = time, peak = peak).to_string()

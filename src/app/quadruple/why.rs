@@ -6,7 +6,6 @@ use super::sentences::{ZeroSituation, situation, with_analysis};
 use crate::app::lab::use_lab;
 use crate::app::shown::{to_shown, unit_name};
 use crate::app::texts::tr;
-use crate::scenario::interpolation;
 
 /// ∫ ηᵀe(t) e^(−zt) dt = ηᵀr/z for every stabilising controller.
 #[component]
@@ -22,17 +21,16 @@ pub fn WhyCard() -> impl IntoView {
         Some(ZeroSituation::NoFinite) | None => tr!(lab, why.none).to_string(),
     };
     let constraint = move || {
-        let setup = lab.scenario.with(|s| s.setup.clone());
-        with_analysis(lab, |a| interpolation(a, &setup)).flatten()
+        lab.scenario.with(|s| with_analysis(lab, |a| a.interpolation_integral(&s.setup.experiment))).flatten()
     };
     view! {
         <section class="card why" aria-labelledby="why-title">
             <header><h2 id="why-title">{move || tr!(lab, why.title)}</h2></header>
             <p class="sentence" data-testid="why">{text}</p>
-            {move || constraint().map(|c| {
+            {move || constraint().map(|integral| {
                 let unit = lab.unit().get();
                 let style = lab.number_style();
-                let value = style.significant(to_shown(c.integral, unit), 3);
+                let value = style.significant(to_shown(integral, unit), 3);
                 view! {
                     <div class="formula" role="region" tabindex="0" aria-label=move || tr!(lab, why.title)>
                         <math>

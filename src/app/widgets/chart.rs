@@ -9,7 +9,7 @@ use crate::app::canvas;
 use crate::app::download::{download_canvas, download_text};
 use crate::app::lab::use_lab;
 use crate::app::texts::tr;
-use crate::figure::{Chart, Frame, Palette, Size, csv, layout, to_svg};
+use crate::figure::{Chart, Frame, Size, Style, csv, layout, to_svg};
 
 /// How the charts of a picture are had: a function that builds them, in place, for whoever paints or exports them.
 /// Building reads signals, so whoever calls it inside an effect follows them.
@@ -53,9 +53,9 @@ pub fn ChartCanvas(
         if size.width < 1.0 || size.height < 1.0 {
             return;
         }
-        let palette = lab.palette();
+        let style = lab.chart_style();
         let placed = picture.visit(|charts| {
-            canvas::paint(&canvas, charts, size, ratio, &palette);
+            canvas::paint(&canvas, charts, size, ratio, &style);
             layout(charts, size)
         });
         if frames.with_untracked(|f| *f != placed) {
@@ -89,14 +89,14 @@ pub fn ChartMenu(
     };
     let save_svg = move |_| {
         let text = untrack(|| {
-            let palette = lab.palette();
-            for_svg.visit(|charts| to_svg(charts, EXPORT, &palette, lab.number_style().decimal, &title.get()))
+            let style = lab.chart_style();
+            for_svg.visit(|charts| to_svg(charts, EXPORT, &style, &title.get(), ""))
         });
         download_text(&format!("{file}.svg"), "image/svg+xml", &text);
     };
     let save_png = move |_| {
-        let palette = untrack(|| lab.palette());
-        if let Some(canvas) = untrack(|| for_png.visit(|charts| off_screen(charts, &palette))) {
+        let style = untrack(|| lab.chart_style());
+        if let Some(canvas) = untrack(|| for_png.visit(|charts| off_screen(charts, &style))) {
             download_canvas(&format!("{file}.png"), &canvas);
         }
     };
@@ -112,8 +112,9 @@ pub fn ChartMenu(
     }
 }
 
-fn off_screen(charts: &[Chart], palette: &Palette) -> Option<HtmlCanvasElement> {
+fn off_screen(charts: &[Chart], style: &Style) -> Option<HtmlCanvasElement> {
     let canvas = canvas::new_canvas()?;
-    canvas::paint(&canvas, charts, EXPORT, EXPORT_RATIO, palette);
+    canvas::paint(&canvas, charts, EXPORT, EXPORT_RATIO, style);
+    canvas::fill_background(&canvas, style);
     Some(canvas)
 }
