@@ -235,7 +235,7 @@ mod tests {
     fn manual_output_is_held_and_handed_over_without_a_bump() {
         let mode = LoopMode::Manual { output: 7.0, until_s: 50.0 };
         for set_point_weight in [0.0, 1.0] {
-            let mut pi = Pi::new(PiSettings { mode, set_point_weight, ..SETTINGS }, LIMITS, 1.0, 5.0, 6.0);
+            let mut pi = Pi::new(PiSettings { set_point_weight, mode, ..SETTINGS }, LIMITS, 1.0, 5.0, 6.0);
             for k in 0..50 {
                 assert_eq!(pi.step(f64::from(k), 6.5, 6.0 + 0.01 * f64::from(k)), 7.0);
             }
