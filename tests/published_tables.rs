@@ -171,6 +171,9 @@ fn cocota_table_3_1_general_parameters() {
     }
     // The sensor spans 0–300 mm with 0–10 V, the controller 0–10 V for 0–12 V at the pump.
     assert_printed(plant.sensor.measure(300.0 * MM), 10.0, 1e-12);
+    assert_printed(plant.sensor.quantise(plant.sensor.measure(350.0 * MM)), 10.0, 1e-12);
+    // Eleven bits: one step of the signal is about 5 mV, or 0.15 mm.
+    assert_printed(plant.sensor.quantise(6e-3), 10.0 / 2048.0, 1e-12);
     assert_all_printed(plant.controller_limits().map(|(_, max)| max), [10.0, 10.0], 1e-12);
 }
 

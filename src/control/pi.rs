@@ -261,6 +261,8 @@ mod tests {
         assert_eq!(pi.step(1.0, f64::NAN, 6.0), before);
         assert_eq!(pi.step(2.0, 6.1, f64::INFINITY), before);
         assert_relative_eq!(pi.step(3.0, 6.1, 6.0), before + 1.75 / 40.0 * 0.1, max_relative = 1e-12);
+        // Also when it is lost from the beginning and the plant rests beyond the limits.
+        assert_eq!(Pi::new(SETTINGS, LIMITS, 1.0, 12.0, 6.0).step(0.0, f64::NAN, 6.0), 10.0);
     }
 
     #[test]
