@@ -84,8 +84,8 @@ proptest! {
             let tolerance = 1e-13 / (gamma_sum - 1.0).abs();
             let scale = (0..2).map(|i| plant.pumps[i].gain * voltage[i]).fold(0.0, f64::max);
             let back = back.unwrap();
-            for i in 0..2 {
-                let error = plant.pumps[i].gain * (back.pump_voltage[i] - voltage[i]).abs();
+            for (pump, (found, given)) in plant.pumps.iter().zip(back.pump_voltage.into_iter().zip(voltage)) {
+                let error = pump.gain * (found - given).abs();
                 prop_assert!(error < tolerance * scale, "{error} against {}", tolerance * scale);
             }
         }
