@@ -26,7 +26,7 @@ pub fn run(setup: &Setup) -> Result<Run, ScenarioError> {
     let start = setup.operating_point()?;
     let Setup { controller, experiment, .. } = setup;
     let nonlinear = simulate(&plant, &start, controller, experiment);
-    let linear = simulate_linear(&plant, &start, controller, experiment);
+    let linear = simulate_linear(&plant, &start, &plant.linearise(&start), controller, experiment);
     Ok(Run {
         metrics: loop_metrics(&nonlinear, &plant, controller, experiment),
         linear_metrics: loop_metrics(&linear, &plant, controller, experiment),
