@@ -231,8 +231,8 @@ proptest! {
     /// Integral action leaves no error behind a first-order plant, whatever the weight, the rest and the sign.
     #[test]
     fn pi_brings_the_output_to_the_reference(
-        gain in 0.1..2.0, sign in prop_oneof![Just(-1.0), Just(1.0)], set_point_weight in 0.0..1.0,
-        rest in 1.0..9.0, step in -0.5..0.5,
+        gain in 0.1..2.0, sign in prop_oneof![Just(-1.0), Just(1.0_f64)], set_point_weight in 0.0..1.0,
+        rest in 1.0..9.0, step in -0.5..0.5_f64,
     ) {
         let (time_constant, output) = (20.0_f64, 5.0);
         let settings = PiSettings {
@@ -241,7 +241,7 @@ proptest! {
         };
         let mut pi = Pi::new(settings, (0.0, 10.0), 1.0, output, rest);
         let decay = (-1.0 / time_constant).exp();
-        let mut deviation = 0.0;
+        let mut deviation = 0.0_f64;
         for k in 0..4000 {
             let control = pi.step(f64::from(k), rest + step, rest + deviation);
             deviation = decay * deviation + (1.0 - decay) * sign * (control - output);
