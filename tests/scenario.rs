@@ -24,15 +24,17 @@ fn pair(limits: Limits) -> impl Strategy<Value = [f64; 2]> {
 
 fn tank() -> impl Strategy<Value = Tank> {
     let section = (1e-4..=limits::TANK_AREA.max, 0.0..=limits::TANK_AREA_SLOPE.max, within(limits::TANK_HEIGHT));
-    (section, 0.0..=1.0, within(limits::LOSS_COEFFICIENT)).prop_map(|((area, slope, height), share, loss_coefficient)| {
-        let widest = limits::OUTLET_AREA.max.min(limits::OUTLET_SHARE * area);
-        let area_of_outlet = f64::max(share * widest, limits::OUTLET_AREA.min);
-        Tank {
-            section: CrossSection { area_at_empty: area, area_slope: slope },
-            outlet: Outlet { area: area_of_outlet, loss_coefficient },
-            height,
-        }
-    })
+    (section, 0.0..=1.0, within(limits::LOSS_COEFFICIENT)).prop_map(
+        |((area, slope, height), share, loss_coefficient)| {
+            let widest = limits::OUTLET_AREA.max.min(limits::OUTLET_SHARE * area);
+            let area_of_outlet = f64::max(share * widest, limits::OUTLET_AREA.min);
+            Tank {
+                section: CrossSection { area_at_empty: area, area_slope: slope },
+                outlet: Outlet { area: area_of_outlet, loss_coefficient },
+                height,
+            }
+        },
+    )
 }
 
 fn pump() -> impl Strategy<Value = Pump> {
@@ -336,11 +338,23 @@ fn full() -> Value {
 
 /// Fields (by the path that an error gives, and by JSON pointer) and a number that is out of their range.
 const LEAVES: [(&str, &str, f64); 40] = [
-    ("setup.plant.parameters.rig.tanks[2].section.area_at_empty", "/setup/plant/parameters/rig/tanks/2/section/area_at_empty", 0.0),
-    ("setup.plant.parameters.rig.tanks[1].section.area_slope", "/setup/plant/parameters/rig/tanks/1/section/area_slope", -1.0),
+    (
+        "setup.plant.parameters.rig.tanks[2].section.area_at_empty",
+        "/setup/plant/parameters/rig/tanks/2/section/area_at_empty",
+        0.0,
+    ),
+    (
+        "setup.plant.parameters.rig.tanks[1].section.area_slope",
+        "/setup/plant/parameters/rig/tanks/1/section/area_slope",
+        -1.0,
+    ),
     ("setup.plant.parameters.rig.tanks[0].outlet.area", "/setup/plant/parameters/rig/tanks/0/outlet/area", 0.0),
     ("setup.plant.parameters.rig.tanks[0].outlet.area", "/setup/plant/parameters/rig/tanks/0/outlet/area", 0.009),
-    ("setup.plant.parameters.rig.tanks[3].outlet.loss_coefficient", "/setup/plant/parameters/rig/tanks/3/outlet/loss_coefficient", 1.5),
+    (
+        "setup.plant.parameters.rig.tanks[3].outlet.loss_coefficient",
+        "/setup/plant/parameters/rig/tanks/3/outlet/loss_coefficient",
+        1.5,
+    ),
     ("setup.plant.parameters.rig.tanks[3].height", "/setup/plant/parameters/rig/tanks/3/height", -0.2),
     ("setup.plant.parameters.rig.pumps[0].gain", "/setup/plant/parameters/rig/pumps/0/gain", -4e-6),
     ("setup.plant.parameters.rig.pumps[0].voltage_min", "/setup/plant/parameters/rig/pumps/0/voltage_min", -1.0),
@@ -357,7 +371,11 @@ const LEAVES: [(&str, &str, f64); 40] = [
     ("setup.controller.loops[1].gain", "/setup/controller/loops/1/gain", -1e4),
     ("setup.controller.loops[0].integral_time_s", "/setup/controller/loops/0/integral_time_s", 0.0),
     ("setup.controller.loops[0].set_point_weight", "/setup/controller/loops/0/set_point_weight", 2.0),
-    ("setup.controller.loops[1].anti_windup.tracking_ratio", "/setup/controller/loops/1/anti_windup/tracking_ratio", 0.0),
+    (
+        "setup.controller.loops[1].anti_windup.tracking_ratio",
+        "/setup/controller/loops/1/anti_windup/tracking_ratio",
+        0.0,
+    ),
     ("setup.controller.loops[0].mode.output", "/setup/controller/loops/0/mode/output", -1.0),
     ("setup.controller.loops[0].mode.until_s", "/setup/controller/loops/0/mode/until_s", -1.0),
     ("setup.controller.sampling_time_s", "/setup/controller/sampling_time_s", 0.0),

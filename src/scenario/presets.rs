@@ -37,11 +37,7 @@ pub fn setup_of(id: PresetId) -> Setup {
         plant: PlantSpec::Preset(id),
         valves: preset.plant.valves,
         operating_point: OperatingPointSpec::PumpVoltage(preset.pump_voltage),
-        controller: DecentralisedPi {
-            pairing,
-            loops: [pi(loop_1), pi(loop_2)],
-            sampling_time_s: SAMPLING_TIME_S,
-        },
+        controller: DecentralisedPi { pairing, loops: [pi(loop_1), pi(loop_2)], sampling_time_s: SAMPLING_TIME_S },
         experiment: Experiment {
             duration_s: course.end,
             set_point_steps: vec![step(0, course.first_step, levels[0]), step(1, course.second_step, levels[1])],
