@@ -5,6 +5,7 @@
 
 mod analyse;
 mod codec;
+mod csv;
 mod document;
 mod error;
 pub mod limits;
