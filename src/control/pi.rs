@@ -113,8 +113,9 @@ impl Pi {
     /// I += Ts/Tt (c − v)
     /// ```
     ///
-    /// The first term is `K (b r − y)` plus the constant `K (1 − b) r0`, which only moves the value at which I starts: to the
-    /// initial output, for every b. Tustin's rule and the back-calculation are those of Cocota (2009, eq. 4.2, §4.4).
+    /// The first term of v is `K (b r − y)` plus the constant `K (1 − b) r0`, which only moves the value at which I
+    /// starts: to the initial output, for every b. Tustin's rule and the back-calculation are those of Cocota (2009,
+    /// eq. 4.2, §4.4).
     ///
     /// In manual mode c is the manual output within the limits, and I follows so that the controller would give just
     /// that; it takes over, without a bump, at the first sample at or after the given time.
