@@ -104,7 +104,7 @@ impl Scaled {
         value: Complex,
         repetition: usize,
     ) -> Result<Option<TransmissionZero>, LinearError> {
-        let failure = LinearError::NoConvergence { size: system.order() };
+        let failure = LinearError::NoConvergence { size: self.model.order() };
         let (value, right, left) = if value.im == 0.0 {
             let (value, right, left) = polish(system, value.re, repetition).ok_or(failure)?;
             (Complex::from(value), right.map(Complex::from), left.map(Complex::from))
