@@ -41,7 +41,7 @@ fn check_setup(setup: &Setup, path: &str) -> Checked {
     pair(setup.valves, limits::VALVE, format_args!("{path}.valves"))?;
     match setup.operating_point {
         OperatingPointSpec::PumpVoltage(voltage) => {
-            pair(voltage, limits::PUMP_VOLTAGE, format_args!("{path}.operating_point.pump-voltage"))?;
+            pair(voltage, limits::PUMP_VOLTAGE, format_args!("{path}.operating_point.pump_voltage"))?;
         }
         OperatingPointSpec::Levels(levels) => {
             pair(levels, limits::LEVEL, format_args!("{path}.operating_point.levels"))?;
