@@ -4,6 +4,7 @@
 mod random;
 
 use proptest::prelude::*;
+use proptest::sample::Index;
 use quadtank::control::{AntiWindup, LoopMode, Pairing};
 use quadtank::plant::{CrossSection, DisplayUnit, Outlet, PresetId, Sensor};
 use quadtank::scenario::{
@@ -29,18 +30,18 @@ proptest! {
     }
 
     #[test]
-    fn a_link_that_is_cut_off_is_damaged(scenario in random::scenario(1, 0), keep in 0.0..1.0) {
+    fn a_link_that_is_cut_off_is_damaged(scenario in random::scenario(1, 0), keep in any::<Index>()) {
         let link = to_link(&scenario).unwrap();
-        let shorter = &link[..(keep * link.len() as f64) as usize];
+        let shorter = &link[..keep.index(link.len())];
         prop_assert_eq!(from_link(shorter), Err(ScenarioError::DamagedLink));
     }
 
     /// A bit that pads the last byte of the text may change and means nothing.
     #[test]
-    fn a_link_with_one_wrong_character_never_brings_another_scenario(scenario in random::scenario(1, 0), at in 0.0..1.0, wrong in "[A-Za-z0-9_-]") {
+    fn a_link_with_one_wrong_character_never_brings_another_scenario(scenario in random::scenario(1, 0), at in any::<Index>(), wrong in "[A-Za-z0-9_-]") {
         let link = to_link(&scenario).unwrap();
         let payload = "q1.".len();
-        let at = payload + (at * (link.len() - payload) as f64) as usize;
+        let at = payload + at.index(link.len() - payload);
         let changed = format!("{}{wrong}{}", &link[..at], &link[at + 1..]);
         let result = from_link(&changed);
         prop_assert!(result == Err(ScenarioError::DamagedLink) || result == Ok(scenario), "{:?}", result);
