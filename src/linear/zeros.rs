@@ -61,10 +61,7 @@ pub fn transmission_zeros(model: &StateSpace) -> Result<Vec<TransmissionZero>, L
     for (i, &value) in values.iter().enumerate().filter(|(_, value)| value.im <= 0.0) {
         let close = |other: &&Complex| (*other - value).norm() <= SAME_ZERO * value.norm();
         let repetition = values.iter().take(i).filter(close).count();
-        let Some(zero) = scaled.zero(&system, value, repetition) else { continue };
-        if !zero.value.is_finite() {
-            return Err(failure);
-        }
+        let Some(zero) = scaled.zero(&system, value, repetition)? else { continue };
         if value.im < 0.0 {
             zeros.push(zero.conjugate());
         }
@@ -101,17 +98,36 @@ impl TransmissionZero {
 impl Scaled {
     /// The zero of the unscaled model that belongs to the zero `value` of `system`, the minimal part of the scaled one;
     /// `None` where inputs or outputs have no part in it, a mode that is hidden after all.
-    fn zero(&self, system: &StateSpace, value: Complex, repetition: usize) -> Option<TransmissionZero> {
-        let (value, input, output) = if value.im == 0.0 {
-            let (value, input, output) = polish(system, value.re, repetition)?;
-            (Complex::from(value), input.map(Complex::from), output.map(Complex::from))
+    fn zero(
+        &self,
+        system: &StateSpace,
+        value: Complex,
+        repetition: usize,
+    ) -> Result<Option<TransmissionZero>, LinearError> {
+        let failure = LinearError::NoConvergence { size: self.model.order() };
+        let (value, right, left) = if value.im == 0.0 {
+            let (value, right, left) = polish(system, value.re, repetition).ok_or(failure)?;
+            (Complex::from(value), right.map(Complex::from), left.map(Complex::from))
         } else {
-            polish(system, value, repetition)?
+            polish(system, value, repetition).ok_or(failure)?
         };
-        let input = input.zip_map(&DVector::from_column_slice(&self.inputs), |u, scale| u * scale);
-        let output = output.zip_map(&DVector::from_column_slice(&self.outputs), |y, scale| y * scale);
         let value = value * self.rate;
-        Some(TransmissionZero { value, input_direction: unit(input)?, output_direction: unit(output)? })
+        let direction = |null_vector: &DVector<Complex>, scales: &[f64]| {
+            let part = null_vector.rows_range(system.order()..);
+            let hidden = part.norm() <= HIDDEN * null_vector.norm();
+            if hidden {
+                Ok(None)
+            } else {
+                unit(part.zip_map(&DVector::from_column_slice(scales), |x, scale| x * scale)).map(Some).ok_or(failure)
+            }
+        };
+        let directions = (direction(&right, &self.inputs)?, direction(&left, &self.outputs)?);
+        let (Some(input_direction), Some(output_direction)) = directions else { return Ok(None) };
+        if value.is_finite() {
+            Ok(Some(TransmissionZero { value, input_direction, output_direction }))
+        } else {
+            Err(failure)
+        }
     }
 }
 
@@ -127,7 +143,7 @@ fn zero_dynamics(reduced: StateSpace) -> Option<DMatrix<f64>> {
     if d.is_empty() { Some(a) } else { d.full_piv_lu().solve(&c).map(|x| a - b * x) }
 }
 
-/// A zero brought to full accuracy, with its input and output direction, not yet of unit length.
+/// A zero brought to full accuracy, with the right and left null vector of its pencil.
 ///
 /// The reduction may have divided by a small number. The model itself has not: with the null vectors v, w of the pencil
 /// `M − zE = [A − zI, B; C, D]`, the zero is off by `wᵀ(M − zE)v / wᵀEv`, to second order.
@@ -135,7 +151,7 @@ fn polish<T>(system: &StateSpace, z: T, repetition: usize) -> Option<(T, DVector
 where
     T: ComplexField<RealField = f64>,
 {
-    let (n, m) = (system.order(), system.inputs());
+    let n = system.order();
     let at = pencil(system, &z);
     let (mut right, mut left) = null_vectors(at.clone(), repetition)?;
     let slope = left.rows(0, n).dot(&right.rows(0, n));
@@ -145,11 +161,7 @@ where
     if small {
         (right, left) = null_vectors(pencil(system, &z), repetition)?;
     }
-    let visible = |vector: &DVector<T>| {
-        let part = vector.rows(n, m).into_owned();
-        (part.norm() > HIDDEN * vector.norm()).then_some(part)
-    };
-    Some((z, visible(&right)?, visible(&left)?))
+    Some((z, right, left))
 }
 
 /// `[A − zI, B; C, D]`.
