@@ -6,6 +6,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{FontDesc, FontFamily, FontStyle, FontTransform, RGBAColor, ShapeStyle, TextStyle};
 
 use super::frame::measure::{CHARACTER, FONT, LINE, TICK_GAP};
+use super::frame::tick_counts;
 use super::legend::{self, SAMPLE};
 use super::trace::{self, Px};
 use super::{
@@ -88,9 +89,9 @@ fn width(pen: Pen) -> f64 {
     match pen {
         Pen::Solid => 2.0,
         Pen::Dotted => 1.8,
-        Pen::Dashed => 1.3,
-        Pen::Faded => 1.3,
+        Pen::Dashed | Pen::Faded => 1.3,
         Pen::Hair => 1.0,
+        Pen::Trail => 5.0,
     }
 }
 
@@ -99,7 +100,7 @@ fn dash(pen: Pen) -> Option<(f64, f64)> {
     match pen {
         Pen::Dotted => Some((1.8, 2.7)),
         Pen::Dashed => Some((5.0, 3.5)),
-        Pen::Solid | Pen::Faded | Pen::Hair => None,
+        Pen::Solid | Pen::Faded | Pen::Hair | Pen::Trail => None,
     }
 }
 
@@ -225,14 +226,14 @@ impl<DB: DrawingBackend> Brush<'_, DB> {
         let plot = &self.frame.plot;
         let x = (x + label.offset.0).min(plot.right() - 2.0 - ahead).max(plot.left + 2.0 + behind);
         let font = if label.bold { FontStyle::Bold } else { FontStyle::Normal };
-        let text = Text { text: &label.text, color: self.style.palette.color(label.role), font, h_pos, turned: false };
+        let text = Text { words: &label.text, color: self.style.palette.color(label.role), font, h_pos, turned: false };
         self.text(&text, (x, y + label.offset.1))
     }
 
     fn axes(&self, chart: &Chart) -> Result<(), PaintError<DB>> {
         let Palette { grid, edge, .. } = self.style.palette;
         let plot = &self.frame.plot;
-        let (columns, rows) = self.frame.tick_counts();
+        let (columns, rows) = tick_counts(chart, &self.frame);
         let (uprights, levels) = (chart.x.ticks(columns), chart.y.ticks(rows));
         for tick in &uprights {
             let x = snapped(self.frame.x_px(tick.value), plot.left, plot.right());
@@ -264,7 +265,7 @@ impl<DB: DrawingBackend> Brush<'_, DB> {
         self.note(&x.label, HPos::Center, (plot.left + plot.width / 2.0, below))?;
         let font = FontStyle::Normal;
         let color = self.style.palette.muted;
-        let text = Text { text: &y.label, color, font, h_pos: HPos::Center, turned: true };
+        let text = Text { words: &y.label, color, font, h_pos: HPos::Center, turned: true };
         self.text(&text, (outer.left + LINE / 2.0, plot.top + plot.height / 2.0))
     }
 
@@ -292,11 +293,11 @@ impl<DB: DrawingBackend> Brush<'_, DB> {
     /// Small print.
     fn note(&self, text: &str, h_pos: HPos, at: Px) -> Result<(), PaintError<DB>> {
         let color = self.style.palette.muted;
-        self.text(&Text { text, color, font: FontStyle::Normal, h_pos, turned: false }, at)
+        self.text(&Text { words: text, color, font: FontStyle::Normal, h_pos, turned: false }, at)
     }
 
     fn text(&self, text: &Text, at: Px) -> Result<(), PaintError<DB>> {
-        if text.text.is_empty() {
+        if text.words.is_empty() {
             return Ok(());
         }
         let turn = if text.turned { FontTransform::Rotate270 } else { FontTransform::None };
@@ -304,7 +305,7 @@ impl<DB: DrawingBackend> Brush<'_, DB> {
         let font = FontDesc::new(FontFamily::Name(FONT_FAMILY), size, text.font).transform(turn);
         let color = opaque(text.color);
         let style = TextStyle::from(font).color(&color).pos(Pos::new(text.h_pos, VPos::Center));
-        self.area.draw_text(text.text, &style, self.fine(at))
+        self.area.draw_text(text.words, &style, self.fine(at))
     }
 
     fn path(&self, points: &[Px], color: Rgb, width: f64) -> Result<(), PaintError<DB>> {
@@ -346,7 +347,7 @@ impl<DB: DrawingBackend> Brush<'_, DB> {
 
 /// A line of text, centred upwards on its point.
 struct Text<'a> {
-    text: &'a str,
+    words: &'a str,
     color: Rgb,
     font: FontStyle,
     h_pos: HPos,

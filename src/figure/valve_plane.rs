@@ -7,7 +7,8 @@ const STEPS: u32 = 40;
 pub struct ValvePlane<'a> {
     /// Right-most transmission zero at the valve fractions γ1, γ2 (1/s); `None` where there is none that is finite.
     pub right_most_zero: &'a dyn Fn([f64; 2]) -> Option<f64>,
-    /// The zero that is shaded halfway (1/s, positive); the reciprocal of a typical time constant of the upper tanks.
+    /// The zero that is shaded halfway (1/s, positive). About half the reciprocal time constant of the upper tanks
+    /// shows both sides: zeros to the left hardly pass that reciprocal, those to the right have no bound.
     pub halfway_zero: f64,
     /// Published settings: name, γ1, γ2.
     pub published: &'a [(&'a str, [f64; 2])],
@@ -60,9 +61,11 @@ fn shading(spec: &ValvePlane) -> Field {
 
 /// From −1 for a zero far to the left to 1 for one far to the right. Without a finite zero the side of the line counts.
 fn shade(spec: &ValvePlane, gammas: [f64; 2]) -> f64 {
+    let below_line = 1.0 - gammas.iter().sum::<f64>();
     match (spec.right_most_zero)(gammas).filter(|zero| zero.is_finite()) {
         Some(zero) => zero / (zero.abs() + spec.halfway_zero.abs().max(f64::MIN_POSITIVE)),
-        None => 1.0 - gammas.iter().sum::<f64>(),
+        None if below_line == 0.0 => 0.0,
+        None => below_line.signum(),
     }
 }
 
