@@ -4,13 +4,14 @@
 mod random;
 
 use proptest::prelude::*;
-use quadtank::control::LoopMode;
+use proptest::sample::Index;
+use quadtank::control::{AntiWindup, LoopMode, Pairing};
 use quadtank::plant::{CrossSection, DisplayUnit, Outlet, PresetId, Sensor};
 use quadtank::scenario::{
     DOCUMENT_LIMIT, LINK_LIMIT, OperatingPointSpec, PlantSpec, Scenario, ScenarioError, Setup, View, from_json,
     from_link, limits, setup_of, to_json, to_link,
 };
-use quadtank::sim::{Load, LoadStep, SetPointStep};
+use quadtank::sim::{Load, LoadStep, Measurement, SetPointStep};
 use serde_json::{Value, json};
 
 proptest! {
@@ -29,18 +30,18 @@ proptest! {
     }
 
     #[test]
-    fn a_link_that_is_cut_off_is_damaged(scenario in random::scenario(1, 0), keep in 0.0..1.0) {
+    fn a_link_that_is_cut_off_is_damaged(scenario in random::scenario(1, 0), keep in any::<Index>()) {
         let link = to_link(&scenario).unwrap();
-        let shorter = &link[..(keep * link.len() as f64) as usize];
+        let shorter = &link[..keep.index(link.len())];
         prop_assert_eq!(from_link(shorter), Err(ScenarioError::DamagedLink));
     }
 
     /// A bit that pads the last byte of the text may change and means nothing.
     #[test]
-    fn a_link_with_one_wrong_character_never_brings_another_scenario(scenario in random::scenario(1, 0), at in 0.0..1.0, wrong in "[A-Za-z0-9_-]") {
+    fn a_link_with_one_wrong_character_never_brings_another_scenario(scenario in random::scenario(1, 0), at in any::<Index>(), wrong in "[A-Za-z0-9_-]") {
         let link = to_link(&scenario).unwrap();
         let payload = "q1.".len();
-        let at = payload + (at * (link.len() - payload) as f64) as usize;
+        let at = payload + at.index(link.len() - payload);
         let changed = format!("{}{wrong}{}", &link[..at], &link[at + 1..]);
         let result = from_link(&changed);
         prop_assert!(result == Err(ScenarioError::DamagedLink) || result == Ok(scenario), "{:?}", result);
@@ -231,7 +232,7 @@ const LEAVES: [(&str, &str, f64); 40] = [
     ("setup.plant.parameters.rig.sensor.resolution", "/setup/plant/parameters/rig/sensor/resolution", -1.0),
     ("setup.plant.parameters.rig.gravity", "/setup/plant/parameters/rig/gravity", 0.0),
     ("setup.valves[1]", "/setup/valves/1", -0.1),
-    ("setup.operating_point.pump-voltage[0]", "/setup/operating_point/pump-voltage/0", -3.0),
+    ("setup.operating_point.pump_voltage[0]", "/setup/operating_point/pump_voltage/0", -3.0),
     ("setup.controller.loops[0].gain", "/setup/controller/loops/0/gain", 0.0),
     ("setup.controller.loops[1].gain", "/setup/controller/loops/1/gain", -1e4),
     ("setup.controller.loops[0].integral_time_s", "/setup/controller/loops/0/integral_time_s", 0.0),
@@ -376,4 +377,51 @@ fn unknown_missing_and_double_fields_are_refused_by_name() {
 fn deep_nesting_ends_in_an_error() {
     let text = format!("{{\"version\":1,\"setup\":{}", "[".repeat(DOCUMENT_LIMIT / 2));
     assert!(matches!(from_json(&text), Err(ScenarioError::Malformed { .. })));
+}
+
+// Documents and links that are out in the world: these files never change, nor does the dictionary of the links.
+
+const GOLDEN: [(&str, &str); 2] = [
+    (include_str!("data/scenario-v1-johansson.json"), include_str!("data/scenario-v1-johansson.link")),
+    (include_str!("data/scenario-v1-own-rig.json"), include_str!("data/scenario-v1-own-rig.link")),
+];
+
+#[test]
+fn version_1_is_read_for_ever() {
+    for (document, link) in GOLDEN {
+        let scenario = from_json(document).unwrap();
+        assert_eq!(from_link(link.trim_end()).as_ref(), Ok(&scenario));
+        assert_eq!(to_json(&scenario).unwrap(), document.trim_end());
+    }
+}
+
+#[test]
+fn version_1_means_what_it_meant() {
+    let [johansson, own_rig] = GOLDEN.map(|(document, _)| from_json(document).unwrap());
+    assert_eq!(johansson.setup.plant, PlantSpec::Preset(PresetId::JohanssonMinimumPhase));
+    assert_eq!(
+        johansson.setup.controller.loops.map(|settings| (settings.gain, settings.integral_time_s)),
+        [(3.0, 30.0), (2.7, 40.0)]
+    );
+    assert_eq!(
+        johansson.setup.experiment.set_point_steps[1],
+        SetPointStep { level: 1, time_s: 1500.0, size: 0.006_391_579_201_504_485 }
+    );
+    let PlantSpec::Parameters { rig, display_unit } = own_rig.setup.plant else { panic!("{:?}", own_rig.setup.plant) };
+    assert_eq!(display_unit, DisplayUnit::Mm);
+    assert_eq!(rig.tanks[1].section.area_slope, 0.033_915_365_246_952_82);
+    assert_eq!(rig.valves, [0.512_345_678_901_234_5, 0.598_765_432_109_876_5]);
+    assert_eq!(own_rig.setup.valves, [0.1, 1.0 / 3.0]);
+    assert_eq!(own_rig.setup.operating_point, OperatingPointSpec::Levels([0.15, 0.160_000_000_000_000_03]));
+    assert_eq!(own_rig.setup.controller.pairing, Pairing::Swapped);
+    assert_eq!(own_rig.setup.controller.loops[0].anti_windup, AntiWindup::Off);
+    assert_eq!(own_rig.setup.controller.loops[1].mode, LoopMode::Manual { output: 5.0, until_s: 100.0 });
+    let loads = own_rig.setup.experiment.load_steps;
+    assert_eq!(loads[0].load, Load::PumpFlow { pump: 0, flow: -1e-5 });
+    assert_eq!(loads[1].load, Load::Leak { tank: 3, area: 2.5e-6 });
+    let expected = Measurement { noise_std: 0.001, seed: u32::MAX, quantised: true };
+    assert_eq!(own_rig.setup.experiment.measurement, expected);
+    assert_eq!(own_rig.pinned[0].plant, PlantSpec::Preset(PresetId::JunqueiraB));
+    let expected = View { cursor_s: Some(123.0), zoom_s: Some([100.0, 900.0]), hide_linear: true };
+    assert_eq!(own_rig.view, expected);
 }

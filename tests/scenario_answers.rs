@@ -11,7 +11,8 @@ use quadtank::interaction::{PairingReason, PairingVerdict};
 use quadtank::linear::LinearError;
 use quadtank::plant::{PlantError, PresetId};
 use quadtank::scenario::{
-    Analysis, AnalysisReport, OperatingPointSpec, Scenario, ScenarioError, Setup, ValveMap, analyse, limits, run, setup_of,
+    Analysis, AnalysisReport, OperatingPointSpec, Scenario, ScenarioError, Setup, ValveMap, analyse, limits, run,
+    setup_of,
 };
 use quadtank::sim::{Settling, Stability, Trajectory};
 use serde_json::Value;
@@ -102,7 +103,8 @@ fn the_pairing_follows_the_line_between_the_phases() {
     ] {
         let verdict = analyse(&setup_of(id)).unwrap().verdict;
         let reason = match (verdict, pairing) {
-            (PairingVerdict::Diagonal(reason), Pairing::Diagonal) | (PairingVerdict::Swapped(reason), Pairing::Swapped) => reason,
+            (PairingVerdict::Diagonal(reason), Pairing::Diagonal)
+            | (PairingVerdict::Swapped(reason), Pairing::Swapped) => reason,
             other => panic!("{id:?}: {other:?}"),
         };
         assert!(matches!(reason, PairingReason::OnlyPositiveRelativeGain { .. }), "{reason:?}");
@@ -164,8 +166,7 @@ fn on_the_line_the_gain_is_singular_and_a_zero_is_at_the_origin() {
     assert_eq!(analysis.verdict, PairingVerdict::None(PairingReason::SingularGain));
     let rightmost = analysis.zeros.unwrap().last().unwrap().value;
     assert!(rightmost.norm() < 1e-12, "{rightmost}");
-    let at_levels =
-        Setup { operating_point: OperatingPointSpec::Levels([0.1, 0.1]), ..johansson([0.625, 0.375]) };
+    let at_levels = Setup { operating_point: OperatingPointSpec::Levels([0.1, 0.1]), ..johansson([0.625, 0.375]) };
     let expected = ScenarioError::Plant(PlantError::SingularPlant { gamma_sum: 1.0 });
     assert_eq!(analyse(&at_levels), Err(expected.clone()));
     assert_eq!(run(&at_levels), Err(expected));

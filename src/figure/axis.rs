@@ -136,7 +136,7 @@ impl Step {
     #[expect(clippy::cast_possible_truncation, reason = "a sane range has fewer than 1e12 steps to the origin")]
     fn count(self, value: f64, round: fn(f64) -> f64, slack: f64) -> i64 {
         let steps = value / self.value(1);
-        round(steps + slack * steps.abs().max(1.0).min(1e3)) as i64
+        round(steps + slack * steps.abs().clamp(1.0, 1e3)) as i64
     }
 }
 

@@ -41,6 +41,7 @@ pub struct Size {
 
 impl Size {
     /// The size, made usable: at least 1 px each way, finite, and no larger than can be painted.
+    #[must_use]
     pub fn clamped(self) -> Self {
         let side = |length: f64| if length.is_finite() { length.clamp(1.0, LONGEST_SIDE) } else { 1.0 };
         Self { width: side(self.width), height: side(self.height) }

@@ -89,8 +89,7 @@ fn width(pen: Pen) -> f64 {
     match pen {
         Pen::Solid => 2.0,
         Pen::Dotted => 1.8,
-        Pen::Dashed => 1.3,
-        Pen::Faded => 1.3,
+        Pen::Dashed | Pen::Faded => 1.3,
         Pen::Hair => 1.0,
         Pen::Trail => 5.0,
     }
@@ -227,7 +226,7 @@ impl<DB: DrawingBackend> Brush<'_, DB> {
         let plot = &self.frame.plot;
         let x = (x + label.offset.0).min(plot.right() - 2.0 - ahead).max(plot.left + 2.0 + behind);
         let font = if label.bold { FontStyle::Bold } else { FontStyle::Normal };
-        let text = Text { text: &label.text, color: self.style.palette.color(label.role), font, h_pos, turned: false };
+        let text = Text { words: &label.text, color: self.style.palette.color(label.role), font, h_pos, turned: false };
         self.text(&text, (x, y + label.offset.1))
     }
 
@@ -266,7 +265,7 @@ impl<DB: DrawingBackend> Brush<'_, DB> {
         self.note(&x.label, HPos::Center, (plot.left + plot.width / 2.0, below))?;
         let font = FontStyle::Normal;
         let color = self.style.palette.muted;
-        let text = Text { text: &y.label, color, font, h_pos: HPos::Center, turned: true };
+        let text = Text { words: &y.label, color, font, h_pos: HPos::Center, turned: true };
         self.text(&text, (outer.left + LINE / 2.0, plot.top + plot.height / 2.0))
     }
 
@@ -294,11 +293,11 @@ impl<DB: DrawingBackend> Brush<'_, DB> {
     /// Small print.
     fn note(&self, text: &str, h_pos: HPos, at: Px) -> Result<(), PaintError<DB>> {
         let color = self.style.palette.muted;
-        self.text(&Text { text, color, font: FontStyle::Normal, h_pos, turned: false }, at)
+        self.text(&Text { words: text, color, font: FontStyle::Normal, h_pos, turned: false }, at)
     }
 
     fn text(&self, text: &Text, at: Px) -> Result<(), PaintError<DB>> {
-        if text.text.is_empty() {
+        if text.words.is_empty() {
             return Ok(());
         }
         let turn = if text.turned { FontTransform::Rotate270 } else { FontTransform::None };
@@ -306,7 +305,7 @@ impl<DB: DrawingBackend> Brush<'_, DB> {
         let font = FontDesc::new(FontFamily::Name(FONT_FAMILY), size, text.font).transform(turn);
         let color = opaque(text.color);
         let style = TextStyle::from(font).color(&color).pos(Pos::new(text.h_pos, VPos::Center));
-        self.area.draw_text(text.text, &style, self.fine(at))
+        self.area.draw_text(text.words, &style, self.fine(at))
     }
 
     fn path(&self, points: &[Px], color: Rgb, width: f64) -> Result<(), PaintError<DB>> {
@@ -348,7 +347,7 @@ impl<DB: DrawingBackend> Brush<'_, DB> {
 
 /// A line of text, centred upwards on its point.
 struct Text<'a> {
-    text: &'a str,
+    words: &'a str,
     color: Rgb,
     font: FontStyle,
     h_pos: HPos,

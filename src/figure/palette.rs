@@ -7,6 +7,7 @@ pub struct Rgb(pub u8, pub u8, pub u8);
 impl Rgb {
     /// This colour laid over another one; `share` 0 is the other, 1 this one.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between two u8")]
+    #[must_use]
     pub fn over(self, other: Self, share: f64) -> Self {
         let share = share.clamp(0.0, 1.0);
         let mix = |a: u8, b: u8| (f64::from(a) * share + f64::from(b) * (1.0 - share)).round() as u8;

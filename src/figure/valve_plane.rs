@@ -7,7 +7,8 @@ const STEPS: u32 = 40;
 pub struct ValvePlane<'a> {
     /// Right-most transmission zero at the valve fractions γ1, γ2 (1/s); `None` where there is none that is finite.
     pub right_most_zero: &'a dyn Fn([f64; 2]) -> Option<f64>,
-    /// The zero that is shaded halfway (1/s, positive); the reciprocal of a typical time constant of the upper tanks.
+    /// The zero that is shaded halfway (1/s, positive). About half the reciprocal time constant of the upper tanks
+    /// shows both sides: zeros to the left hardly pass that reciprocal, those to the right have no bound.
     pub halfway_zero: f64,
     /// Published settings: name, γ1, γ2.
     pub published: &'a [(&'a str, [f64; 2])],

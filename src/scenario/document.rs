@@ -9,7 +9,7 @@ use super::ScenarioError;
 /// The plant of a setup: a published rig by name, or all its parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 #[expect(clippy::large_enum_variant, reason = "one per scenario, and plain data is easier to share than a box")]
 pub enum PlantSpec {
     /// A published rig; its valves are overridden by those of the setup.
@@ -26,7 +26,7 @@ pub enum PlantSpec {
 /// How the operating point is given.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
-#[serde(rename_all = "kebab-case")]
+#[serde(rename_all = "snake_case")]
 pub enum OperatingPointSpec {
     /// The pump voltages (V); the levels follow, for any valves.
     PumpVoltage([f64; 2]),
@@ -95,16 +95,18 @@ pub struct View {
     pub hide_linear: bool,
 }
 
-/// The document. `version` is checked before anything else is read; see [`crate::scenario::from_json`].
+/// A run of the quadruple-tank laboratory, and what is shown of it.
+///
+/// In JSON every key is in snake case and every choice in kebab case; units are SI.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Scenario {
-    /// Version of the document: [`Scenario::VERSION`].
+    /// Version of the document: 1. It is checked before anything else is read.
     pub version: u32,
     /// The run that is worked on.
     pub setup: Setup,
-    /// Runs pinned to compare with, at most [`Scenario::MAX_PINNED`].
+    /// Runs pinned to compare with, at most 3.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub pinned: Vec<Setup>,
     /// What the screen shows.

@@ -51,8 +51,8 @@ pub const SAMPLING_TIME_S: Limits = Limits::new(0.05, 60.0);
 
 /// Duration of an experiment (s).
 pub const DURATION_S: Limits = Limits::new(10.0, 20_000.0);
-/// Samples of one run: duration over sampling time.
-pub const SAMPLES: Limits = Limits::new(0.0, 20_000.0);
+/// Samples of one run; see [`duration_s`].
+pub const MAX_SAMPLES: f64 = 20_000.0;
 /// Time of a step, of the hand-over to automatic, or of the cursor (s).
 pub const TIME_S: Limits = Limits::new(0.0, DURATION_S.max);
 /// Size of a set-point step (m).
@@ -101,9 +101,26 @@ pub const SENSOR_RESOLUTION: Limits = Limits::new(0.0, 10.0);
 /// Acceleration of gravity (m/s²).
 pub const GRAVITY: Limits = Limits::new(0.1, 100.0);
 
+/// Duration of an experiment (s) at a sampling time (s): what is left of [`DURATION_S`] with [`MAX_SAMPLES`].
+pub fn duration_s(sampling_time_s: f64) -> Limits {
+    Limits { max: DURATION_S.max.min(MAX_SAMPLES * sampling_time_s), ..DURATION_S }
+}
+
+/// A gain K (V/V) of the same sign as the given one: [`GAIN_MAGNITUDE`] with that sign.
+pub fn gain_like(gain: f64) -> Limits {
+    let Limits { min, max } = GAIN_MAGNITUDE;
+    if gain < 0.0 { Limits::new(-max, -min) } else { GAIN_MAGNITUDE }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn short_sampling_times_make_short_experiments() {
+        assert_eq!(duration_s(SAMPLING_TIME_S.min), Limits::new(10.0, 1000.0));
+        assert_eq!(duration_s(SAMPLING_TIME_S.max), DURATION_S);
+    }
 
     #[test]
     fn bounds_belong_to_the_interval_and_nan_never_does() {

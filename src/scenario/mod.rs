@@ -1,7 +1,9 @@
 //! The document that describes an experiment: its types, versions, validation and links, and what follows from it.
 //!
-//! A [`Scenario`] is a file, a link, an embed, a command-line run. [`analyse`] says what theory says about it,
-//! [`run`] what happens.
+//! A [`Scenario`] is a file, a link, an embed, a command-line run. It comes in by [`from_json`] or [`from_link`], which
+//! check every number against [`limits`] and take any bytes; [`to_json`] and [`to_link`] write it, with all digits.
+//! [`setup_of`] gives the published rigs. [`analyse()`] says what theory says about a setup, [`run()`] what happens, and
+//! [`ValveMap`] where the zeros go when its valves move: the lower rooms put together, here and nowhere else.
 
 mod analyse;
 mod codec;

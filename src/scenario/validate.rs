@@ -23,16 +23,6 @@ impl Scenario {
     }
 }
 
-impl Setup {
-    /// Checks every number against [`limits`], as [`Scenario::validate`] does; paths start at the setup.
-    ///
-    /// # Errors
-    /// [`ScenarioError::OutOfRange`] or [`ScenarioError::TooMany`] for the first field that is not allowed.
-    pub fn validate(&self) -> Checked {
-        check_setup(self, "setup")
-    }
-}
-
 fn check_setup(setup: &Setup, path: &str) -> Checked {
     match &setup.plant {
         PlantSpec::Preset(_) => {}
@@ -41,7 +31,7 @@ fn check_setup(setup: &Setup, path: &str) -> Checked {
     pair(setup.valves, limits::VALVE, format_args!("{path}.valves"))?;
     match setup.operating_point {
         OperatingPointSpec::PumpVoltage(voltage) => {
-            pair(voltage, limits::PUMP_VOLTAGE, format_args!("{path}.operating_point.pump-voltage"))?;
+            pair(voltage, limits::PUMP_VOLTAGE, format_args!("{path}.operating_point.pump_voltage"))?;
         }
         OperatingPointSpec::Levels(levels) => {
             pair(levels, limits::LEVEL, format_args!("{path}.operating_point.levels"))?;
@@ -92,7 +82,7 @@ fn check_controller(controller: &DecentralisedPi, path: &str) -> Checked {
 }
 
 fn check_loop(settings: &PiSettings, path: &str) -> Checked {
-    within(settings.gain, gain_limits(settings.gain), format_args!("{path}.gain"))?;
+    within(settings.gain, limits::gain_like(settings.gain), format_args!("{path}.gain"))?;
     within(settings.integral_time_s, limits::INTEGRAL_TIME_S, format_args!("{path}.integral_time_s"))?;
     within(settings.set_point_weight, limits::SET_POINT_WEIGHT, format_args!("{path}.set_point_weight"))?;
     match settings.anti_windup {
@@ -110,18 +100,8 @@ fn check_loop(settings: &PiSettings, path: &str) -> Checked {
     }
 }
 
-/// The limits of a gain have the sign of the gain.
-fn gain_limits(gain: f64) -> Limits {
-    let Limits { min, max } = limits::GAIN_MAGNITUDE;
-    if gain < 0.0 { Limits::new(-max, -min) } else { Limits::new(min, max) }
-}
-
 fn check_experiment(experiment: &Experiment, sampling_time_s: f64, path: &str) -> Checked {
-    let duration = format!("{path}.duration_s");
-    within(experiment.duration_s, limits::DURATION_S, &duration)?;
-    let longest = Limits { max: limits::SAMPLES.max * sampling_time_s, ..limits::DURATION_S };
-    within(experiment.duration_s, longest, &duration)?;
-
+    within(experiment.duration_s, limits::duration_s(sampling_time_s), format_args!("{path}.duration_s"))?;
     let set_points = format!("{path}.set_point_steps");
     at_most(limits::MAX_STEPS, experiment.set_point_steps.len(), &set_points)?;
     each(&experiment.set_point_steps, set_points, check_set_point_step)?;

@@ -1,4 +1,5 @@
 //! Random valid scenarios: any number within its limits, with all its digits.
+#![allow(dead_code, reason = "each test file uses its own part")]
 
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -151,4 +152,3 @@ pub fn scenario(steps: usize, pinned: usize) -> impl Strategy<Value = Scenario> 
         view,
     })
 }
-

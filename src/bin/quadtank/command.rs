@@ -112,13 +112,13 @@ fn execute(command: Command) -> Result<(), Failure> {
     match command {
         Command::Analyse { file } => {
             let analysis = compute(&file, analyse)?;
-            print(&json(&AnalysisReport::from(&analysis)))
+            print_json(&AnalysisReport::from(&analysis))
         }
         Command::Simulate { file, format } => {
             let run = compute(&file, run)?;
             match format {
-                Format::Csv => print(&run.to_csv()),
-                Format::Json => print(&json(&run)),
+Format::Csv => print(&run.to_csv()),
+                Format::Json => print_json(&run),
             }
         }
         Command::Plot { file, svg, chart, theme } => {
@@ -131,7 +131,7 @@ fn execute(command: Command) -> Result<(), Failure> {
             let text = to_json(&scenario).map_err(|error| Failure::Scenario { file: id.name().to_owned(), error })?;
             print(&(text + "\n"))
         }
-        Command::Schema => print(&json(&schemars::schema_for!(Scenario))),
+        Command::Schema => print_json(&schemars::schema_for!(Scenario)),
     }
 }
 
@@ -160,11 +160,13 @@ fn read(file: &Path) -> Result<String, Failure> {
 fn print(text: &str) -> Result<(), Failure> {
     let mut output = io::stdout().lock();
     match output.write_all(text.as_bytes()).and_then(|()| output.flush()) {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            Err(Failure::File { file: "standard output".to_owned(), error })
-        }
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(cannot_print(error)),
         _ => Ok(()),
     }
+}
+
+fn cannot_print(error: io::Error) -> Failure {
+    Failure::File { file: "standard output".to_owned(), error }
 }
 
 fn write_file(file: &Path, text: &str) -> Result<(), Failure> {
@@ -179,9 +181,9 @@ fn file_name(file: &Path) -> String {
     if is_standard_stream(file) { "standard input".to_owned() } else { file.display().to_string() }
 }
 
-fn json<T: Serialize>(value: &T) -> String {
-    // Plain data with text keys: there is nothing in it that JSON cannot hold.
-    serde_json::to_string_pretty(value).unwrap_or_default() + "\n"
+fn print_json<T: Serialize>(value: &T) -> Result<(), Failure> {
+    let text = serde_json::to_string_pretty(value).map_err(|error| cannot_print(error.into()))?;
+    print(&(text + "\n"))
 }
 
 fn list_of_presets() -> String {
