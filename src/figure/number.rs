@@ -24,13 +24,7 @@ pub fn signed(value: f64, digits: usize, decimal: char) -> String {
     } else {
         scientific.replace('-', "−")
     };
-    let sign = if value > 0.0 {
-        "+"
-    } else if value < 0.0 {
-        "−"
-    } else {
-        ""
-    };
+    let sign = if value > 0.0 { "+" } else { "−" };
     format!("{sign}{}", body.replace('.', decimal.encode_utf8(&mut [0; 4])))
 }
 
