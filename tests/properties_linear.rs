@@ -211,7 +211,9 @@ proptest! {
             Ok(zeros) => {
                 prop_assert_eq!(rank, model.inputs());
                 prop_assert!(zeros.len() <= model.order());
-                for zero in zeros {
+                let poles = model.poles().unwrap();
+                // A mode that G does not show may have the value of a zero; the pencil of all states then says nothing.
+                for zero in zeros.into_iter().filter(|zero| nearest(&poles, zero.value) > 1e-3) {
                     assert_directions(&model, &zero, 1e-5)?;
                 }
             }

@@ -5,8 +5,10 @@ use std::array::from_fn;
 
 use proptest::prelude::*;
 use quadtank::control::{AntiWindup, DecentralisedPi, LoopMode, Pairing, Pi, PiSettings};
+use quadtank::linear::{StateSpace, quadruple, transmission_zeros};
 use quadtank::plant::{
-    CrossSection, Disturbance, OperatingPoint, Outlet, PlantError, Pump, QuadrupleTank, SINGULAR_MARGIN, Sensor, Tank,
+    CrossSection, Disturbance, OperatingPoint, Outlet, PlantError, PresetId, Pump, QuadrupleTank, SINGULAR_MARGIN,
+    Sensor, Tank,
 };
 
 fn tank() -> impl Strategy<Value = Tank> {
@@ -84,8 +86,8 @@ proptest! {
             let tolerance = 1e-13 / (gamma_sum - 1.0).abs();
             let scale = (0..2).map(|i| plant.pumps[i].gain * voltage[i]).fold(0.0, f64::max);
             let back = back.unwrap();
-            for i in 0..2 {
-                let error = plant.pumps[i].gain * (back.pump_voltage[i] - voltage[i]).abs();
+            for (pump, (found, given)) in plant.pumps.iter().zip(back.pump_voltage.into_iter().zip(voltage)) {
+                let error = pump.gain * (found - given).abs();
                 prop_assert!(error < tolerance * scale, "{error} against {}", tolerance * scale);
             }
         }
@@ -165,6 +167,29 @@ proptest! {
         let _ = plant.inputs_for_levels([levels[0], levels[1]]);
         let _ = plant.linearise(&OperatingPoint { levels, pump_voltage: voltage }).reduced();
         let _ = plant.time_constants_s(&OperatingPoint { levels, pump_voltage: voltage });
+    }
+}
+
+/// The model without its dry tanks has the zeros of the closed form in which a dry tank has no time constant.
+#[test]
+fn dry_tanks_leave_the_zeros_of_the_closed_form() {
+    for (valves, voltage, count) in [
+        ([0.7, 1.0], [3.0, 3.0], 1),
+        ([1.0, 0.6], [3.0, 3.0], 1),
+        ([1.0, 1.0], [3.0, 3.0], 0),
+        ([0.7, 0.6], [3.0, 0.0], 1),
+        ([0.4, 0.3], [0.0, 3.0], 1),
+    ] {
+        let plant = PresetId::JohanssonMinimumPhase.preset().plant.with_valves(valves);
+        let point = plant.free_equilibrium(voltage);
+        let [_, _, t3, t4] = plant.time_constants_s(&point).map(Option::unwrap_or_default);
+        let expected = quadruple::zeros(t3, t4, valves).unwrap();
+        let (a, b, c) = plant.linearise(&point).reduced();
+        let found = transmission_zeros(&StateSpace::strictly_proper(a, b, c).unwrap()).unwrap();
+        assert_eq!((found.len(), expected.as_slice().len()), (count, count), "{valves:?} {voltage:?}");
+        for (found, expected) in found.iter().zip(expected.as_slice()) {
+            assert!((found.value.re - expected).abs() < 1e-9 * expected.abs(), "{valves:?} {voltage:?}");
+        }
     }
 }
 

@@ -6,7 +6,9 @@
 
 use std::array::from_fn;
 
-use nalgebra::{Vector2, Vector4};
+use nalgebra::{DMatrix, Vector2, Vector4, dmatrix};
+use quadtank::interaction::{PairingVerdict, recommend_pairing, relative_gain_array};
+use quadtank::linear::{StateSpace, eigenvalues, quadruple, transmission_zeros};
 use quadtank::plant::{Disturbance, Jacobian, OperatingPoint, Outlet, Preset, PresetId, Printed, QuadrupleTank};
 
 const CM: f64 = 1e-2;
@@ -40,6 +42,32 @@ fn time_constants(preset: &Preset) -> [f64; 4] {
 
 fn levels_at_rest(preset: &Preset) -> [f64; 4] {
     preset.plant.equilibrium(preset.pump_voltage).unwrap().levels
+}
+
+/// The linear model at a point.
+fn model(preset: &Preset, point: &OperatingPoint) -> StateSpace {
+    let (a, b, c) = preset.plant.linearise(point).reduced();
+    StateSpace::strictly_proper(a, b, c).unwrap()
+}
+
+/// The zeros at a point.
+fn zeros(preset: &Preset, point: &OperatingPoint) -> [f64; 2] {
+    let [_, _, t3, t4] = preset.plant.time_constants_s(point).map(Option::unwrap);
+    closed_form_zeros(t3, t4, preset)
+}
+
+/// Cocota (2009), eq. 3.22.
+fn closed_form_zeros(t3: f64, t4: f64, preset: &Preset) -> [f64; 2] {
+    quadruple::zeros(t3, t4, preset.plant.valves).unwrap().as_slice().try_into().unwrap()
+}
+
+fn gain_at_printed_point(preset: &Preset) -> DMatrix<f64> {
+    model(preset, &printed_point(preset)).dc_gain().unwrap()
+}
+
+/// A 2 × 2 matrix by rows.
+fn rows(matrix: &DMatrix<f64>) -> [f64; 4] {
+    [matrix[(0, 0)], matrix[(0, 1)], matrix[(1, 0)], matrix[(1, 1)]]
 }
 
 // Johansson (2000)
@@ -76,6 +104,58 @@ fn johansson_levels_are_not_at_rest() {
     assert_printed(largest_difference, 0.17, 0.01);
 }
 
+#[test]
+fn johansson_minimum_phase_zeros() {
+    let preset = PresetId::JohanssonMinimumPhase.preset();
+    assert_all_printed(zeros(&preset, &printed_point(&preset)), [-0.0580, -0.0172], 0.0001);
+    let at_rest = zeros(&preset, &preset.plant.free_equilibrium(preset.pump_voltage));
+    assert_all_printed(at_rest, [-0.0597, -0.0175], 0.0001);
+    // Printed as −0.060 and −0.018: nearest to those at rest, the second one unit in its last digit off.
+    assert_printed(at_rest[0], printed(&preset).zeros[0], 0.001);
+    assert!((at_rest[1] - printed(&preset).zeros[1]).abs() < 0.001);
+}
+
+#[test]
+fn johansson_non_minimum_phase_zeros() {
+    let preset = PresetId::JohanssonNonMinimumPhase.preset();
+    let at_printed = zeros(&preset, &printed_point(&preset));
+    assert_all_printed(at_printed, [-0.05623, 0.01278], 0.00001);
+    let at_rest = zeros(&preset, &preset.plant.free_equilibrium(preset.pump_voltage));
+    assert_all_printed(at_rest, [-0.05625, 0.01276], 0.00001);
+    // Printed as −0.057 and 0.013: the first is one unit in its last digit off.
+    assert_printed(at_rest[1], printed(&preset).zeros[1], 0.001);
+    assert!((at_rest[0] - printed(&preset).zeros[0]).abs() < 0.001);
+}
+
+#[test]
+fn johansson_zero_directions() {
+    for (id, expected) in [
+        (PresetId::JohanssonMinimumPhase, [(-0.05802, [0.413, 0.911]), (-0.01718, [0.154, -0.988])]),
+        (PresetId::JohanssonNonMinimumPhase, [(-0.05623, [0.433, 0.901]), (0.01278, [0.632, -0.775])]),
+    ] {
+        let preset = id.preset();
+        let found = transmission_zeros(&model(&preset, &printed_point(&preset))).unwrap();
+        assert_eq!(found.len(), 2);
+        for (zero, (value, direction)) in found.iter().zip(expected) {
+            assert_printed(zero.value.re, value, 0.00001);
+            // A direction has no sign of its own.
+            let turn = (zero.output_direction[0] * f64::signum(direction[0])).re.signum();
+            for (found, expected) in zero.output_direction.iter().zip(direction) {
+                assert_printed(turn * found.re, expected, 0.001);
+            }
+        }
+    }
+}
+
+#[test]
+fn johansson_relative_gains() {
+    for id in [PresetId::JohanssonMinimumPhase, PresetId::JohanssonNonMinimumPhase] {
+        let preset = id.preset();
+        let gains = relative_gain_array(&gain_at_printed_point(&preset)).unwrap();
+        assert_printed(gains[(0, 0)], printed(&preset).rga_11, 0.01);
+    }
+}
+
 // Cocota (2009), chapter 3
 
 #[test]
@@ -91,6 +171,9 @@ fn cocota_table_3_1_general_parameters() {
     }
     // The sensor spans 0–300 mm with 0–10 V, the controller 0–10 V for 0–12 V at the pump.
     assert_printed(plant.sensor.measure(300.0 * MM), 10.0, 1e-12);
+    assert_printed(plant.sensor.quantise(plant.sensor.measure(350.0 * MM)), 10.0, 1e-12);
+    // Eleven bits: one step of the signal is about 5 mV, or 0.15 mm.
+    assert_printed(plant.sensor.quantise(6e-3), 10.0 / 2048.0, 1e-12);
     assert_all_printed(plant.controller_limits().map(|(_, max)| max), [10.0, 10.0], 1e-12);
 }
 
@@ -157,10 +240,71 @@ fn cocota_table_3_11_time_constants_non_minimum_phase() {
     assert_all_printed(time_constants(&preset), [81.926, 79.589, 219.241, 255.402], 0.001);
 }
 
+/// G−(0) and G+(0).
+#[test]
+fn cocota_equations_3_25_and_3_26_steady_state_gains() {
+    for (id, recomputed) in [
+        (PresetId::CocotaMinimumPhase, [0.78642, 0.24572, 0.26057, 0.73273]),
+        (PresetId::CocotaNonMinimumPhase, [0.45404, 0.56718, 0.60517, 0.43021]),
+    ] {
+        let preset = id.preset();
+        let [first, second] = printed(&preset).dc_gain.unwrap();
+        let gain = rows(&gain_at_printed_point(&preset));
+        assert_all_printed(gain, recomputed, 0.00001);
+        assert_all_printed(gain, [first[0], first[1], second[0], second[1]], 0.01);
+    }
+}
+
+#[test]
+fn cocota_sections_3_7_and_3_8_zeros() {
+    for (id, recomputed, last_digits) in [
+        (PresetId::CocotaMinimumPhase, [-0.01496, -0.00747], [1e-3, 1e-4]),
+        (PresetId::CocotaNonMinimumPhase, [-0.00985, 0.00137], [1e-4, 1e-4]),
+    ] {
+        let preset = id.preset();
+        assert_all_printed(zeros(&preset, &printed_point(&preset)), recomputed, 0.00001);
+        // The printed zeros are those of the printed transfer matrix, with its rounded time constants.
+        let Printed { time_constants_s: [_, _, t3, t4], zeros, .. } = printed(&preset);
+        let found = closed_form_zeros(t3, t4, &preset);
+        for i in 0..2 {
+            assert_printed(found[i], zeros[i], last_digits[i]);
+        }
+    }
+}
+
+/// The dissertation lists two more zeros, at −1/T1 and −1/T2: they are poles that an element-wise realisation repeats.
+#[test]
+fn cocota_has_two_transmission_zeros_not_four() {
+    for id in [PresetId::CocotaMinimumPhase, PresetId::CocotaNonMinimumPhase] {
+        let preset = id.preset();
+        let found = transmission_zeros(&model(&preset, &printed_point(&preset))).unwrap();
+        assert_all_printed([found[0].value.re, found[1].value.re], zeros(&preset, &printed_point(&preset)), 1e-9);
+        assert_eq!(found.len(), 2);
+    }
+}
+
+/// The linearised zero dynamics have the zeros as eigenvalues.
+#[test]
+fn cocota_section_3_2_2_zero_dynamics() {
+    for id in [PresetId::CocotaMinimumPhase, PresetId::CocotaNonMinimumPhase] {
+        let preset = id.preset();
+        let [_, _, t3, t4] = time_constants(&preset);
+        let [gamma_1, gamma_2] = preset.plant.valves;
+        let [_, _, area_3, area_4] = preset.plant.tanks.map(|tank| tank.section.area_at_empty);
+        let dynamics = dmatrix![
+            -1.0 / t3, -(1.0 - gamma_2) / gamma_2 * area_4 / (area_3 * t4);
+            -(1.0 - gamma_1) / gamma_1 * area_3 / (area_4 * t3), -1.0 / t4
+        ];
+        let mut found: Vec<f64> = eigenvalues(&dynamics).unwrap().iter().map(|value| value.re).collect();
+        found.sort_by(f64::total_cmp);
+        assert_all_printed([found[0], found[1]], zeros(&preset, &printed_point(&preset)), 1e-12);
+    }
+}
+
 #[test]
 fn cocota_figure_3_8_open_loop_minimum_phase() {
     let run = OpenLoop::of(PresetId::CocotaMinimumPhase);
-    let [before, end] = run.levels_mm(1000.0, 1750.0);
+    let [before, end] = run.levels_mm(1000, 1750);
     assert_all_printed(before.nonlinear, [181.38, 160.42], 0.01);
     assert_all_printed(before.linear, [180.48, 160.33], 0.01);
     assert_all_printed(end.nonlinear, [189.62, 184.48], 0.01);
@@ -170,7 +314,7 @@ fn cocota_figure_3_8_open_loop_minimum_phase() {
 #[test]
 fn cocota_figure_3_9_open_loop_non_minimum_phase() {
     let run = OpenLoop::of(PresetId::CocotaNonMinimumPhase);
-    let [before, end] = run.levels_mm(2250.0, 4250.0);
+    let [before, end] = run.levels_mm(2250, 4250);
     assert_all_printed(before.nonlinear, [170.25, 176.64], 0.01);
     assert_all_printed(before.linear, [169.95, 176.12], 0.01);
     assert_all_printed(end.nonlinear, [189.03, 191.00], 0.01);
@@ -198,11 +342,11 @@ impl OpenLoop {
     }
 
     /// Just before the second step and at the end.
-    fn levels_mm(&self, second_step: f64, end: f64) -> [LowerLevels; 2] {
+    fn levels_mm(&self, second_step: u32, end: u32) -> [LowerLevels; 2] {
         let rest = Vector4::from(self.rest.levels);
         let [v1, v2] = self.rest.pump_voltage;
-        let stages = [(250.0, 1.0, 1.0), (second_step, 1.1, 1.0), (end, 1.1, 1.1)];
-        let (mut time, mut nonlinear, mut linear) = (0.0, rest, Vector4::zeros());
+        let stages = [(250, 1.0, 1.0), (second_step, 1.1, 1.0), (end, 1.1, 1.1)];
+        let (mut time, mut nonlinear, mut linear) = (0, rest, Vector4::zeros());
         let mut reports = Vec::new();
         for (until, factor_1, factor_2) in stages {
             let voltage = [factor_1 * v1, factor_2 * v2];
@@ -220,18 +364,42 @@ impl OpenLoop {
     }
 }
 
-/// Classical Runge–Kutta with steps of about 1 s, far below every time constant here.
-fn runge_kutta(mut x: Vector4<f64>, duration: f64, f: impl Fn(Vector4<f64>) -> Vector4<f64>) -> Vector4<f64> {
-    let steps = duration.ceil();
-    let dt = duration / steps;
-    for _ in 0..steps as usize {
+/// Classical Runge–Kutta with steps of 1 s, far below every time constant here.
+fn runge_kutta(mut x: Vector4<f64>, seconds: u32, f: impl Fn(Vector4<f64>) -> Vector4<f64>) -> Vector4<f64> {
+    for _ in 0..seconds {
         let k1 = f(x);
-        let k2 = f(x + k1 * (dt / 2.0));
-        let k3 = f(x + k2 * (dt / 2.0));
-        let k4 = f(x + k3 * dt);
-        x += (k1 + k2 * 2.0 + k3 * 2.0 + k4) * (dt / 6.0);
+        let k2 = f(x + k1 * 0.5);
+        let k3 = f(x + k2 * 0.5);
+        let k4 = f(x + k3);
+        x += (k1 + k2 * 2.0 + k3 * 2.0 + k4) / 6.0;
     }
     x
+}
+
+// Cocota (2009), chapter 4
+
+#[test]
+fn cocota_equations_4_11_and_4_12_relative_gains() {
+    for (id, array, last_digit) in [
+        (PresetId::CocotaMinimumPhase, [1.125, -0.125, -0.125, 1.125], 0.001),
+        (PresetId::CocotaNonMinimumPhase, [-1.32, 2.32, 2.32, -1.32], 0.01),
+    ] {
+        let preset = id.preset();
+        let found = relative_gain_array(&gain_at_printed_point(&preset)).unwrap();
+        assert_all_printed(rows(&found), array, last_digit);
+        assert_printed(found[(0, 0)], printed(&preset).rga_11, last_digit);
+        // Eqs. 4.10 and 4.14: only the valves matter.
+        let [gamma_1, gamma_2] = preset.plant.valves;
+        assert_printed(found[(0, 0)], gamma_1 * gamma_2 / (gamma_1 + gamma_2 - 1.0), 1e-12);
+        assert_printed(found[(0, 1)], (1.0 - gamma_1) * (1.0 - gamma_2) / (1.0 - gamma_1 - gamma_2), 1e-12);
+    }
+}
+
+#[test]
+fn cocota_section_4_2_3_pairing() {
+    let verdict = |id: PresetId| recommend_pairing(&gain_at_printed_point(&id.preset()));
+    assert!(matches!(verdict(PresetId::CocotaMinimumPhase), PairingVerdict::Diagonal(_)));
+    assert!(matches!(verdict(PresetId::CocotaNonMinimumPhase), PairingVerdict::Swapped(_)));
 }
 
 // Junqueira, Neves and Angelico: recomputed values, as the paper prints none
@@ -259,10 +427,17 @@ fn junqueira_upper_levels_at_ten_centimetres() {
 
 #[test]
 fn junqueira_linearisation_at_ten_centimetres() {
-    for (id, upper) in [(PresetId::JunqueiraA, 36.26), (PresetId::JunqueiraB, 54.38)] {
+    for (id, upper, gain, rightmost, rga_11) in [
+        (PresetId::JunqueiraA, 36.26, [1.964, 1.318, 1.310, 1.976], -0.00919, 1.800),
+        (PresetId::JunqueiraB, 54.38, [1.310, 1.976, 1.964, 1.318], 0.00919, -0.800),
+    ] {
         let preset = id.preset();
         let rest = preset.plant.free_equilibrium(preset.pump_voltage);
         let found = preset.plant.time_constants_s(&rest).map(Option::unwrap);
         assert_all_printed(found, [31.63, 31.63, upper, upper], 0.01);
+        let found = model(&preset, &rest).dc_gain().unwrap();
+        assert_all_printed(rows(&found), gain, 0.001);
+        assert_printed(relative_gain_array(&found).unwrap()[(0, 0)], rga_11, 0.001);
+        assert_all_printed(zeros(&preset, &rest), [-0.04597, rightmost], 0.00001);
     }
 }

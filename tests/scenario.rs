@@ -1,161 +1,27 @@
 //! The scenario as a document: what goes out comes back, what is broken is named, and nothing that comes in panics.
 #![cfg(not(target_arch = "wasm32"))]
 
-use proptest::collection::vec;
+mod random;
+
 use proptest::prelude::*;
-use quadtank::control::{AntiWindup, DecentralisedPi, LoopMode, Pairing, PiSettings};
-use quadtank::plant::{CrossSection, DisplayUnit, Outlet, PresetId, Pump, QuadrupleTank, Sensor, Tank};
+use quadtank::control::LoopMode;
+use quadtank::plant::{CrossSection, DisplayUnit, Outlet, PresetId, Sensor};
 use quadtank::scenario::{
-    DOCUMENT_LIMIT, LINK_LIMIT, Limits, OperatingPointSpec, PlantSpec, Scenario, ScenarioError, Setup, View, from_json,
+    DOCUMENT_LIMIT, LINK_LIMIT, OperatingPointSpec, PlantSpec, Scenario, ScenarioError, Setup, View, from_json,
     from_link, limits, setup_of, to_json, to_link,
 };
-use quadtank::sim::{Experiment, Load, LoadStep, Measurement, SetPointStep};
+use quadtank::sim::{Load, LoadStep, SetPointStep};
 use serde_json::{Value, json};
-
-// Random valid scenarios: any number within its limits, with all its digits.
-
-fn within(limits: Limits) -> impl Strategy<Value = f64> {
-    limits.min..=limits.max
-}
-
-fn pair(limits: Limits) -> impl Strategy<Value = [f64; 2]> {
-    [within(limits), within(limits)]
-}
-
-fn tank() -> impl Strategy<Value = Tank> {
-    let section = (1e-4..=limits::TANK_AREA.max, 0.0..=limits::TANK_AREA_SLOPE.max, within(limits::TANK_HEIGHT));
-    (section, 0.0..=1.0, within(limits::LOSS_COEFFICIENT)).prop_map(|((area, slope, height), share, loss_coefficient)| {
-        let widest = limits::OUTLET_AREA.max.min(limits::OUTLET_SHARE * area);
-        let area_of_outlet = f64::max(share * widest, limits::OUTLET_AREA.min);
-        Tank {
-            section: CrossSection { area_at_empty: area, area_slope: slope },
-            outlet: Outlet { area: area_of_outlet, loss_coefficient },
-            height,
-        }
-    })
-}
-
-fn pump() -> impl Strategy<Value = Pump> {
-    (within(limits::PUMP_GAIN), pair(limits::PUMP_VOLTAGE)).prop_map(|(gain, [one, other])| Pump {
-        gain,
-        voltage_min: one.min(other),
-        voltage_max: one.max(other),
-    })
-}
-
-fn rig() -> impl Strategy<Value = QuadrupleTank> {
-    let sensor = (within(limits::SENSOR_GAIN), within(limits::SENSOR_RANGE), within(limits::SENSOR_RESOLUTION))
-        .prop_map(|(gain, range, resolution)| Sensor { gain, range, resolution });
-    let parts = ([tank(), tank(), tank(), tank()], [pump(), pump()], pair(limits::VALVE), sensor);
-    (parts, within(limits::POWER_GAIN), within(limits::GRAVITY)).prop_map(
-        |((tanks, pumps, valves, sensor), power_gain, gravity)| QuadrupleTank {
-            tanks,
-            pumps,
-            valves,
-            power_gain,
-            sensor,
-            gravity,
-        },
-    )
-}
-
-fn plant() -> impl Strategy<Value = PlantSpec> {
-    prop_oneof![
-        prop::sample::select(PresetId::ALL.to_vec()).prop_map(PlantSpec::Preset),
-        (rig(), prop_oneof![Just(DisplayUnit::Cm), Just(DisplayUnit::Mm)])
-            .prop_map(|(rig, display_unit)| PlantSpec::Parameters { rig, display_unit }),
-    ]
-}
-
-fn settings() -> impl Strategy<Value = PiSettings> {
-    let anti_windup = prop_oneof![
-        Just(AntiWindup::Off),
-        within(limits::TRACKING_RATIO).prop_map(|tracking_ratio| AntiWindup::BackCalculation { tracking_ratio }),
-    ];
-    let mode = prop_oneof![
-        Just(LoopMode::Automatic),
-        (within(limits::MANUAL_OUTPUT), within(limits::TIME_S))
-            .prop_map(|(output, until_s)| LoopMode::Manual { output, until_s }),
-    ];
-    let gain = (within(limits::GAIN_MAGNITUDE), prop::bool::ANY).prop_map(|(size, up)| if up { size } else { -size });
-    (gain, within(limits::INTEGRAL_TIME_S), within(limits::SET_POINT_WEIGHT), anti_windup, mode).prop_map(
-        |(gain, integral_time_s, set_point_weight, anti_windup, mode)| PiSettings {
-            gain,
-            integral_time_s,
-            set_point_weight,
-            anti_windup,
-            mode,
-        },
-    )
-}
-
-fn controller() -> impl Strategy<Value = DecentralisedPi> {
-    let pairing = prop_oneof![Just(Pairing::Diagonal), Just(Pairing::Swapped)];
-    // From 1 s on any duration is few enough samples.
-    (pairing, [settings(), settings()], 1.0..=limits::SAMPLING_TIME_S.max)
-        .prop_map(|(pairing, loops, sampling_time_s)| DecentralisedPi { pairing, loops, sampling_time_s })
-}
-
-fn experiment(steps: usize) -> impl Strategy<Value = Experiment> {
-    let set_point = (0..2_usize, within(limits::TIME_S), within(limits::SET_POINT_STEP))
-        .prop_map(|(level, time_s, size)| SetPointStep { level, time_s, size });
-    let load = prop_oneof![
-        (0..2_usize, within(limits::LOAD_FLOW)).prop_map(|(pump, flow)| Load::PumpFlow { pump, flow }),
-        (0..4_usize, within(limits::LEAK_AREA)).prop_map(|(tank, area)| Load::Leak { tank, area }),
-    ];
-    let load = (within(limits::TIME_S), load).prop_map(|(time_s, load)| LoadStep { time_s, load });
-    let measurement = (within(limits::NOISE_STD), any::<u32>(), any::<bool>())
-        .prop_map(|(noise_std, seed, quantised)| Measurement { noise_std, seed, quantised });
-    (within(limits::DURATION_S), vec(set_point, 0..=steps), vec(load, 0..=steps), measurement).prop_map(
-        |(duration_s, set_point_steps, load_steps, measurement)| Experiment {
-            duration_s,
-            set_point_steps,
-            load_steps,
-            measurement,
-        },
-    )
-}
-
-fn setup(steps: usize) -> impl Strategy<Value = Setup> {
-    let operating_point = prop_oneof![
-        pair(limits::PUMP_VOLTAGE).prop_map(OperatingPointSpec::PumpVoltage),
-        pair(limits::LEVEL).prop_map(OperatingPointSpec::Levels),
-    ];
-    (plant(), pair(limits::VALVE), operating_point, controller(), experiment(steps)).prop_map(
-        |(plant, valves, operating_point, controller, experiment)| Setup {
-            plant,
-            valves,
-            operating_point,
-            controller,
-            experiment,
-        },
-    )
-}
-
-fn view() -> impl Strategy<Value = View> {
-    let zoom = pair(limits::TIME_S).prop_map(|[one, other]| [one.min(other), one.max(other)]);
-    (prop::option::of(within(limits::TIME_S)), prop::option::of(zoom), any::<bool>())
-        .prop_map(|(cursor_s, zoom_s, hide_linear)| View { cursor_s, zoom_s, hide_linear })
-}
-
-fn scenario(steps: usize, pinned: usize) -> impl Strategy<Value = Scenario> {
-    (setup(steps), vec(setup(steps), 0..=pinned), view()).prop_map(|(setup, pinned, view)| Scenario {
-        version: Scenario::VERSION,
-        setup,
-        pinned,
-        view,
-    })
-}
 
 proptest! {
     #[test]
-    fn json_brings_back_every_digit(scenario in scenario(limits::MAX_STEPS, Scenario::MAX_PINNED)) {
+    fn json_brings_back_every_digit(scenario in random::scenario(limits::MAX_STEPS, Scenario::MAX_PINNED)) {
         prop_assert_eq!(from_json(&to_json(&scenario).unwrap()), Ok(scenario));
     }
 
     /// Two steps of each kind, as an experiment has: then every number of the rig may be different.
     #[test]
-    fn links_bring_back_every_digit(scenario in scenario(2, 0)) {
+    fn links_bring_back_every_digit(scenario in random::scenario(2, 0)) {
         let link = to_link(&scenario).unwrap();
         prop_assert!(link.len() <= LINK_LIMIT);
         prop_assert!(link.bytes().all(|byte| byte.is_ascii_alphanumeric() || b".-_".contains(&byte)), "{}", link);
@@ -163,20 +29,21 @@ proptest! {
     }
 
     #[test]
-    fn a_link_that_is_cut_off_is_damaged(scenario in scenario(1, 0), keep in 0.0..1.0) {
+    fn a_link_that_is_cut_off_is_damaged(scenario in random::scenario(1, 0), keep in 0.0..1.0) {
         let link = to_link(&scenario).unwrap();
         let shorter = &link[..(keep * link.len() as f64) as usize];
         prop_assert_eq!(from_link(shorter), Err(ScenarioError::DamagedLink));
     }
 
+    /// A bit that pads the last byte of the text may change and means nothing.
     #[test]
-    fn a_link_with_one_wrong_character_is_damaged(scenario in scenario(1, 0), at in 0.0..1.0, wrong in "[A-Za-z0-9_-]") {
+    fn a_link_with_one_wrong_character_never_brings_another_scenario(scenario in random::scenario(1, 0), at in 0.0..1.0, wrong in "[A-Za-z0-9_-]") {
         let link = to_link(&scenario).unwrap();
         let payload = "q1.".len();
         let at = payload + (at * (link.len() - payload) as f64) as usize;
         let changed = format!("{}{wrong}{}", &link[..at], &link[at + 1..]);
-        prop_assume!(changed != link);
-        prop_assert_eq!(from_link(&changed), Err(ScenarioError::DamagedLink));
+        let result = from_link(&changed);
+        prop_assert!(result == Err(ScenarioError::DamagedLink) || result == Ok(scenario), "{:?}", result);
     }
 
     #[test]
@@ -336,11 +203,23 @@ fn full() -> Value {
 
 /// Fields (by the path that an error gives, and by JSON pointer) and a number that is out of their range.
 const LEAVES: [(&str, &str, f64); 40] = [
-    ("setup.plant.parameters.rig.tanks[2].section.area_at_empty", "/setup/plant/parameters/rig/tanks/2/section/area_at_empty", 0.0),
-    ("setup.plant.parameters.rig.tanks[1].section.area_slope", "/setup/plant/parameters/rig/tanks/1/section/area_slope", -1.0),
+    (
+        "setup.plant.parameters.rig.tanks[2].section.area_at_empty",
+        "/setup/plant/parameters/rig/tanks/2/section/area_at_empty",
+        0.0,
+    ),
+    (
+        "setup.plant.parameters.rig.tanks[1].section.area_slope",
+        "/setup/plant/parameters/rig/tanks/1/section/area_slope",
+        -1.0,
+    ),
     ("setup.plant.parameters.rig.tanks[0].outlet.area", "/setup/plant/parameters/rig/tanks/0/outlet/area", 0.0),
     ("setup.plant.parameters.rig.tanks[0].outlet.area", "/setup/plant/parameters/rig/tanks/0/outlet/area", 0.009),
-    ("setup.plant.parameters.rig.tanks[3].outlet.loss_coefficient", "/setup/plant/parameters/rig/tanks/3/outlet/loss_coefficient", 1.5),
+    (
+        "setup.plant.parameters.rig.tanks[3].outlet.loss_coefficient",
+        "/setup/plant/parameters/rig/tanks/3/outlet/loss_coefficient",
+        1.5,
+    ),
     ("setup.plant.parameters.rig.tanks[3].height", "/setup/plant/parameters/rig/tanks/3/height", -0.2),
     ("setup.plant.parameters.rig.pumps[0].gain", "/setup/plant/parameters/rig/pumps/0/gain", -4e-6),
     ("setup.plant.parameters.rig.pumps[0].voltage_min", "/setup/plant/parameters/rig/pumps/0/voltage_min", -1.0),
@@ -357,7 +236,11 @@ const LEAVES: [(&str, &str, f64); 40] = [
     ("setup.controller.loops[1].gain", "/setup/controller/loops/1/gain", -1e4),
     ("setup.controller.loops[0].integral_time_s", "/setup/controller/loops/0/integral_time_s", 0.0),
     ("setup.controller.loops[0].set_point_weight", "/setup/controller/loops/0/set_point_weight", 2.0),
-    ("setup.controller.loops[1].anti_windup.tracking_ratio", "/setup/controller/loops/1/anti_windup/tracking_ratio", 0.0),
+    (
+        "setup.controller.loops[1].anti_windup.tracking_ratio",
+        "/setup/controller/loops/1/anti_windup/tracking_ratio",
+        0.0,
+    ),
     ("setup.controller.loops[0].mode.output", "/setup/controller/loops/0/mode/output", -1.0),
     ("setup.controller.loops[0].mode.until_s", "/setup/controller/loops/0/mode/until_s", -1.0),
     ("setup.controller.sampling_time_s", "/setup/controller/sampling_time_s", 0.0),

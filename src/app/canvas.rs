@@ -98,7 +98,8 @@ pub fn fill_background(canvas: &HtmlCanvasElement, style: &Style) {
     let Some(context) = context_of(canvas) else { return };
     let _ = context.reset_transform();
     context.set_global_composite_operation("destination-over").unwrap_or_default();
-    context.set_fill_style_str(&style.palette.background.hex());
+    let background = style.palette.background;
+    context.set_fill_style_str(&format!("rgb({} {} {})", background.0, background.1, background.2));
     context.fill_rect(0.0, 0.0, canvas.width().into(), canvas.height().into());
 }
 

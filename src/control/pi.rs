@@ -113,8 +113,9 @@ impl Pi {
     /// I += Ts/Tt (c − v)
     /// ```
     ///
-    /// The first term is `K (b r − y)` plus the constant `K (1 − b) r0`, which only moves the value at which I starts: to the
-    /// initial output, for every b. Tustin's rule and the back-calculation are those of Cocota (2009, eq. 4.2, §4.4).
+    /// The first term of v is `K (b r − y)` plus the constant `K (1 − b) r0`, which only moves the value at which I
+    /// starts: to the initial output, for every b. Tustin's rule and the back-calculation are those of Cocota (2009,
+    /// eq. 4.2, §4.4).
     ///
     /// In manual mode c is the manual output within the limits, and I follows so that the controller would give just
     /// that; it takes over, without a bump, at the first sample at or after the given time.
@@ -235,7 +236,7 @@ mod tests {
     fn manual_output_is_held_and_handed_over_without_a_bump() {
         let mode = LoopMode::Manual { output: 7.0, until_s: 50.0 };
         for set_point_weight in [0.0, 1.0] {
-            let mut pi = Pi::new(PiSettings { mode, set_point_weight, ..SETTINGS }, LIMITS, 1.0, 5.0, 6.0);
+            let mut pi = Pi::new(PiSettings { set_point_weight, mode, ..SETTINGS }, LIMITS, 1.0, 5.0, 6.0);
             for k in 0..50 {
                 assert_eq!(pi.step(f64::from(k), 6.5, 6.0 + 0.01 * f64::from(k)), 7.0);
             }
@@ -261,6 +262,8 @@ mod tests {
         assert_eq!(pi.step(1.0, f64::NAN, 6.0), before);
         assert_eq!(pi.step(2.0, 6.1, f64::INFINITY), before);
         assert_relative_eq!(pi.step(3.0, 6.1, 6.0), before + 1.75 / 40.0 * 0.1, max_relative = 1e-12);
+        // Also when it is lost from the beginning and the plant rests beyond the limits.
+        assert_eq!(Pi::new(SETTINGS, LIMITS, 1.0, 12.0, 6.0).step(0.0, f64::NAN, 6.0), 10.0);
     }
 
     #[test]

@@ -117,6 +117,8 @@ pub enum Pen {
     Faded,
     /// A thin line that only guides the eye.
     Hair,
+    /// The way that a mark took: broad and pale.
+    Trail,
 }
 
 /// How a curve goes from one point to the next.

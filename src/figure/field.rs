@@ -3,7 +3,7 @@
 use super::Field;
 
 /// Steps from the background to the deepest shade.
-const STEPS: u8 = 12;
+const STEPS: u8 = 16;
 
 /// A region of at least a certain shade.
 pub(super) struct Patch {

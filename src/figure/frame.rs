@@ -15,15 +15,17 @@ pub(super) mod measure {
     /// Least space around the plot, for half a number beyond its corners.
     pub const TOP: f64 = 8.0;
     /// The same to the right: half of a number of four digits.
-    pub const RIGHT: f64 = 14.0;
+    pub const RIGHT: f64 = 16.0;
     /// Tick numbers with fewer characters than this do not move the plot.
     pub const LEAST_CHARACTERS: usize = 4;
-    /// Pixels for each tick of an axis, across and upwards.
-    pub const TICK_DISTANCE: (f64, f64) = (64.0, 28.0);
+    /// Least distance of ticks on an upright axis, and of the numbers on a level one.
+    pub const TICK_DISTANCE: f64 = 22.0;
+    /// Least gap between the numbers on a level axis.
+    pub const NUMBER_GAP: f64 = 14.0;
     /// Most ticks on an axis.
     pub const MOST_TICKS: f64 = 10.0;
 }
-use measure::{DIGIT, LEAST_CHARACTERS, LINE, MOST_TICKS, RIGHT, TICK_DISTANCE, TICK_GAP, TOP};
+use measure::{DIGIT, LEAST_CHARACTERS, LINE, MOST_TICKS, NUMBER_GAP, RIGHT, TICK_DISTANCE, TICK_GAP, TOP};
 
 /// Longest side that is painted (CSS px); keeps finely divided pixels inside `i32`.
 const LONGEST_SIDE: f64 = 20_000.0;
@@ -112,11 +114,18 @@ impl Frame {
             self.y.0 + (self.plot.bottom() - y) / self.plot.height * (self.y.1 - self.y.0),
         )
     }
+}
 
-    /// How many ticks fit on the two axes.
-    pub fn tick_counts(&self) -> (usize, usize) {
-        (ticks_in(self.plot.width, TICK_DISTANCE.0), ticks_in(self.plot.height, TICK_DISTANCE.1))
-    }
+/// How many ticks fit on the x and on the y axis.
+pub(super) fn tick_counts(chart: &Chart, frame: &Frame) -> (usize, usize) {
+    // Numbers grow at most by a digit from a few ticks to many.
+    let number = widest(&chart.x, 4) as f64 * DIGIT + NUMBER_GAP;
+    (ticks_in(frame.plot.width, number), ticks_in(frame.plot.height, TICK_DISTANCE))
+}
+
+/// Characters of the longest number on an axis with so many ticks.
+fn widest(axis: &Axis, ticks: usize) -> usize {
+    axis.ticks(ticks).iter().map(|tick| tick.text('.').chars().count()).max().unwrap_or(0)
 }
 
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to a small positive number")]
@@ -155,9 +164,9 @@ fn below(x: &Axis) -> f64 {
 
 /// Width that the y axis needs to the left of the plot.
 fn beside(chart: &Chart, outer: &Rect) -> f64 {
-    let rows = ticks_in(outer.height - above(chart, outer.width) - below(&chart.x), TICK_DISTANCE.1);
-    let numbers = chart.y.ticks(rows).iter().map(|tick| tick.text('.').chars().count()).max().unwrap_or(0);
-    let numbers = if chart.y.numbered { numbers.max(LEAST_CHARACTERS) as f64 * DIGIT + TICK_GAP } else { TOP };
+    let rows = ticks_in(outer.height - above(chart, outer.width) - below(&chart.x), TICK_DISTANCE);
+    let numbers =
+        if chart.y.numbered { widest(&chart.y, rows).max(LEAST_CHARACTERS) as f64 * DIGIT + TICK_GAP } else { TOP };
     numbers + if chart.y.label.is_empty() { 0.0 } else { LINE }
 }
 

@@ -6,6 +6,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{FontDesc, FontFamily, FontStyle, FontTransform, RGBAColor, ShapeStyle, TextStyle};
 
 use super::frame::measure::{CHARACTER, FONT, LINE, TICK_GAP};
+use super::frame::tick_counts;
 use super::legend::{self, SAMPLE};
 use super::trace::{self, Px};
 use super::{
@@ -91,6 +92,7 @@ fn width(pen: Pen) -> f64 {
         Pen::Dashed => 1.3,
         Pen::Faded => 1.3,
         Pen::Hair => 1.0,
+        Pen::Trail => 5.0,
     }
 }
 
@@ -99,7 +101,7 @@ fn dash(pen: Pen) -> Option<(f64, f64)> {
     match pen {
         Pen::Dotted => Some((1.8, 2.7)),
         Pen::Dashed => Some((5.0, 3.5)),
-        Pen::Solid | Pen::Faded | Pen::Hair => None,
+        Pen::Solid | Pen::Faded | Pen::Hair | Pen::Trail => None,
     }
 }
 
@@ -232,7 +234,7 @@ impl<DB: DrawingBackend> Brush<'_, DB> {
     fn axes(&self, chart: &Chart) -> Result<(), PaintError<DB>> {
         let Palette { grid, edge, .. } = self.style.palette;
         let plot = &self.frame.plot;
-        let (columns, rows) = self.frame.tick_counts();
+        let (columns, rows) = tick_counts(chart, &self.frame);
         let (uprights, levels) = (chart.x.ticks(columns), chart.y.ticks(rows));
         for tick in &uprights {
             let x = snapped(self.frame.x_px(tick.value), plot.left, plot.right());

@@ -50,8 +50,8 @@ pub fn pole_zero(spec: &PoleZero) -> Chart<'static> {
     let everywhere = (f64::NEG_INFINITY, f64::INFINITY);
     chart.layers.push(Layer::Region { x: (0.0, f64::INFINITY), y: everywhere, role: Role::RightHalfPlane });
     chart.layers.push(Layer::Level { y: 0.0, role: Role::Muted, pen: Pen::Hair });
-    chart.layers.push(Layer::Upright { x: 0.0, role: Role::Muted, pen: Pen::Solid });
-    chart.layers.extend(spec.zero_paths.iter().map(|path| way(path)));
+    chart.layers.push(Layer::Upright { x: 0.0, role: Role::Muted, pen: Pen::Hair });
+    chart.layers.extend(spec.zero_paths.iter().flat_map(|path| ways(path)));
     chart.layers.extend(spec.closed_loop.iter().map(|&pole| mark(pole, Shape::Diamond, Role::ClosedLoop)));
     chart.layers.extend(spec.poles.iter().map(|&pole| mark(pole, Shape::Cross, Role::Neutral)));
     chart.layers.extend(spec.zeros.iter().map(|&zero| mark(zero, Shape::Ring, side(zero))));
@@ -86,16 +86,20 @@ fn mark(at: Complex<f64>, shape: Shape, role: Role) -> Layer<'static> {
     Layer::Marker(Marker { at: (at.re, at.im), shape, role, points_beyond: true })
 }
 
-fn way(path: &[Complex<f64>]) -> Layer<'static> {
-    Layer::Line(Series {
-        name: "".into(),
-        role: Role::Muted,
-        pen: Pen::Dotted,
-        course: Course::Straight,
-        x: path.iter().map(|zero| zero.re).collect(),
-        y: path.iter().map(|zero| zero.im).collect(),
-        y_scale: 1.0,
-    })
+/// The way of a zero in each half-plane, in the colour that it has there.
+fn ways(path: &[Complex<f64>]) -> Vec<Layer<'static>> {
+    let way = |role, limit: fn(f64, f64) -> f64| {
+        Layer::Line(Series {
+            name: "".into(),
+            role,
+            pen: Pen::Trail,
+            course: Course::Straight,
+            x: path.iter().map(|zero| limit(zero.re, 0.0)).collect(),
+            y: path.iter().map(|zero| zero.im).collect(),
+            y_scale: 1.0,
+        })
+    };
+    vec![way(Role::MinimumPhase, f64::min), way(Role::RightHalfPlane, f64::max)]
 }
 
 /// The value beside each zero, in turn above and below where zeros are close together.

@@ -84,7 +84,7 @@ pub fn responses<'a>(spec: &Responses<'a>) -> [Chart<'a>; 2] {
     levels.legend = legend(spec);
     let voltage = Axis::rounded(texts.voltage, voltage_range(spec, time), 3);
     let mut voltages = Chart::new(Axis::new(texts.time, time), voltage);
-    voltages.layers = voltage_layers(spec);
+    voltages.layers = voltage_layers(spec, voltages.y.span());
     [levels, voltages]
 }
 
@@ -116,9 +116,11 @@ fn level_layers<'a>(spec: &Responses<'a>) -> Vec<Layer<'a>> {
     layers
 }
 
-fn voltage_layers<'a>(spec: &Responses<'a>) -> Vec<Layer<'a>> {
-    let limit = |y| Layer::Level { y, role: Role::Muted, pen: Pen::Dashed };
-    let mut layers = vec![limit(spec.voltage_limits.0), limit(spec.voltage_limits.1)];
+fn voltage_layers<'a>(spec: &Responses<'a>, (bottom, top): (f64, f64)) -> Vec<Layer<'a>> {
+    let limits = [spec.voltage_limits.0, spec.voltage_limits.1];
+    // At the edge of the plot a limit would only look like a smudge.
+    let limits = limits.into_iter().filter(|&limit| bottom < limit && limit < top);
+    let mut layers: Vec<_> = limits.map(|y| Layer::Level { y, role: Role::Muted, pen: Pen::Dashed }).collect();
     for (run, pen, which) in runs(spec) {
         for (index, voltage) in run.voltages.into_iter().enumerate() {
             layers.push(Layer::Line(Series {

@@ -288,6 +288,7 @@ fn pen_class(pen: Pen) -> &'static str {
         Pen::Dashed => "dashed",
         Pen::Faded => "faded",
         Pen::Hair => "hair",
+        Pen::Trail => "trail",
     }
 }
 

@@ -12,33 +12,59 @@ const TOLERANCE: f64 = 0.06;
 
 /// The visible pieces of a series. Each has at least two points, all inside the plot rectangle or on its edge.
 ///
-/// Rising series are thinned to the first, lowest, highest and last point of every pixel column, so that noise keeps
-/// its height, and then to the corners of a curve that stays within [`TOLERANCE`] of them.
+/// Rising series are thinned on the way: to the corners of a curve that stays within [`TOLERANCE`] of every point,
+/// and where there are still many, to the first, lowest, highest and last of a pixel column, so that noise keeps its
+/// height.
 pub(super) fn polylines(series: &Series, frame: &Frame) -> Vec<Vec<Px>> {
     let (x, y) = (&series.x[..], &series.y[..]);
     let length = x.len().min(y.len());
     let (x, y) = (&x[..length], &y[..length]);
     let rising = x.is_sorted();
     let (x, y) = if rising { visible(x, y, frame.x) } else { (x, y) };
-    let mut clip = Clip::new(frame.plot);
-    let mut columns = Columns::default();
-    let mut held = None;
+    let mut tracer =
+        Tracer { rising, corners: Corners::default(), columns: Columns::default(), clip: Clip::new(frame.plot) };
+    let mut held: Option<f64> = None;
     for (&x, &y) in x.iter().zip(y) {
-        let Some(point) = pixel(frame, (x, y * series.y_scale)) else {
-            columns.flush(&mut clip);
-            clip.lift();
-            held = None;
-            continue;
-        };
-        if let Some(height) = held.filter(|_| series.course == Course::Held) {
-            columns.add((point.0, height), rising, &mut clip);
+        let point = pixel(frame, (x, y * series.y_scale));
+        match point {
+            None => tracer.lift(),
+            Some(point) => {
+                if let Some(height) = held.filter(|&height| series.course == Course::Held && height != point.1) {
+                    tracer.line_to((point.0, height));
+                }
+                tracer.line_to(point);
+            }
         }
-        columns.add(point, rising, &mut clip);
-        held = Some(point.1);
+        held = point.map(|point| point.1);
     }
-    columns.flush(&mut clip);
-    let runs = clip.finish();
-    if rising { runs.iter().map(|run| simplified(run)).collect() } else { runs }
+    tracer.lift();
+    tracer.clip.runs
+}
+
+/// From all points to the few that are drawn.
+struct Tracer {
+    rising: bool,
+    corners: Corners,
+    columns: Columns,
+    clip: Clip,
+}
+
+impl Tracer {
+    fn line_to(&mut self, point: Px) {
+        if !self.rising {
+            self.clip.line_to(point);
+        } else if let Some(corner) = self.corners.add(point) {
+            self.columns.add(corner, &mut self.clip);
+        }
+    }
+
+    fn lift(&mut self) {
+        for corner in self.corners.take() {
+            self.columns.add(corner, &mut self.clip);
+        }
+        self.columns.flush(&mut self.clip);
+        self.clip.lift();
+    }
 }
 
 /// The points between two abscissae and one more at either end, so that the curve reaches the edge.
@@ -53,6 +79,53 @@ fn pixel(frame: &Frame, point: (f64, f64)) -> Option<Px> {
     (x.is_finite() && y.is_finite()).then(|| (x.clamp(-FAR, FAR), y.clamp(-FAR, FAR)))
 }
 
+/// The corners that a rising curve needs: a point is left out while one straight line passes all those left out since
+/// the last corner within [`TOLERANCE`].
+#[derive(Default)]
+struct Corners {
+    /// The last corner, the point after it, and the slopes of the lines that pass all points between.
+    state: Option<(Px, Px, (f64, f64))>,
+}
+
+const EVERY_SLOPE: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
+const NO_SLOPE: (f64, f64) = (f64::INFINITY, f64::NEG_INFINITY);
+
+impl Corners {
+    /// Takes the next point; gives back a corner when it is certain that it is one.
+    fn add(&mut self, point: Px) -> Option<Px> {
+        let Some((corner, previous, slopes)) = self.state else {
+            self.state = Some((point, point, EVERY_SLOPE));
+            return None;
+        };
+        let slope = (point.1 - corner.1) / (point.0 - corner.0);
+        let fits = point.0 > corner.0 && slopes.0 <= slope && slope <= slopes.1;
+        if fits || previous == corner {
+            self.state = Some((corner, point, narrowed(slopes, corner, point)));
+            None
+        } else {
+            self.state = Some((previous, point, narrowed(EVERY_SLOPE, previous, point)));
+            Some(corner)
+        }
+    }
+
+    /// The points that are still owed.
+    fn take(&mut self) -> impl Iterator<Item = Px> + use<> {
+        let owed = self.state.take().map(|(corner, previous, _)| [corner, previous]);
+        owed.into_iter().flatten()
+    }
+}
+
+/// The slopes that pass this point too.
+fn narrowed((low, high): (f64, f64), corner: Px, point: Px) -> (f64, f64) {
+    let width = point.0 - corner.0;
+    if width > 0.0 {
+        let (slope, slack) = ((point.1 - corner.1) / width, TOLERANCE / width);
+        (low.max(slope - slack), high.min(slope + slack))
+    } else {
+        NO_SLOPE
+    }
+}
+
 /// The points of one pixel column of a rising curve.
 #[derive(Default)]
 struct Columns {
@@ -65,35 +138,36 @@ struct Column {
     first: Px,
     low: Px,
     high: Px,
+    high_is_later: bool,
     last: Px,
 }
 
 impl Columns {
-    fn add(&mut self, point: Px, rising: bool, clip: &mut Clip) {
-        if !rising {
-            return clip.line_to(point);
-        }
+    fn add(&mut self, point: Px, clip: &mut Clip) {
         let number = point.0.floor();
         match &mut self.column {
             Some(column) if column.number == number => {
                 column.last = point;
                 if point.1 < column.low.1 {
                     column.low = point;
+                    column.high_is_later = false;
                 }
                 if point.1 > column.high.1 {
                     column.high = point;
+                    column.high_is_later = true;
                 }
             }
             _ => {
                 self.flush(clip);
-                self.column = Some(Column { number, first: point, low: point, high: point, last: point });
+                self.column =
+                    Some(Column { number, first: point, low: point, high: point, high_is_later: true, last: point });
             }
         }
     }
 
     fn flush(&mut self, clip: &mut Clip) {
-        if let Some(Column { first, low, high, last, .. }) = self.column.take() {
-            let (earlier, later) = if low.0 <= high.0 { (low, high) } else { (high, low) };
+        if let Some(Column { first, low, high, high_is_later, last, .. }) = self.column.take() {
+            let (earlier, later) = if high_is_later { (low, high) } else { (high, low) };
             for point in [first, earlier, later, last] {
                 clip.line_to(point);
             }
@@ -124,10 +198,6 @@ impl Clip {
             Some(run) if from == previous && run.last() == Some(&from) => run.push(to),
             _ => self.runs.push(vec![from, to]),
         }
-    }
-
-    fn finish(self) -> Vec<Vec<Px>> {
-        self.runs
     }
 }
 
@@ -160,40 +230,6 @@ pub(super) fn clipped(plot: &Rect, from: Px, to: Px) -> Option<(Px, Px)> {
     (enter <= leave).then_some((start, end))
 }
 
-/// The corners that a rising curve needs: a point is left out while one straight line passes all those left out since
-/// the last corner within [`TOLERANCE`].
-fn simplified(run: &[Px]) -> Vec<Px> {
-    let (Some(&first), Some(&end)) = (run.first(), run.last()) else { return Vec::new() };
-    let mut kept = vec![first];
-    let (mut corner, mut previous) = (first, first);
-    let mut slopes = EVERY_SLOPE;
-    for &point in run.iter().skip(1) {
-        let fits = slope(corner, point).is_some_and(|slope| slopes.0 <= slope && slope <= slopes.1);
-        if !fits && previous != corner {
-            kept.push(previous);
-            corner = previous;
-            slopes = EVERY_SLOPE;
-        }
-        let (low, high) =
-            (slope(corner, (point.0, point.1 - TOLERANCE)), slope(corner, (point.0, point.1 + TOLERANCE)));
-        slopes = match (low, high) {
-            (Some(low), Some(high)) => (slopes.0.max(low), slopes.1.min(high)),
-            _ => NO_SLOPE,
-        };
-        previous = point;
-    }
-    kept.push(end);
-    kept
-}
-
-const EVERY_SLOPE: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
-const NO_SLOPE: (f64, f64) = (f64::INFINITY, f64::NEG_INFINITY);
-
-fn slope(from: Px, to: Px) -> Option<f64> {
-    let dx = to.0 - from.0;
-    (dx > 0.0).then(|| (to.1 - from.1) / dx)
-}
-
 /// The dashes of a polyline: `on` px drawn, `off` px left out, and so on round its corners.
 pub(super) fn dashes(run: &[Px], on: f64, off: f64) -> Vec<Vec<Px>> {
     let mut dashes = Vec::new();
@@ -224,4 +260,114 @@ pub(super) fn dashes(run: &[Px], on: f64, off: f64) -> Vec<Vec<Px>> {
         dashes.push(dash);
     }
     dashes
+}
+
+#[cfg(all(test, not(target_arch = "wasm32")))]
+mod tests {
+    use super::*;
+    use crate::figure::{Axis, Chart, Pen, Role, Size, layout};
+
+    fn frame(x: (f64, f64), y: (f64, f64)) -> Frame {
+        let chart = Chart::new(Axis::new("", x), Axis::new("", y));
+        layout(&[chart], Size { width: 400.0, height: 300.0 })[0]
+    }
+
+    fn series(x: Vec<f64>, y: Vec<f64>, course: Course) -> Series<'static> {
+        let (role, pen) = (Role::Loop1, Pen::Solid);
+        Series { name: "".into(), role, pen, course, x: x.into(), y: y.into(), y_scale: 1.0 }
+    }
+
+    /// Height of a polyline at an abscissa.
+    fn height(run: &[Px], x: f64) -> f64 {
+        let pair = run.windows(2).find(|pair| pair[0].0 <= x && x <= pair[1].0).expect("inside the curve");
+        let width = pair[1].0 - pair[0].0;
+        if width == 0.0 { pair[0].1 } else { pair[0].1 + (x - pair[0].0) / width * (pair[1].1 - pair[0].1) }
+    }
+
+    #[test]
+    fn a_smooth_curve_keeps_its_shape_with_few_corners() {
+        let frame = frame((0.0, 20.0), (-1.5, 1.5));
+        let x: Vec<f64> = (0..=20_000).map(|k| f64::from(k) * 1e-3).collect();
+        let curve = series(x.clone(), x.iter().map(|x| x.sin()).collect(), Course::Straight);
+        let runs = polylines(&curve, &frame);
+        assert_eq!(runs.len(), 1);
+        assert!(runs[0].len() < 400, "{} corners", runs[0].len());
+        for x in x.iter().step_by(7) {
+            let drawn = height(&runs[0], frame.x_px(*x));
+            assert!((drawn - frame.y_px(x.sin())).abs() < 2.0 * TOLERANCE, "at {x}");
+        }
+    }
+
+    #[test]
+    fn noise_keeps_its_extremes_with_four_points_a_column() {
+        let frame = frame((0.0, 1.0), (-1.0, 1.0));
+        let x: Vec<f64> = (0..20_000).map(|k| f64::from(k) / 20_000.0).collect();
+        let mut y: Vec<f64> =
+            (0..20_000u32).map(|k| f64::from(k.wrapping_mul(2_654_435_761) >> 16) / 65_536.0 - 0.5).collect();
+        (y[12_345], y[4_321]) = (0.9, -0.9);
+        let run = polylines(&series(x, y, Course::Straight), &frame).concat();
+        assert!(run.len() as f64 <= 4.0 * (frame.plot.width + 1.0));
+        let highest = run.iter().map(|point| point.1).fold(f64::INFINITY, f64::min);
+        let lowest = run.iter().map(|point| point.1).fold(0.0, f64::max);
+        assert!((highest - frame.y_px(0.9)).abs() < 1e-9);
+        assert!((lowest - frame.y_px(-0.9)).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_held_curve_is_a_staircase_at_its_own_times() {
+        let frame = frame((0.0, 3.0), (0.0, 3.0));
+        let stairs = series(vec![0.0, 1.0, 2.0, 3.0], vec![1.0, 2.0, 2.0, 1.0], Course::Held);
+        let corners = [(0.0, 1.0), (1.0, 1.0), (1.0, 2.0), (3.0, 2.0), (3.0, 1.0)];
+        assert_eq!(polylines(&stairs, &frame), [corners.map(|corner| frame.to_px(corner)).to_vec()]);
+    }
+
+    #[test]
+    fn a_step_inside_a_pixel_column_stays_upright() {
+        let frame = frame((0.0, 30_000.0), (0.0, 3.0));
+        let x: Vec<f64> = (0..30_000).map(f64::from).collect();
+        let y = x.iter().map(|&x| if x < 1000.0 { 1.0 } else { 2.0 }).collect();
+        let run = polylines(&series(x, y, Course::Held), &frame).concat();
+        let step = frame.x_px(1000.0);
+        assert_eq!(run[1..3], [(step, frame.y_px(1.0)), (step, frame.y_px(2.0))]);
+        assert_eq!(run.len(), 4);
+    }
+
+    #[test]
+    fn a_growing_curve_is_cut_at_the_edge() {
+        let frame = frame((0.0, 10.0), (0.0, 1.0));
+        let x: Vec<f64> = (0..1000).map(|k| f64::from(k) * 0.01).collect();
+        let y = x.iter().map(|x| 0.5 + 0.001 * (9.0 * x).exp() * (3.0 * x).cos()).collect();
+        let runs = polylines(&series(x, y, Course::Straight), &frame);
+        assert!(!runs.is_empty());
+        for point in runs.concat() {
+            assert!(frame.plot.contains(point), "{point:?}");
+        }
+    }
+
+    #[test]
+    fn a_point_that_is_not_finite_interrupts() {
+        let frame = frame((0.0, 4.0), (0.0, 4.0));
+        let curve =
+            series(vec![0.0, 1.0, 2.0, 3.0, 4.0], vec![1.0, 2.0, f64::NAN, 1.0, f64::INFINITY], Course::Straight);
+        let runs = polylines(&curve, &frame);
+        assert_eq!(runs, [vec![frame.to_px((0.0, 1.0)), frame.to_px((1.0, 2.0))]]);
+    }
+
+    #[test]
+    fn a_zoomed_curve_reaches_both_edges() {
+        let frame = frame((4.5, 5.5), (0.0, 10.0));
+        let x: Vec<f64> = (0..=10).map(f64::from).collect();
+        let run = polylines(&series(x.clone(), x, Course::Straight), &frame).concat();
+        assert_eq!(run.first().map(|point| point.0), Some(frame.plot.left));
+        assert_eq!(run.last().map(|point| point.0), Some(frame.plot.right()));
+    }
+
+    #[test]
+    fn dashes_keep_their_rhythm_round_a_corner() {
+        let dashes = dashes(&[(0.0, 0.0), (7.0, 0.0), (7.0, 10.0)], 4.0, 2.0);
+        assert_eq!(dashes[0], [(0.0, 0.0), (4.0, 0.0)]);
+        assert_eq!(dashes[1], [(6.0, 0.0), (7.0, 0.0), (7.0, 3.0)]);
+        assert_eq!(dashes[2], [(7.0, 5.0), (7.0, 9.0)]);
+        assert_eq!(dashes.len(), 3);
+    }
 }

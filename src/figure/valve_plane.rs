@@ -60,9 +60,11 @@ fn shading(spec: &ValvePlane) -> Field {
 
 /// From −1 for a zero far to the left to 1 for one far to the right. Without a finite zero the side of the line counts.
 fn shade(spec: &ValvePlane, gammas: [f64; 2]) -> f64 {
+    let below_line = 1.0 - gammas.iter().sum::<f64>();
     match (spec.right_most_zero)(gammas).filter(|zero| zero.is_finite()) {
         Some(zero) => zero / (zero.abs() + spec.halfway_zero.abs().max(f64::MIN_POSITIVE)),
-        None => 1.0 - gammas.iter().sum::<f64>(),
+        None if below_line == 0.0 => 0.0,
+        None => below_line.signum(),
     }
 }
 

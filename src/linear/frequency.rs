@@ -57,7 +57,7 @@ impl StateSpace {
 /// Singular values of a matrix, largest first.
 ///
 /// # Errors
-/// [`LinearError::NoConvergence`] when an entry is not finite or the iteration does not end.
+/// [`LinearError::NoConvergence`] when an entry or a value is not finite or the iteration does not end.
 pub fn singular_values<T>(matrix: DMatrix<T>) -> Result<Vec<f64>, LinearError>
 where
     T: nalgebra::ComplexField<RealField = f64>,
@@ -75,7 +75,8 @@ where
         return Ok(vec![0.0; size]);
     }
     let svd = SVD::try_new(matrix.unscale(largest), false, false, f64::EPSILON, ITERATIONS_PER_VALUE * size);
-    svd.map(|svd| svd.singular_values.iter().map(|value| value * largest).collect()).ok_or(failure)
+    let values: Vec<f64> = svd.ok_or(failure)?.singular_values.iter().map(|value| value * largest).collect();
+    if values.iter().all(|value| value.is_finite()) { Ok(values) } else { Err(failure) }
 }
 
 #[cfg(test)]

@@ -12,9 +12,9 @@ pub const DRY_LEVEL: f64 = 1e-9;
 /// (m), `u` pump voltages (V), `y` measured signals (V).
 ///
 /// A tank that is dry at the operating point (level at or below [`DRY_LEVEL`]) has an infinite √-slope: it follows its
-/// inflow at once and holds no water. What enters a dry upper tank therefore enters the lower one: its row of B is added
-/// to that of the tank below, as a flow. Such a tank is listed in `dry`, its row and column in A, its row in B and its column in C are zero, and
-/// [`Jacobian::reduced`] leaves it out.
+/// inflow at once and holds no water. Such a tank is listed in `dry`, its row and column in A, its row in B and its
+/// column in C are zero, and [`Jacobian::reduced`] leaves it out. What a pump sends into a dry upper tank stands in the
+/// row of B of the lower one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Jacobian {
     /// System matrix (1/s), 4 × 4.
@@ -60,21 +60,21 @@ impl QuadrupleTank {
         for (j, rate) in rates.into_iter().enumerate() {
             jacobian.a[(j, j)] = -rate.unwrap_or(0.0);
         }
-        let [[k1, k1_above], [k2, k2_above]] = self.valve_gains();
-        // Lower tank, its upper tank, the pump that feeds each of the two, and the gains of those feeds.
-        for (lower, upper, direct_pump, direct, indirect_pump, indirect) in
-            [(0, 2, 0, k1, 1, k2_above), (1, 3, 1, k2, 0, k1_above)]
-        {
+        for lower in 0..2 {
+            let (upper, other) = (lower + 2, 1 - lower);
+            // Flow per volt of the pump that feeds the lower tank, and of the other one that feeds the upper tank.
+            let direct = self.valves[lower] * self.pumps[lower].gain;
+            let from_above = (1.0 - self.valves[other]) * self.pumps[other].gain;
             if !dry[upper] {
-                jacobian.b[(upper, indirect_pump)] = indirect / area[upper];
+                jacobian.b[(upper, other)] = from_above / area[upper];
             }
             if dry[lower] {
                 continue;
             }
-            jacobian.b[(lower, direct_pump)] = direct / area[lower];
+            jacobian.b[(lower, lower)] = direct / area[lower];
             jacobian.c[(lower, lower)] = self.sensor.gain;
             if dry[upper] {
-                jacobian.b[(lower, indirect_pump)] = indirect / area[lower];
+                jacobian.b[(lower, other)] = from_above / area[lower];
             } else {
                 let slope = self.tanks[upper].outflow_slope(levels[upper], self.gravity);
                 jacobian.a[(lower, upper)] = slope / area[lower];
@@ -92,14 +92,6 @@ impl QuadrupleTank {
             let area = tank.section.area(level);
             let delta = tank.section.area_slope / (area * area) * net_inflow[j];
             (level > DRY_LEVEL).then(|| tank.outflow_slope(level, self.gravity) / area + delta)
-        })
-    }
-
-    /// For each pump the flow per volt (m³/(s V)) into its lower and into its upper tank.
-    fn valve_gains(&self) -> [[f64; 2]; 2] {
-        std::array::from_fn(|i| {
-            let (k, gamma) = (self.pumps[i].gain, self.valves[i]);
-            [gamma * k, (1.0 - gamma) * k]
         })
     }
 }

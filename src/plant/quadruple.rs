@@ -151,9 +151,13 @@ mod tests {
 
     #[test]
     fn controller_limits_are_ahead_of_the_power_module() {
-        let [(min, max), _] = PresetId::CocotaMinimumPhase.preset().plant.controller_limits();
-        assert_eq!(min, 0.0);
-        assert_relative_eq!(max, 10.0, max_relative = 1e-15);
+        let mut plant = PresetId::CocotaMinimumPhase.preset().plant;
+        plant.pumps[1].voltage_min = 2.4;
+        let [first, second] = plant.controller_limits();
+        for (found, expected) in [(first, (0.0, 10.0)), (second, (2.0, 10.0))] {
+            assert_relative_eq!(found.0, expected.0, max_relative = 1e-15);
+            assert_relative_eq!(found.1, expected.1, max_relative = 1e-15);
+        }
     }
 
     #[test]

@@ -117,6 +117,12 @@ mod tests {
     }
 
     #[test]
+    fn below_the_bottom_the_section_is_that_of_the_bottom() {
+        assert_eq!(trapezoid().area(-0.1), trapezoid().area(0.0));
+        assert_eq!(trapezoid().volume(-0.1), 0.0);
+    }
+
+    #[test]
     fn volume_is_the_integral_of_area() {
         let (section, h, dh) = (trapezoid(), 0.2, 1e-5);
         let slope = (section.volume(h + dh) - section.volume(h - dh)) / (2.0 * dh);

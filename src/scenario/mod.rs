@@ -5,10 +5,12 @@
 
 mod analyse;
 mod codec;
+mod csv;
 mod document;
 mod error;
 pub mod limits;
 mod link;
+mod margins;
 mod presets;
 mod report;
 mod run;
@@ -21,6 +23,7 @@ pub use document::{OperatingPointSpec, PlantSpec, Scenario, Setup, View};
 pub use error::ScenarioError;
 pub use limits::Limits;
 pub use link::{LINK_LIMIT, from_link, to_link};
+pub use margins::Margins;
 pub use presets::setup_of;
 pub use report::AnalysisReport;
 pub use run::{Run, run};

@@ -37,11 +37,7 @@ pub fn setup_of(id: PresetId) -> Setup {
         plant: PlantSpec::Preset(id),
         valves: preset.plant.valves,
         operating_point: OperatingPointSpec::PumpVoltage(preset.pump_voltage),
-        controller: DecentralisedPi {
-            pairing,
-            loops: [pi(loop_1), pi(loop_2)],
-            sampling_time_s: SAMPLING_TIME_S,
-        },
+        controller: DecentralisedPi { pairing, loops: [pi(loop_1), pi(loop_2)], sampling_time_s: SAMPLING_TIME_S },
         experiment: Experiment {
             duration_s: course.end,
             set_point_steps: vec![step(0, course.first_step, levels[0]), step(1, course.second_step, levels[1])],
@@ -66,13 +62,13 @@ fn published(id: PresetId) -> (Pairing, [(f64, f64); 2], Course) {
         }
         // The rig needs almost an hour to settle here (Cocota 2009, Fig. 4.8).
         PresetId::CocotaNonMinimumPhase => {
-            (Swapped, [(1.39, 380.0), (1.75, 365.0)], Course { first_step: 250.0, second_step: 4250.0, end: 8250.0 })
+            (Swapped, [(1.39, 380.0), (1.75, 365.0)], Course { first_step: 250.0, second_step: 3750.0, end: 7000.0 })
         }
         PresetId::JunqueiraA => {
-            (Diagonal, [(2.0, 40.0), (2.0, 40.0)], Course { first_step: 100.0, second_step: 700.0, end: 1300.0 })
+            (Diagonal, [(3.0, 40.0), (3.0, 40.0)], Course { first_step: 100.0, second_step: 600.0, end: 1100.0 })
         }
         PresetId::JunqueiraB => {
-            (Swapped, [(0.2, 60.0), (0.2, 60.0)], Course { first_step: 100.0, second_step: 1500.0, end: 3000.0 })
+            (Swapped, [(0.3, 60.0), (0.3, 60.0)], Course { first_step: 100.0, second_step: 1100.0, end: 2100.0 })
         }
     }
 }

@@ -6,7 +6,7 @@ use crate::linear::{Complex, LinearError, TransmissionZero};
 use crate::plant::{OperatingPoint, PlantError};
 use crate::sim::Stability;
 
-use super::Analysis;
+use super::{Analysis, Margins};
 
 /// An [`Analysis`] as it is written to JSON: complex numbers as `{"re", "im"}`, matrices by rows, and where theory has
 /// no answer the typed error in its place.
@@ -72,6 +72,7 @@ struct Loop {
     poles_z: Vec<Point>,
     poles_s: Vec<Point>,
     sensitivity_peak: Option<f64>,
+    guaranteed_margins: Option<Margins>,
 }
 
 impl From<&Analysis> for AnalysisReport {
@@ -95,6 +96,7 @@ impl From<&Analysis> for AnalysisReport {
                 poles_z: points(&closed_loop.poles_z),
                 poles_s: points(&closed_loop.poles_s),
                 sensitivity_peak: closed_loop.sensitivity_peak,
+                guaranteed_margins: closed_loop.sensitivity_peak.map(Margins::guaranteed_by),
             },
         }
     }

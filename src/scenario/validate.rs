@@ -73,7 +73,8 @@ fn check_tank(tank: &Tank, path: &str) -> Checked {
     within(slope, limits::TANK_AREA_SLOPE, format_args!("{path}.section.area_slope"))?;
     within(slope, narrowest, format_args!("{path}.section.area_slope"))?;
     let smallest_area = area.min(area + slope * tank.height);
-    let outlet = Limits { max: limits::OUTLET_AREA.max.min(limits::OUTLET_SHARE * smallest_area), ..limits::OUTLET_AREA };
+    let outlet =
+        Limits { max: limits::OUTLET_AREA.max.min(limits::OUTLET_SHARE * smallest_area), ..limits::OUTLET_AREA };
     within(tank.outlet.area, outlet, format_args!("{path}.outlet.area"))?;
     within(tank.outlet.loss_coefficient, limits::LOSS_COEFFICIENT, format_args!("{path}.outlet.loss_coefficient"))
 }

@@ -1,5 +1,5 @@
-use crate::linear::quadruple::{path, rightmost_zero};
 use crate::linear::Complex;
+use crate::linear::quadruple::{path, rightmost_zero};
 use crate::plant::QuadrupleTank;
 
 use super::{ScenarioError, Setup};

@@ -100,7 +100,7 @@ fn LoopControls(index: usize) -> impl IntoView {
     let class = if index == 0 { "loop1-row" } else { "loop2-row" };
     let heading = move || {
         let pump = lab.scenario.with(|s| s.setup.controller.pairing.pump_of(index)) + 1;
-        tr!(lab, pi.loop, level = index + 1, pump = pump).to_string()
+        tr!(lab, pi.heading, level = index + 1, pump = pump).to_string()
     };
     let gain = lab.part(move |s| s.controller.loops[index].gain);
     let edit = move |change: &dyn Fn(&mut PiSettings)| lab.edit(|s| change(&mut s.controller.loops[index]));

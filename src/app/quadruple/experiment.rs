@@ -4,7 +4,7 @@ use leptos::prelude::*;
 
 use super::cursor::PlayControls;
 use crate::app::lab::{Lab, use_lab};
-use crate::app::shown::{CM3_PER_M3, MM2_PER_M2, length_digits, to_metres, to_shown, unit_name};
+use crate::app::shown::{CM3_PER_M3, MM2_PER_M2, to_metres, to_shown, unit_name};
 use crate::app::start::Control;
 use crate::app::texts::tr;
 use crate::app::widgets::{NumberField, Scale, SliderField};

@@ -4,9 +4,9 @@ use crate::app::lab::{Lab, Outcome};
 use crate::app::shown::{per_metre, unit_name};
 use crate::app::texts::tr;
 use crate::app::widgets::Picture;
-use crate::figure::{self, PoleZero, PoleZeroTexts, ResponseTexts, Responses, RunColumns, ValvePlane, ValvePlaneTexts};
+use crate::figure::{self, Chart, PoleZero, PoleZeroTexts, ResponseTexts, Responses, RunColumns, ValvePlane, ValvePlaneTexts};
 use crate::linear::Complex;
-use crate::scenario::{Run, Setup, ValveMap};
+use crate::scenario::{Analysis, Run, Setup, ValveMap};
 
 use leptos::prelude::*;
 
@@ -16,11 +16,14 @@ use super::sentences::with_analysis;
 const TYPICAL_SETTING: [f64; 2] = [0.3, 0.3];
 /// Points on the paths of the zeros.
 const PATH_POINTS: usize = 61;
+/// Steps of each valve in the exported table of the plane.
+const CSV_STEPS: u32 = 20;
 
 /// The valve plane. It does not depend on the valves themselves, so dragging the point does not repaint it.
 pub fn valve_plane(lab: Lab) -> Picture {
     let map = Memo::new(move |_| lab.scenario.with(|s| ValveMap::of(&s.setup).ok().map(ValveMap::without_setting)));
-    Picture::new(move |visit| {
+    let csv = move || map.get().map(|m| m.to_csv(CSV_STEPS)).unwrap_or_default();
+    let build = move |visit: &mut dyn FnMut(&[Chart])| {
         let Some(map) = map.get() else { return };
         let texts = ValvePlaneTexts {
             gamma_1: "γ₁",
@@ -36,12 +39,14 @@ pub fn valve_plane(lab: Lab) -> Picture {
             setting: None,
             texts,
         })]);
-    })
+    };
+    Picture::new(build, csv)
 }
 
 /// Poles and zeros.
 pub fn pole_zero(lab: Lab) -> Picture {
-    Picture::new(move |visit| {
+    let csv = move || with_analysis(lab, Analysis::roots_to_csv).unwrap_or_default();
+    let build = move |visit: &mut dyn FnMut(&[Chart])| {
         let map = lab.scenario.with(|s| ValveMap::of(&s.setup));
         let zero_paths = map.map(|m| m.zero_paths(PATH_POINTS)).unwrap_or_default();
         with_analysis(lab, |a| {
@@ -61,7 +66,8 @@ pub fn pole_zero(lab: Lab) -> Picture {
                 },
             })]);
         });
-    })
+    };
+    Picture::new(build, csv)
 }
 
 /// Levels and pump voltages.
@@ -69,7 +75,8 @@ pub fn responses(lab: Lab) -> Picture {
     let window = Memo::new(move |_| lab.scenario.with(|s| s.view.zoom_s));
     let hide_linear = Memo::new(move |_| lab.scenario.with(|s| s.view.hide_linear));
     let plant = lab.part(Setup::plant);
-    Picture::new(move |visit| {
+    let csv = move || lab.run.with(|run| run.as_ref().as_ref().map(Run::to_csv).unwrap_or_default());
+    let build = move |visit: &mut dyn FnMut(&[Chart])| {
         let (run, pinned): (Outcome<Run>, _) = (lab.run.get(), lab.pinned.get());
         let Ok(run) = run.as_ref() else { return };
         let unit = lab.unit().get();
@@ -102,7 +109,8 @@ pub fn responses(lab: Lab) -> Picture {
                 pinned: tr!(lab, responses.pinned),
             },
         }));
-    })
+    };
+    Picture::new(build, csv)
 }
 
 fn columns(run: &crate::sim::Trajectory) -> RunColumns<'_> {

@@ -9,8 +9,8 @@ use super::pictures;
 use crate::app::lab::{Lab, use_lab};
 use crate::app::shown::{length_digits, to_shown, unit_name};
 use crate::app::texts::tr;
-use crate::app::widgets::{ChartCanvas, ChartMenu, rich};
-use crate::figure::Frame;
+use crate::app::widgets::{ChartCanvas, ChartMenu, Picture, rich};
+use crate::figure::{Frame, Table, table};
 use crate::scenario::Scenario;
 use crate::sim::{EventKind, LoopMetrics, Settling, Stability};
 
@@ -31,6 +31,7 @@ pub fn ResponsesCard() -> impl IntoView {
     let lab = use_lab();
     let frames = RwSignal::new(Vec::<Frame>::new());
     let picture = pictures::responses(lab);
+    let table_picture = picture.clone();
     let title = Signal::derive(move || tr!(lab, responses.title).to_string());
     let summary = Signal::derive(move || tr!(lab, responses.summary, sentence = sentence(lab).replace("**", "")).to_string());
     view! {
@@ -48,7 +49,7 @@ pub fn ResponsesCard() -> impl IntoView {
             </div>
             <p class="sentence" role="status" data-testid="responses-sentence">{move || rich(&sentence(lab))}</p>
             <MetricsTable />
-            <DataTable />
+            <DataTable picture=table_picture />
         </section>
     }
 }
@@ -323,49 +324,34 @@ fn of_metrics(lab: Lab, index: usize, metrics: &LoopMetrics) -> Option<String> {
 
 /// The run as numbers, for those who do not see the picture; computed only while it is open.
 #[component]
-fn DataTable() -> impl IntoView {
+fn DataTable(picture: Picture) -> impl IntoView {
     let lab = use_lab();
     let open = RwSignal::new(false);
-    let rows = move || {
+    let content = move || {
         let style = lab.number_style();
-        let unit = lab.unit().get();
-        lab.run.with(|outcome| {
-            let Ok(run) = outcome.as_ref() else { return ().into_any() };
-            let run = &run.nonlinear;
-            let every = run.time_s.len().div_ceil(TABLE_ROWS).max(1);
-            let level = |column: &Vec<f64>, k: usize| style.fixed(to_shown(column[k], unit), length_digits(unit));
-            (0..run.time_s.len())
-                .step_by(every)
-                .map(|k| {
-                    let levels = run.levels.iter().map(|c| view! { <td>{level(c, k)}</td> }).collect_view();
-                    let references = run.references.iter().map(|c| view! { <td>{level(c, k)}</td> }).collect_view();
-                    let pumps = run.pump_voltage.iter().map(|c| view! { <td>{style.fixed(c[k], 2)}</td> }).collect_view();
-                    view! { <tr><th scope="row">{style.fixed(run.time_s[k], 0)}</th>{levels}{references}{pumps}</tr> }
-                })
-                .collect_view()
-                .into_any()
-        })
+        let Table { columns, rows } = picture.visit(|charts| table(charts, TABLE_ROWS));
+        let headings = columns.into_iter().map(|name| view! { <th scope="col">{name}</th> }).collect_view();
+        let rows = rows
+            .into_iter()
+            .map(|row| {
+                let cells = row.into_iter().map(|value| view! { <td>{style.significant(value, 4)}</td> }).collect_view();
+                view! { <tr>{cells}</tr> }
+            })
+            .collect_view();
+        view! {
+            <div class="scroll" tabindex="0" role="region" aria-label=tr!(lab, responses.table_caption)>
+                <table class="plain">
+                    <caption class="visually-hidden">{tr!(lab, responses.table_caption)}</caption>
+                    <thead><tr>{headings}</tr></thead>
+                    <tbody>{rows}</tbody>
+                </table>
+            </div>
+        }
     };
-    let unit = move || unit_name(lab.unit().get());
-    let heading = move |name: &'static str| view! { <th scope="col">{move || format!("{name} ({})", unit())}</th> };
     view! {
         <details class="more" on:toggle=move |_| open.update(|o| *o = !*o)>
             <summary data-testid="data-table">{move || tr!(lab, responses.table)}</summary>
-            {move || open.get().then(|| view! {
-                <div class="scroll" tabindex="0" role="region" aria-label=move || tr!(lab, responses.table_caption)>
-                    <table class="plain">
-                        <caption class="visually-hidden">{tr!(lab, responses.table_caption)}</caption>
-                        <thead>
-                            <tr>
-                                <th scope="col">"t (s)"</th>
-                                {heading("h₁")}{heading("h₂")}{heading("h₃")}{heading("h₄")}{heading("r₁")}{heading("r₂")}
-                                <th scope="col">"v₁ (V)"</th><th scope="col">"v₂ (V)"</th>
-                            </tr>
-                        </thead>
-                        <tbody>{rows}</tbody>
-                    </table>
-                </div>
-            })}
+            {move || open.get().then(content.clone())}
         </details>
     }
 }

@@ -2,29 +2,37 @@ use std::sync::Arc;
 
 use leptos::html::Canvas;
 use leptos::prelude::*;
-use leptos_use::{UseElementSizeReturn, use_device_pixel_ratio, use_element_size};
+use leptos_use_device_pixel_ratio::use_device_pixel_ratio;
+use leptos_use_element_size::{UseElementSizeReturn, use_element_size};
 use web_sys::HtmlCanvasElement;
 
 use crate::app::canvas;
 use crate::app::download::{download_canvas, download_text};
 use crate::app::lab::use_lab;
 use crate::app::texts::tr;
-use crate::figure::{Chart, Frame, Size, Style, csv, layout, to_svg};
+use crate::figure::{Chart, Frame, Size, Style, layout, to_svg};
 
-/// How the charts of a picture are had: a function that builds them, in place, for whoever paints or exports them.
-/// Building reads signals, so whoever calls it inside an effect follows them.
+/// How the charts of a picture are had: a function that builds them, in place, for whoever paints or exports them, and
+/// one for the numbers behind them as CSV. Building reads signals, so whoever calls it inside an effect follows them.
 #[derive(Clone)]
-pub struct Picture(Arc<dyn Fn(&mut dyn FnMut(&[Chart])) + Send + Sync>);
+pub struct Picture {
+    build: Arc<dyn Fn(&mut dyn FnMut(&[Chart])) + Send + Sync>,
+    csv: Arc<dyn Fn() -> String + Send + Sync>,
+}
 
 impl Picture {
-    /// A picture that `build` hands to its visitor.
-    pub fn new(build: impl Fn(&mut dyn FnMut(&[Chart])) + Send + Sync + 'static) -> Self {
-        Self(Arc::new(build))
+    /// A picture that `build` hands to its visitor, and whose numbers `csv` writes.
+    pub fn new(
+        build: impl Fn(&mut dyn FnMut(&[Chart])) + Send + Sync + 'static,
+        csv: impl Fn() -> String + Send + Sync + 'static,
+    ) -> Self {
+        Self { build: Arc::new(build), csv: Arc::new(csv) }
     }
 
-    fn visit<T: Default>(&self, mut visitor: impl FnMut(&[Chart]) -> T) -> T {
+    /// What `visitor` makes of the charts; the default where there is nothing to show.
+    pub fn visit<T: Default>(&self, mut visitor: impl FnMut(&[Chart]) -> T) -> T {
         let mut result = T::default();
-        (self.0)(&mut |charts| result = visitor(charts));
+        (self.build)(&mut |charts| result = visitor(charts));
         result
     }
 }
@@ -84,7 +92,7 @@ pub fn ChartMenu(
     let lab = use_lab();
     let (for_csv, for_svg, for_png) = (picture.clone(), picture.clone(), picture);
     let save_csv = move |_| {
-        let text = untrack(|| for_csv.visit(csv));
+        let text = untrack(|| (for_csv.csv)());
         download_text(&format!("{file}.csv"), "text/csv", &text);
     };
     let save_svg = move |_| {

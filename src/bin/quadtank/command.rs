@@ -13,7 +13,6 @@ use quadtank::scenario::{
 use serde::Serialize;
 use thiserror::Error;
 
-mod csv;
 mod plot;
 
 /// The quadruple-tank laboratory without a screen.
@@ -118,7 +117,7 @@ fn execute(command: Command) -> Result<(), Failure> {
         Command::Simulate { file, format } => {
             let run = compute(&file, run)?;
             match format {
-                Format::Csv => print(&csv::table(&run)),
+                Format::Csv => print(&run.to_csv()),
                 Format::Json => print(&json(&run)),
             }
         }

@@ -4,7 +4,7 @@ use quadtank::figure::{
     ValvePlaneTexts, to_svg,
 };
 use quadtank::plant::{DisplayUnit, PresetId};
-use quadtank::scenario::{ScenarioError, Setup, ValveMap, analyse, run};
+use quadtank::scenario::{PlantSpec, ScenarioError, Setup, ValveMap, analyse, run};
 use quadtank::sim::Trajectory;
 
 /// What can be drawn.
@@ -79,7 +79,7 @@ fn columns(trajectory: &Trajectory) -> RunColumns<'_> {
 
 fn valve_plane(setup: &Setup, style: &Style) -> Result<String, ScenarioError> {
     let map = ValveMap::of(setup)?;
-    let published = PresetId::ALL.map(|id| (label(id), id.preset().plant.valves));
+    let published = published_settings(setup);
     let [t3, t4] = map.upper_time_constants_s([0.5, 0.5]);
     let chart = figure::valve_plane(&ValvePlane {
         right_most_zero: &|valves| map.rightmost_zero(valves),
@@ -99,14 +99,20 @@ fn valve_plane(setup: &Setup, style: &Style) -> Result<String, ScenarioError> {
     Ok(to_svg(&[chart], size, style, "Valve plane", description))
 }
 
+/// The settings in which the rig of a setup was published; none for a rig of one's own.
+fn published_settings(setup: &Setup) -> Vec<(&'static str, [f64; 2])> {
+    let source = |id: PresetId| id.preset().source;
+    let PlantSpec::Preset(rig) = setup.plant else { return Vec::new() };
+    let published = PresetId::ALL.into_iter().filter(|id| source(*id) == source(rig));
+    published.map(|id| (label(id), id.preset().plant.valves)).collect()
+}
+
 fn label(id: PresetId) -> &'static str {
     match id {
-        PresetId::JohanssonMinimumPhase => "Johansson P−",
-        PresetId::JohanssonNonMinimumPhase => "Johansson P+",
-        PresetId::CocotaMinimumPhase => "Cocota P−",
-        PresetId::CocotaNonMinimumPhase => "Cocota P+",
-        PresetId::JunqueiraA => "Junqueira a",
-        PresetId::JunqueiraB => "Junqueira b",
+        PresetId::JohanssonMinimumPhase | PresetId::CocotaMinimumPhase => "P−",
+        PresetId::JohanssonNonMinimumPhase | PresetId::CocotaNonMinimumPhase => "P+",
+        PresetId::JunqueiraA => "case a",
+        PresetId::JunqueiraB => "case b",
     }
 }
 
