@@ -1,6 +1,8 @@
 # Every goal sets up what it needs; the logic is in tools/.
 .PHONY: help setup serve dev build single test bench fmt
 
+PORT ?= 8080
+
 help: ## list the goals
 	@sed -n 's/^\([a-z]*\):.*## /  make \1\t/p' Makefile | expand -t 18
 
@@ -10,7 +12,7 @@ setup: ## install what is missing: toolchain, build tools, Chromium, node module
 serve: ## build the release and serve it on 127.0.0.1:8080 (PORT=… for another)
 	@tools/setup.sh build
 	@tools/build.sh
-	@node tools/serve.mjs
+	@PORT=$(PORT) exec node tools/serve.mjs
 
 dev: ## serve a development build that follows every edit
 	@tools/setup.sh build
@@ -28,7 +30,7 @@ test: ## run everything: format, lints, native, browser and end-to-end tests
 	@tools/run.sh node tools/test.mjs 2>&1
 
 bench: ## measure speed and size (BENCH=--write puts the table into docs/benchmarks.md)
-	@tools/setup.sh
+	@tools/setup.sh >&2
 	@tools/build.sh >&2
 	@tools/run.sh node tools/bench.mjs $(BENCH)
 
