@@ -30,8 +30,8 @@ const STEPS_PER_TIME_CONSTANT: f64 = 8.0;
 /// with it the error, does not matter to the tank below; the method is stable with any step.
 const MAX_STEPS: f64 = 4.0;
 
-/// The tank above each lower tank.
-pub(super) const ABOVE: [usize; 2] = [2, 3];
+/// A Newton correction this small, as a fraction, leaves an error below rounding.
+const NEWTON_TOLERANCE: f64 = 1e-9;
 
 /// One tank, its walls in terms of √h and volume.
 #[derive(Clone, Copy, Debug)]
@@ -47,27 +47,53 @@ impl Basin {
         Self { section, root_height: tank.height.max(0.0).sqrt(), full_volume: section.volume(tank.height) }
     }
 
-    /// The √h at which `V(h) + passed √h = available`; beyond the walls a tank drains as at the wall.
-    fn root_level(&self, passed: f64, available: f64) -> f64 {
-        if available <= 0.0 {
-            return 0.0;
+    /// The implicit equation of a stage for steps that start at `level`; `passed` as in [`Stage`].
+    fn stage(&self, level: f64, passed: f64) -> Stage {
+        let area = self.section.area(level).max(f64::MIN_POSITIVE);
+        let half_slope = self.section.area_slope / 2.0;
+        Stage {
+            section: self.section,
+            passed,
+            passed_squared: passed * passed,
+            four_areas: 4.0 * area,
+            half_over_area: 0.5 / area,
+            offset: half_slope * level * level,
         }
-        let discriminant = passed * passed + 4.0 * self.section.area_at_empty * available;
-        let prismatic = 2.0 * available / (passed + discriminant.sqrt());
-        if self.section.area_slope == 0.0 { prismatic } else { self.refine_root_level(prismatic, passed, available) }
+    }
+}
+
+/// `V(h) + passed √h = available`, the equation of a stage for one tank, prepared for many right-hand sides.
+#[derive(Clone, Copy, Debug)]
+struct Stage {
+    section: CrossSection,
+    /// Diagonal × step × drain (m^2.5).
+    passed: f64,
+    passed_squared: f64,
+    four_areas: f64,
+    half_over_area: f64,
+    /// What the tangent of V at the start of the step lacks at level 0 (m³).
+    offset: f64,
+}
+
+impl Stage {
+    /// The √h that solves the equation: 0 for an empty tank, beyond the wall for one that is about to overflow.
+    #[inline]
+    fn root_level(&self, available: f64) -> f64 {
+        let on_tangent = (available + self.offset).max(0.0);
+        let root = ((self.passed_squared + self.four_areas * on_tangent).sqrt() - self.passed) * self.half_over_area;
+        if self.section.area_slope == 0.0 { root } else { self.refine(root, available.max(0.0)) }
     }
 
-    /// Newton's iteration for a cross-section that changes with level. The function is convex and the start to the
-    /// right of the root for a tank that widens, so that the iteration falls monotonically.
-    fn refine_root_level(&self, start: f64, passed: f64, available: f64) -> f64 {
+    /// Newton's iteration from the solution with V replaced by its tangent.
+    fn refine(&self, start: f64, available: f64) -> f64 {
         let mut root = start;
         for _ in 0..20 {
             let level = root * root;
-            let excess = self.section.volume(level) + passed * root - available;
-            let slope = 2.0 * self.section.area(level) * root + passed;
+            let excess = self.section.volume(level) + self.passed * root - available;
+            let slope = 2.0 * self.section.area(level) * root + self.passed;
             let correction = excess / slope;
             root = (root - correction).max(0.0);
-            if correction.abs() <= 1e-15 * root {
+            if correction.abs() <= NEWTON_TOLERANCE * root {
                 break;
             }
         }
@@ -155,21 +181,23 @@ impl Hydraulics {
     }
 
     fn step(&mut self, time: f64, step: f64, watch: &mut impl Watch) {
+        let levels = self.levels();
+        let stages: [Stage; 4] =
+            std::array::from_fn(|i| self.basins[i].stage(levels[i], DIAGONAL * step * self.drain[i]));
         let mut gain = [[0.0; 4]; STAGES];
-        let mut end = [0.0; 4];
         let mut root = [0.0; 4];
+        let mut end = [0.0; 4];
         for (stage, weights) in BELOW_DIAGONAL.iter().enumerate() {
+            let mut inflow = self.inflow;
             for tank in [2, 3, 0, 1] {
-                let mut inflow = self.inflow[tank];
                 if tank < 2 {
-                    inflow += self.outlet[ABOVE[tank]] * root[ABOVE[tank]];
+                    inflow[tank] += self.outlet[tank + 2] * root[tank + 2];
                 }
                 let past: f64 = (0..stage).map(|j| weights[j] * gain[j][tank]).sum();
-                let passed = DIAGONAL * step * self.drain[tank];
-                let available = self.volume[tank] + step * (past + DIAGONAL * inflow);
-                root[tank] = self.basins[tank].root_level(passed, available);
-                gain[stage][tank] = inflow - self.drain[tank] * root[tank];
-                end[tank] = available - passed * root[tank];
+                let available = self.volume[tank] + step * (past + DIAGONAL * inflow[tank]);
+                root[tank] = stages[tank].root_level(available);
+                gain[stage][tank] = inflow[tank] - self.drain[tank] * root[tank];
+                end[tank] = available - stages[tank].passed * root[tank];
             }
         }
         for tank in 0..4 {
