@@ -1,0 +1,38 @@
+# Every goal sets up what it needs; the logic is in tools/.
+.PHONY: help setup serve dev build single test bench fmt
+
+PORT ?= 8080
+
+help: ## list the goals
+	@sed -n 's/^\([a-z]*\):.*## /  make \1\t/p' Makefile | expand -t 18
+
+setup: ## install what is missing: toolchain, build tools, Chromium, node modules
+	@tools/setup.sh
+
+serve: ## build the release and serve it on 127.0.0.1:8080 (PORT=… for another)
+	@tools/setup.sh build
+	@tools/build.sh
+	@PORT=$(PORT) exec node tools/serve.mjs
+
+dev: ## serve a development build that follows every edit
+	@tools/setup.sh build
+	@tools/run.sh trunk serve --offline --dist target/dist-dev
+
+build: ## build the site into dist/, with the single file beside it
+	@tools/setup.sh build
+	@tools/build.sh
+
+single: build ## the whole laboratory as one file: dist/quadtank.html
+
+# What a step says on stderr goes to stdout, so that the total stays in the right place.
+test: ## run everything: format, lints, native, browser and end-to-end tests
+	@tools/setup.sh 2>&1
+	@tools/run.sh node tools/test.mjs 2>&1
+
+bench: ## measure speed and size (BENCH=--write puts the table into docs/benchmarks.md)
+	@tools/setup.sh >&2
+	@tools/build.sh >&2
+	@tools/run.sh node tools/bench.mjs $(BENCH)
+
+fmt: ## format the Rust code
+	@cargo fmt --all

@@ -1,0 +1,54 @@
+//! The core in the browser that it is made for: the same figures as on the host, compiled to wasm.
+#![cfg(target_arch = "wasm32")]
+
+use quadtank::plant::PresetId;
+use quadtank::scenario::{Scenario, analyse, from_link, run, setup_of, to_link};
+use wasm_bindgen_test::{wasm_bindgen_test, wasm_bindgen_test_configure};
+
+wasm_bindgen_test_configure!(run_in_browser);
+
+/// λ11 = γ1 γ2 / (γ1 + γ2 − 1), Johansson (2000), eq. 10.
+fn relative_gain([one, two]: [f64; 2]) -> f64 {
+    one * two / (one + two - 1.0)
+}
+
+#[wasm_bindgen_test]
+fn every_published_rig_is_analysed() {
+    for id in PresetId::ALL {
+        let setup = setup_of(id);
+        let analysis = analyse(&setup).expect("a published rig has an operating point");
+        let expected = relative_gain(setup.valves);
+        let found = analysis.rga_11.clone().expect("no published rig is singular");
+        assert!((found - expected).abs() <= 1e-9 * expected.abs(), "{id:?}: λ11 = {found}, by hand {expected}");
+
+        let gamma_sum: f64 = setup.valves.iter().sum();
+        let zero = analysis.rightmost_zero().expect("a published rig has two zeros").value.re;
+        assert_eq!(zero < 0.0, gamma_sum > 1.0, "{id:?}: right-most zero {zero}, γ1 + γ2 = {gamma_sum}");
+    }
+}
+
+#[wasm_bindgen_test]
+fn a_run_stays_finite_and_reaches_its_end() {
+    let setup = setup_of(PresetId::JohanssonMinimumPhase);
+    let answer = run(&setup).expect("the published experiment runs");
+    let trajectory = &answer.nonlinear;
+    let end = trajectory.time_s.last().expect("a run has rows");
+    assert!((end - setup.experiment.duration_s).abs() < 1e-6, "ends at {end} s");
+    assert!(trajectory.levels.iter().flatten().all(|level| level.is_finite()));
+}
+
+#[wasm_bindgen_test]
+fn a_link_brings_every_rig_back() {
+    for id in PresetId::ALL {
+        let scenario = Scenario { setup: setup_of(id), ..Scenario::default() };
+        let link = to_link(&scenario).expect("a published rig fits into a link");
+        assert_eq!(from_link(&link).expect("an own link can be read"), scenario, "{link}");
+    }
+}
+
+#[wasm_bindgen_test]
+fn a_damaged_link_is_an_error() {
+    let link = to_link(&Scenario::default()).expect("the default fits into a link");
+    assert!(from_link(&link[..link.len() - 3]).is_err());
+    assert!(from_link("no link at all").is_err());
+}

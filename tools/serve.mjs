@@ -1,0 +1,50 @@
+// A static server for the site: `node tools/serve.mjs` on 127.0.0.1, port 8080 or $PORT.
+import { createReadStream, statSync } from 'node:fs';
+import { createServer } from 'node:http';
+import { extname, join, normalize } from 'node:path';
+import { fileURLToPath } from 'node:url';
+
+const SITE = fileURLToPath(new URL('../dist', import.meta.url));
+const HOST = '127.0.0.1';
+const TYPES = {
+  '.html': 'text/html; charset=utf-8',
+  '.js': 'text/javascript; charset=utf-8',
+  '.css': 'text/css; charset=utf-8',
+  '.svg': 'image/svg+xml',
+  '.wasm': 'application/wasm',
+};
+
+/** The file of the site that a path of the URL means; nothing outside the site. */
+function fileOf(path) {
+  try {
+    const file = join(SITE, normalize(`/${decodeURIComponent(path)}`));
+    const found = statSync(file);
+    return found.isDirectory() ? join(file, 'index.html') : file;
+  } catch {
+    return null;
+  }
+}
+
+/** Serves `dist/` and resolves with the server once it listens; port 0 takes a free one. */
+export function serve(port) {
+  const server = createServer((request, response) => {
+    const file = fileOf(request.url.split('?')[0]);
+    const type = file && TYPES[extname(file)];
+    if (!type) return response.writeHead(404).end();
+    // Without caching, a reload shows the newest build.
+    response.writeHead(200, { 'content-type': type, 'cache-control': 'no-store' });
+    createReadStream(file).on('error', () => response.destroy()).pipe(response);
+  });
+  return new Promise((resolve, reject) => server.once('error', reject).listen(port, HOST, () => resolve(server)));
+}
+
+if (process.argv[1] === fileURLToPath(import.meta.url)) {
+  const port = Number(process.env.PORT ?? 8080);
+  try {
+    await serve(port);
+    console.log(`serve: the laboratory is at http://${HOST}:${port}/ (Ctrl+C ends)`);
+  } catch (error) {
+    console.error(`serve: port ${port} cannot be used (${error.code}); choose another: make serve PORT=8081`);
+    process.exitCode = 1;
+  }
+}

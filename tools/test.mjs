@@ -1,0 +1,108 @@
+// Runs every suite, also after one has failed, and ends with the total that the suites themselves report.
+import { spawn } from 'node:child_process';
+import { mkdirSync, writeFileSync } from 'node:fs';
+
+/** Counts in the output of cargo and of the wasm test runner: one line for each test binary. */
+function cargoCounts(output) {
+  const lines = [...output.matchAll(/^test result: .*?(\d+) passed; (\d+) failed;/gm)];
+  return lines.reduce((sum, [, passed, failed]) => add(sum, { passed: +passed, failed: +failed }), none());
+}
+
+/** Counts in the summary of Playwright. A test that was interrupted, did not run or passed only at a retry is no pass. */
+function playwrightCounts(output) {
+  const count = (...words) => {
+    const lines = output.matchAll(new RegExp(`^ +(\\d+) (?:${words.join('|')})\\b`, 'gm'));
+    return [...lines].reduce((sum, [, number]) => sum + Number(number), 0);
+  };
+  return { passed: count('passed'), failed: count('failed', 'flaky', 'interrupted', 'did not run') };
+}
+
+const CARGO = ['--locked', '--color', 'never'];
+
+// A step without `counts` is a check: it can fail, but it holds no tests.
+const STEPS = [
+  { name: 'format', run: ['cargo', 'fmt', '--all', '--check'] },
+  {
+    name: 'lints of the core',
+    run: ['cargo', 'clippy', ...CARGO, '--quiet', '--no-default-features', '--all-targets', '--', '-D', 'warnings'],
+  },
+  { name: 'lints of the app', run: ['cargo', 'clippy', ...CARGO, '--quiet', '--all-targets', '--', '-D', 'warnings'] },
+  // The core alone: proof that it needs no web dependency.
+  {
+    name: 'native tests of the core',
+    run: ['cargo', 'test', ...CARGO, '--quiet', '--no-default-features', '--no-fail-fast'],
+    counts: cargoCounts,
+  },
+  {
+    name: 'native tests of the app',
+    run: ['cargo', 'test', ...CARGO, '--quiet', '--lib', '--', 'app::'],
+    counts: cargoCounts,
+  },
+  {
+    name: 'tests in headless Chromium',
+    run: ['cargo', 'test', ...CARGO, '--no-default-features', '--target', 'wasm32-unknown-unknown', '--test', 'web'],
+    counts: cargoCounts,
+  },
+  { name: 'release build', run: ['tools/build.sh'] },
+  {
+    name: 'end-to-end tests',
+    run: ['npx', '--no-install', 'playwright', 'test', '--reporter=list'],
+    in: 'tests/e2e',
+    counts: playwrightCounts,
+  },
+];
+
+const none = () => ({ passed: 0, failed: 0 });
+const add = (one, other) => ({ passed: one.passed + other.passed, failed: one.failed + other.failed });
+
+/** Runs a step; its output is shown as it comes and returned without colours. */
+function execute({ run: [program, ...args], in: folder = '.' }) {
+  return new Promise((resolve) => {
+    const child = spawn(program, args, { cwd: folder, stdio: ['ignore', 'pipe', 'pipe'], env: environment });
+    let output = '';
+    for (const stream of [child.stdout, child.stderr]) {
+      stream.setEncoding('utf8').on('data', (text) => {
+        output += text;
+        process.stdout.write(text);
+      });
+    }
+    child.on('error', (error) => resolve({ ok: false, output: `${error}\n` }));
+    child.on('close', (code) => resolve({ ok: code === 0, output: output.replace(/\x1b\[[\d;?]*[A-Za-z]/g, '') }));
+  });
+}
+
+/** What a step counts for. A check that fails, or a suite that fails without a failed test, is one failure. */
+function judge(step, { ok, output }) {
+  const counts = step.counts?.(output) ?? none();
+  const ranNothing = step.counts !== undefined && counts.passed + counts.failed === 0;
+  const silent = counts.failed === 0 && (!ok || ranNothing);
+  return { ...(silent ? add(counts, { passed: 0, failed: 1 }) : counts), ranNothing };
+}
+
+// Chromedriver looks in the usual places; a browser from elsewhere has to be named to it.
+const environment = { ...process.env, CI: process.env.CI ?? '1' };
+if (process.env.CHROMIUM && !process.env.CHROMIUM.startsWith('/usr/bin/')) {
+  const { readFileSync } = await import('node:fs');
+  const capabilities = JSON.parse(readFileSync('webdriver.json', 'utf8'));
+  capabilities['goog:chromeOptions'].binary = process.env.CHROMIUM;
+  mkdirSync('target', { recursive: true });
+  writeFileSync('target/webdriver.json', JSON.stringify(capabilities));
+  environment.WASM_BINDGEN_TEST_WEBDRIVER_JSON = `${process.cwd()}/target/webdriver.json`;
+}
+
+let total = none();
+const report = [];
+for (const step of STEPS) {
+  console.log(`\n== ${step.name}: ${step.run.join(' ')}`);
+  const start = Date.now();
+  const result = await execute(step);
+  const counts = judge(step, result);
+  total = add(total, counts);
+  const seconds = `${Math.round((Date.now() - start) / 1000)} s`.padStart(6);
+  const verdict = counts.ranNothing && result.ok ? 'ran no test' : step.counts ? `${counts.passed} passed, ${counts.failed} failed` : result.ok ? 'ok' : 'FAILED';
+  report.push(`${seconds}  ${step.name}: ${verdict}`);
+}
+
+console.log(`\n== all suites\n${report.join('\n')}`);
+console.log(`${total.passed} passed, ${total.failed} failed`);
+process.exitCode = total.failed === 0 ? 0 : 1;
