@@ -1,5 +1,7 @@
 use std::borrow::Cow;
 
+use crate::sim::Trajectory;
+
 use super::{Axis, Chart, Course, Entry, Layer, Pen, Role, Sample, Series};
 
 /// A level chart never shows less than this share of the height of the walls, so that noise does not look like a step.
@@ -22,8 +24,16 @@ pub struct RunColumns<'a> {
     pub voltages: [&'a [f64]; 2],
 }
 
+impl<'a> RunColumns<'a> {
+    /// The columns of a run that responses show.
+    pub fn of(run: &'a Trajectory) -> Self {
+        let Trajectory { time_s, levels: [level_1, level_2, ..], pump_voltage, .. } = run;
+        Self { time_s, levels: [level_1, level_2], voltages: pump_voltage.each_ref().map(Vec::as_slice) }
+    }
+}
+
 /// What the response charts show.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Responses<'a> {
     /// The nonlinear plant.
     pub nonlinear: RunColumns<'a>,
@@ -31,8 +41,8 @@ pub struct Responses<'a> {
     pub references: [&'a [f64]; 2],
     /// The linear model.
     pub linear: Option<RunColumns<'a>>,
-    /// A pinned run.
-    pub pinned: Option<RunColumns<'a>>,
+    /// Pinned runs.
+    pub pinned: Vec<RunColumns<'a>>,
     /// Levels are shown in metres times this: 100 for centimetres.
     pub level_scale: f64,
     /// Height of the walls of tanks 1 and 2 (m).
@@ -90,9 +100,9 @@ pub fn responses<'a>(spec: &Responses<'a>) -> [Chart<'a>; 2] {
 
 /// The runs with their pens, from the back to the front.
 fn runs<'a>(spec: &Responses<'a>) -> impl Iterator<Item = (RunColumns<'a>, Pen, &'a str)> {
-    let pinned = spec.pinned.map(|run| (run, Pen::Faded, spec.texts.pinned));
+    let pinned = spec.pinned.iter().map(|&run| (run, Pen::Faded, spec.texts.pinned));
     let linear = spec.linear.map(|run| (run, Pen::Dotted, spec.texts.linear));
-    [pinned, Some((spec.nonlinear, Pen::Solid, "")), linear].into_iter().flatten()
+    pinned.chain([(spec.nonlinear, Pen::Solid, "")]).chain(linear)
 }
 
 fn level_layers<'a>(spec: &Responses<'a>) -> Vec<Layer<'a>> {
@@ -146,17 +156,22 @@ fn qualified<'a>(name: &'a str, which: &str, pen: Pen) -> Cow<'a, str> {
     }
 }
 
+/// The runs that stretch a range but do not make it.
+fn beside<'a>(spec: &Responses<'a>) -> impl Iterator<Item = RunColumns<'a>> {
+    spec.linear.into_iter().chain(spec.pinned.iter().copied())
+}
+
 /// Range of the levels (m).
 fn level_range(spec: &Responses, time: (f64, f64)) -> (f64, f64) {
     let main = spec.nonlinear.levels.into_iter().chain(spec.references);
     let wall = spec.walls.into_iter().filter(|wall| wall.is_finite()).fold(0.0, f64::max);
-    let beside = [spec.linear, spec.pinned].into_iter().flatten().map(|run| (run.time_s, run.levels));
+    let beside = beside(spec).map(|run| (run.time_s, run.levels));
     range(time, spec.nonlinear.time_s, main, beside, (0.0, wall), LEAST_SHARE * wall)
 }
 
 /// Range of the voltages (V).
 fn voltage_range(spec: &Responses, time: (f64, f64)) -> (f64, f64) {
-    let beside = [spec.linear, spec.pinned].into_iter().flatten().map(|run| (run.time_s, run.voltages));
+    let beside = beside(spec).map(|run| (run.time_s, run.voltages));
     let main = spec.nonlinear.voltages.into_iter();
     range(time, spec.nonlinear.time_s, main, beside, spec.voltage_limits, LEAST_VOLTAGE)
 }
@@ -210,7 +225,7 @@ fn legend(spec: &Responses) -> Vec<Entry> {
         entry(Pen::Dashed, Role::Muted, texts.reference),
     ];
     legend.extend(spec.linear.map(|_| entry(Pen::Dotted, Role::Muted, texts.linear)));
-    legend.extend(spec.pinned.map(|_| entry(Pen::Faded, Role::Muted, texts.pinned)));
+    legend.extend(spec.pinned.first().map(|_| entry(Pen::Faded, Role::Muted, texts.pinned)));
     legend.retain(|entry| !entry.text.is_empty());
     legend
 }

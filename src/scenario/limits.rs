@@ -63,16 +63,6 @@ pub const LOAD_FLOW: Limits = Limits::new(-0.01, 0.01);
 pub const LEAK_AREA: Limits = Limits::new(0.0, 0.01);
 /// Standard deviation of the measurement noise (m).
 pub const NOISE_STD: Limits = Limits::new(0.0, 1.0);
-/// The shortest sampling time (s) that a run of this duration (s) allows.
-pub fn shortest_sampling_time_s(duration_s: f64) -> f64 {
-    SAMPLING_TIME_S.clamp(duration_s / SAMPLES.max)
-}
-
-/// The longest duration (s) that this sampling time (s) allows.
-pub fn longest_duration_s(sampling_time_s: f64) -> f64 {
-    DURATION_S.clamp(SAMPLES.max * sampling_time_s)
-}
-
 /// Steps in one list of an experiment.
 pub const MAX_STEPS: usize = 8;
 
@@ -100,6 +90,11 @@ pub const SENSOR_RANGE: Limits = Limits::new(0.01, 10.0);
 pub const SENSOR_RESOLUTION: Limits = Limits::new(0.0, 10.0);
 /// Acceleration of gravity (m/s²).
 pub const GRAVITY: Limits = Limits::new(0.1, 100.0);
+
+/// Sampling time (s) in an experiment of a duration (s): what is left of [`SAMPLING_TIME_S`] with [`MAX_SAMPLES`].
+pub fn sampling_time_s(duration_s: f64) -> Limits {
+    Limits { min: SAMPLING_TIME_S.min.max(duration_s / MAX_SAMPLES), ..SAMPLING_TIME_S }
+}
 
 /// Duration of an experiment (s) at a sampling time (s): what is left of [`DURATION_S`] with [`MAX_SAMPLES`].
 pub fn duration_s(sampling_time_s: f64) -> Limits {

@@ -59,7 +59,7 @@ pub fn response_spec<'a>(run: &'a Run, linear: Option<&'a Run>, pinned: Option<&
         nonlinear: run.columns(),
         references: [&run.references[0], &run.references[1]],
         linear: linear.map(Run::columns),
-        pinned: pinned.map(Run::columns),
+        pinned: pinned.map(Run::columns).into_iter().collect(),
         level_scale: 100.0,
         walls: [0.2, 0.2],
         voltage_limits: (0.0, 10.0),

@@ -128,7 +128,7 @@ proptest! {
             nonlinear: run,
             references: [&level, &level],
             linear: Some(run),
-            pinned: Some(usual.columns()),
+            pinned: vec![usual.columns()],
             level_scale: scale,
             walls: [wall, 0.2],
             voltage_limits: (limit, 10.0),

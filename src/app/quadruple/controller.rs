@@ -175,7 +175,7 @@ fn FinePrint() -> impl IntoView {
             name=Signal::derive(move || tr!(lab, pi.sampling).to_string())
             value=lab.part(|s| s.controller.sampling_time_s)
             on_change=move |t| lab.edit(|s| s.controller.sampling_time_s = t)
-            travel=lab.part(|s| (limits::shortest_sampling_time_s(s.experiment.duration_s), limits::SAMPLING_TIME_S.max))
+            travel=lab.part(|s| { let l = limits::sampling_time_s(s.experiment.duration_s); (l.min, l.max) })
             scale=Scale::Logarithmic
             digits=None
             unit="s".to_owned()

@@ -59,7 +59,7 @@ pub fn ExperimentCard() -> impl IntoView {
                 value=lab.part(|s| s.experiment.duration_s)
                 on_change=move |t| lab.edit(|s| s.experiment.duration_s = t)
                 travel=(100.0, 20_000.0)
-                limits=lab.part(|s| (limits::DURATION_S.min, limits::longest_duration_s(s.controller.sampling_time_s)))
+                limits=lab.part(|s| { let l = limits::duration_s(s.controller.sampling_time_s); (l.min, l.max) })
                 scale=Scale::Logarithmic
                 digits=Some(0)
                 unit="s".to_owned()

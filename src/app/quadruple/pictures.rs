@@ -86,13 +86,12 @@ pub fn responses(lab: Lab) -> Picture {
         let pumps = number(&|k| tr!(lab, responses.pump, number = k).to_string());
         let references = [1, 2].map(|k| format!("{} {k}", tr!(lab, responses.reference)));
         let plant = plant.get();
-        let pinned: Vec<RunColumns> =
-            pinned.iter().filter_map(|p| p.as_ref().as_ref().ok()).map(|r| columns(&r.nonlinear)).collect();
+        let pinned = pinned.iter().filter_map(|p| p.as_ref().as_ref().ok()).map(|r| RunColumns::of(&r.nonlinear)).collect();
         visit(&figure::responses(&Responses {
-            nonlinear: columns(&run.nonlinear),
+            nonlinear: RunColumns::of(&run.nonlinear),
             references: [&run.nonlinear.references[0], &run.nonlinear.references[1]],
-            linear: (!hide_linear.get()).then(|| columns(&run.linear)),
-            pinned: pinned.first().copied(),
+            linear: (!hide_linear.get()).then(|| RunColumns::of(&run.linear)),
+            pinned,
             level_scale: per_metre(unit),
             walls: [plant.tanks[0].height, plant.tanks[1].height],
             voltage_limits: (plant.pumps[0].voltage_min, plant.pumps[0].voltage_max),
@@ -111,12 +110,4 @@ pub fn responses(lab: Lab) -> Picture {
         }));
     };
     Picture::new(build, csv)
-}
-
-fn columns(run: &crate::sim::Trajectory) -> RunColumns<'_> {
-    RunColumns {
-        time_s: &run.time_s,
-        levels: [&run.levels[0], &run.levels[1]],
-        voltages: [&run.pump_voltage[0], &run.pump_voltage[1]],
-    }
 }

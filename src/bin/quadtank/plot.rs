@@ -5,7 +5,6 @@ use quadtank::figure::{
 };
 use quadtank::plant::{DisplayUnit, PresetId};
 use quadtank::scenario::{PlantSpec, ScenarioError, Setup, ValveMap, analyse, run};
-use quadtank::sim::Trajectory;
 
 /// What can be drawn.
 #[derive(Clone, Copy, ValueEnum)]
@@ -47,10 +46,10 @@ fn responses(setup: &Setup, style: &Style) -> Result<String, ScenarioError> {
     };
     let [pump_1, pump_2] = plant.pumps;
     let charts = figure::responses(&Responses {
-        nonlinear: columns(&run.nonlinear),
+        nonlinear: RunColumns::of(&run.nonlinear),
         references: run.nonlinear.references.each_ref().map(Vec::as_slice),
-        linear: Some(columns(&run.linear)),
-        pinned: None,
+        linear: Some(RunColumns::of(&run.linear)),
+        pinned: Vec::new(),
         level_scale,
         walls: [plant.tanks[0].height, plant.tanks[1].height],
         voltage_limits: (pump_1.voltage_min.min(pump_2.voltage_min), pump_1.voltage_max.max(pump_2.voltage_max)),
@@ -70,11 +69,6 @@ fn responses(setup: &Setup, style: &Style) -> Result<String, ScenarioError> {
     let size = Size { width: 840.0, height: 560.0 };
     let description = "Levels of tanks 1 and 2 with their references, and the voltages of pumps 1 and 2.";
     Ok(to_svg(&charts, size, style, "Responses", description))
-}
-
-fn columns(trajectory: &Trajectory) -> RunColumns<'_> {
-    let Trajectory { time_s, levels: [level_1, level_2, ..], pump_voltage, .. } = trajectory;
-    RunColumns { time_s, levels: [level_1, level_2], voltages: pump_voltage.each_ref().map(Vec::as_slice) }
 }
 
 fn valve_plane(setup: &Setup, style: &Style) -> Result<String, ScenarioError> {
