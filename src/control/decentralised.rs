@@ -101,3 +101,47 @@ impl RunningPi {
         [first.step(time_s, references_v[0], measured_v[0]), second.step(time_s, references_v[1], measured_v[1])]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::control::{AntiWindup, LoopMode};
+
+    fn loop_with_gain(gain: f64) -> PiSettings {
+        PiSettings {
+            gain,
+            integral_time_s: 30.0,
+            set_point_weight: 1.0,
+            anti_windup: AntiWindup::BackCalculation { tracking_ratio: 0.5 },
+            mode: LoopMode::Automatic,
+        }
+    }
+
+    #[test]
+    fn pairings_are_permutations() {
+        for pairing in Pairing::ALL {
+            assert_eq!(pairing.other().other(), pairing);
+            assert_ne!(pairing.other(), pairing);
+            for index in [0, 1] {
+                assert_eq!(pairing.loop_of(pairing.pump_of(index)), index);
+                assert_eq!(pairing.by_pump([0, 1])[pairing.pump_of(index)], index);
+                assert_eq!(pairing.by_loop(["pump 1", "pump 2"])[index], ["pump 1", "pump 2"][pairing.pump_of(index)]);
+            }
+        }
+        assert_eq!(Pairing::Swapped.pump_of(0), 1);
+        assert_eq!(Pairing::Diagonal.pump_of(1), 1);
+    }
+
+    #[test]
+    fn swapped_loops_take_limits_and_rest_of_the_other_pump() {
+        let controller = DecentralisedPi {
+            pairing: Pairing::Swapped,
+            loops: [loop_with_gain(2.0), loop_with_gain(1.0)],
+            sampling_time_s: 1.0,
+        };
+        let mut running = controller.start([(0.0, 10.0), (0.0, 4.0)], [5.0, 3.0], [6.0, 7.0]);
+        assert_eq!(running.step(0.0, [6.0, 7.0], [6.0, 7.0]), [3.0, 5.0]);
+        // Loop 1 drives pump 2, which stops at 4 V.
+        assert_eq!(running.step(1.0, [8.0, 7.0], [6.0, 7.0]), [4.0, 5.0]);
+    }
+}

@@ -113,8 +113,9 @@ impl Pi {
     /// I += Ts/Tt (c − v)
     /// ```
     ///
-    /// The first term is `K (b r − y)` plus the constant `K (1 − b) r0`, which only moves the value at which I starts: to the
-    /// initial output, for every b. Tustin's rule and the back-calculation are those of Cocota (2009, eq. 4.2, §4.4).
+    /// The first term of v is `K (b r − y)` plus the constant `K (1 − b) r0`, which only moves the value at which I
+    /// starts: to the initial output, for every b. Tustin's rule and the back-calculation are those of Cocota (2009,
+    /// eq. 4.2, §4.4).
     ///
     /// In manual mode c is the manual output within the limits, and I follows so that the controller would give just
     /// that; it takes over, without a bump, at the first sample at or after the given time.
@@ -149,4 +150,125 @@ impl Pi {
 #[inline]
 fn limited(value: f64, (min, max): (f64, f64)) -> f64 {
     value.max(min).min(max)
+}
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+
+    const SETTINGS: PiSettings = PiSettings {
+        gain: 1.75,
+        integral_time_s: 40.0,
+        set_point_weight: 1.0,
+        anti_windup: AntiWindup::BackCalculation { tracking_ratio: 0.5 },
+        mode: LoopMode::Automatic,
+    };
+    const LIMITS: (f64, f64) = (0.0, 10.0);
+
+    #[test]
+    fn rest_is_left_alone_for_every_weight_and_sign() {
+        for set_point_weight in [0.0, 0.3, 1.0, 2.0] {
+            for gain in [1.75, -0.12] {
+                let mut pi = Pi::new(PiSettings { gain, set_point_weight, ..SETTINGS }, LIMITS, 1.0, 8.39, 5.2);
+                for k in 0..100 {
+                    assert_eq!(pi.step(f64::from(k), 5.2, 5.2), 8.39);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_step_kicks_by_the_weighted_gain() {
+        for set_point_weight in [0.0, 0.4, 1.0] {
+            let mut pi = Pi::new(PiSettings { set_point_weight, ..SETTINGS }, LIMITS, 1.0, 5.0, 6.0);
+            pi.step(0.0, 6.0, 6.0);
+            // Tustin: half a sample of the new error is integrated at once.
+            let expected = 5.0 + 1.75 * 0.1 * (set_point_weight + 1.0 / (2.0 * 40.0));
+            assert_relative_eq!(pi.step(1.0, 6.1, 6.0), expected, max_relative = 1e-12);
+        }
+    }
+
+    #[test]
+    fn the_first_sample_counts_its_error_as_old() {
+        let mut pi = Pi::new(SETTINGS, LIMITS, 1.0, 5.0, 6.0);
+        assert_relative_eq!(pi.step(0.0, 6.1, 6.0), 5.0 + 0.175 * (1.0 + 1.0 / 40.0), max_relative = 1e-12);
+    }
+
+    #[test]
+    fn the_integral_grows_by_gain_over_integral_time() {
+        let mut pi = Pi::new(PiSettings { gain: -0.5, ..SETTINGS }, LIMITS, 2.0, 5.0, 6.0);
+        let (first, mut last) = (pi.step(0.0, 6.01, 6.0), 0.0);
+        for k in 1..=100 {
+            last = pi.step(2.0 * f64::from(k), 6.01, 6.0);
+        }
+        assert_relative_eq!(last - first, -0.5 / 40.0 * 0.01 * 200.0, max_relative = 1e-9);
+    }
+
+    /// Samples until the output leaves its limit after 300 s of an error that cannot be removed has turned round.
+    fn samples_to_recover(anti_windup: AntiWindup) -> usize {
+        let mut pi = Pi::new(PiSettings { anti_windup, ..SETTINGS }, LIMITS, 1.0, 5.0, 5.0);
+        for k in 0..300 {
+            pi.step(f64::from(k), 9.0, 5.0);
+        }
+        (300..2000).position(|k| pi.step(f64::from(k), 4.0, 5.0) < 10.0).unwrap_or(usize::MAX)
+    }
+
+    #[test]
+    fn back_calculation_recovers_at_once_and_windup_does_not() {
+        assert_eq!(samples_to_recover(AntiWindup::BackCalculation { tracking_ratio: 0.5 }), 0);
+        assert!(samples_to_recover(AntiWindup::Off) > 100);
+    }
+
+    #[test]
+    fn a_vanishing_tracking_time_is_one_sample() {
+        for tracking_ratio in [0.0, 1e-9, 1.0 / 40.0] {
+            let anti_windup = AntiWindup::BackCalculation { tracking_ratio };
+            let mut pi = Pi::new(PiSettings { anti_windup, ..SETTINGS }, LIMITS, 1.0, 9.5, 5.0);
+            assert_eq!(pi.step(0.0, 8.0, 5.0), 10.0);
+            // The integral took back the whole excess, so the output is at its limit by a hair.
+            assert_relative_eq!(pi.integral + 1.75 * 3.0, 10.0, max_relative = 1e-12);
+        }
+    }
+
+    #[test]
+    fn manual_output_is_held_and_handed_over_without_a_bump() {
+        let mode = LoopMode::Manual { output: 7.0, until_s: 50.0 };
+        for set_point_weight in [0.0, 1.0] {
+            let mut pi = Pi::new(PiSettings { set_point_weight, mode, ..SETTINGS }, LIMITS, 1.0, 5.0, 6.0);
+            for k in 0..50 {
+                assert_eq!(pi.step(f64::from(k), 6.5, 6.0 + 0.01 * f64::from(k)), 7.0);
+            }
+            // The same signals once more: only one sample of integral moves the output.
+            let error = 6.5 - 6.49;
+            assert_relative_eq!(pi.step(50.0, 6.5, 6.49), 7.0 + 1.75 / 40.0 * error, max_relative = 1e-12);
+        }
+    }
+
+    #[test]
+    fn manual_output_keeps_the_limits() {
+        let mode = LoopMode::Manual { output: 70.0, until_s: 2.0 };
+        let mut pi = Pi::new(PiSettings { mode, ..SETTINGS }, LIMITS, 1.0, 5.0, 6.0);
+        assert_eq!(pi.step(0.0, 6.0, 6.0), 10.0);
+        assert_eq!(pi.step(1.0, 6.0, 6.0), 10.0);
+        assert_eq!(pi.step(2.0, 6.0, 6.0), 10.0);
+    }
+
+    #[test]
+    fn a_lost_signal_holds_the_output() {
+        let mut pi = Pi::new(SETTINGS, LIMITS, 1.0, 5.0, 6.0);
+        let before = pi.step(0.0, 6.1, 6.0);
+        assert_eq!(pi.step(1.0, f64::NAN, 6.0), before);
+        assert_eq!(pi.step(2.0, 6.1, f64::INFINITY), before);
+        assert_relative_eq!(pi.step(3.0, 6.1, 6.0), before + 1.75 / 40.0 * 0.1, max_relative = 1e-12);
+        // Also when it is lost from the beginning and the plant rests beyond the limits.
+        assert_eq!(Pi::new(SETTINGS, LIMITS, 1.0, 12.0, 6.0).step(0.0, f64::NAN, 6.0), 10.0);
+    }
+
+    #[test]
+    fn reversed_limits_do_not_panic() {
+        let mut pi = Pi::new(SETTINGS, (10.0, 0.0), 1.0, 5.0, 6.0);
+        assert_eq!(pi.step(0.0, 6.0, 6.0), 0.0);
+    }
 }

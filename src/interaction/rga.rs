@@ -40,7 +40,7 @@ where
         return Err(LinearError::NotSquare { inputs, outputs });
     }
     equilibrate(&mut gain);
-    let values = singular_values(gain.clone())?;
+    let values = singular_values(&gain)?;
     let reciprocal_condition = match (values.first(), values.last()) {
         (Some(largest), Some(smallest)) if *largest > 0.0 => smallest / largest,
         (None, None) => return Ok(gain),

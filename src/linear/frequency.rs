@@ -1,11 +1,8 @@
 //! What the model does to sinusoids.
 
-use nalgebra::{DMatrix, SVD};
+use nalgebra::DMatrix;
 
-use super::{Complex, LinearError, StateSpace};
-
-/// QR iterations allowed per singular value.
-const ITERATIONS_PER_VALUE: usize = 100;
+use super::{Complex, LinearError, StateSpace, singular_values};
 
 impl StateSpace {
     /// Transfer matrix `G(s) = C (s I − A)⁻¹ B + D`, p × m, at one point of the s-plane (1/s).
@@ -48,34 +45,10 @@ impl StateSpace {
     /// Singular values of G(jω), largest first: the largest and smallest amplification over all input directions.
     ///
     /// # Errors
-    /// As [`StateSpace::gain_at`]; [`LinearError::NoConvergence`] when the iteration does not end.
+    /// As [`StateSpace::gain_at`]; [`LinearError::NoConvergence`] when a value is not finite.
     pub fn singular_values(&self, w: f64) -> Result<Vec<f64>, LinearError> {
-        singular_values(self.frequency_response(w)?)
+        singular_values(&self.frequency_response(w)?)
     }
-}
-
-/// Singular values of a matrix, largest first.
-///
-/// # Errors
-/// [`LinearError::NoConvergence`] when an entry is not finite or the iteration does not end.
-pub fn singular_values<T>(matrix: DMatrix<T>) -> Result<Vec<f64>, LinearError>
-where
-    T: nalgebra::ComplexField<RealField = f64>,
-{
-    let size = matrix.nrows().min(matrix.ncols());
-    if size == 0 {
-        return Ok(Vec::new());
-    }
-    let failure = LinearError::NoConvergence { size };
-    let largest = matrix.iter().fold(0.0, |max: f64, x| max.max(x.clone().abs()));
-    if !largest.is_finite() || !matrix.iter().all(nalgebra::ComplexField::is_finite) {
-        return Err(failure);
-    }
-    if largest == 0.0 {
-        return Ok(vec![0.0; size]);
-    }
-    let svd = SVD::try_new(matrix.unscale(largest), false, false, f64::EPSILON, ITERATIONS_PER_VALUE * size);
-    svd.map(|svd| svd.singular_values.iter().map(|value| value * largest).collect()).ok_or(failure)
 }
 
 #[cfg(test)]
@@ -109,14 +82,5 @@ mod tests {
             assert_eq!(lag.frequency_response(value), Err(LinearError::OutOfRange { field: "w", value }));
         }
         assert!(matches!(lag.singular_values(f64::NAN), Err(LinearError::OutOfRange { field: "w", .. })));
-    }
-
-    #[test]
-    fn singular_values_of_known_matrices() {
-        let values = singular_values(dmatrix![3.0, 0.0; 4.0, 5.0]).unwrap();
-        assert_relative_eq!(values[0], 45.0_f64.sqrt(), max_relative = 1e-15);
-        assert_relative_eq!(values[1], 5.0_f64.sqrt(), max_relative = 1e-15);
-        assert_eq!(singular_values(DMatrix::<f64>::zeros(2, 3)), Ok(vec![0.0, 0.0]));
-        assert_eq!(singular_values(dmatrix![1.0, f64::NAN]), Err(LinearError::NoConvergence { size: 1 }));
     }
 }

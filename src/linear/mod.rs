@@ -9,13 +9,14 @@ mod null_vectors;
 pub mod quadruple;
 mod reduction;
 mod scaling;
+mod singular_values;
 mod state_space;
 mod zeros;
 
 pub use discrete::DiscreteStateSpace;
 pub use eigen::eigenvalues;
 pub use error::LinearError;
-pub use frequency::singular_values;
+pub use singular_values::singular_values;
 pub use state_space::StateSpace;
 pub use zeros::{TransmissionZero, transmission_zeros};
 

@@ -2,9 +2,8 @@
 
 use nalgebra::{ComplexField, DMatrix, DVector};
 
-/// A pivot this small beside the largest counts as zero when a null space is looked for. A zero known to n digits
-/// leaves a pivot of about 10⁻ⁿ, and a double zero is known to half the digits of f64.
-const NULL_PIVOT: f64 = 1e-7;
+/// A pivot this small beside the largest is a rounding error. Each further one is a further dimension of the null space.
+const NULL_PIVOT: f64 = 1e-13;
 
 /// A right and a left null vector, `M v = 0` and `wᵀ M = 0` (transposed, not conjugated), from an LU decomposition with
 /// full pivoting.

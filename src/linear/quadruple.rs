@@ -99,8 +99,8 @@ pub fn rightmost_zero(t3: f64, t4: f64, gammas: [f64; 2]) -> Option<f64> {
     zeros(t3, t4, gammas).ok()?.rightmost()
 }
 
-/// The path of both zeros while the valves go in a straight line from one setting to another, in `points` (at least
-/// two) equal steps. `time_constants` gives (T3, T4) at a setting, since the operating point moves too.
+/// The path of both zeros while the valves go in a straight line from one setting to another, at `points` (at least
+/// two) settings, ends included. `time_constants` gives T3 and T4 (s) at a setting, since the operating point moves too.
 pub fn path(
     from: [f64; 2],
     to: [f64; 2],

@@ -4,6 +4,26 @@ use nalgebra::{DMatrix, Dyn};
 
 use super::StateSpace;
 
+/// The size below which a number is taken for a rounding error, in a model scaled to entries of about 1.
+///
+/// Rank decisions become less sure as they build on each other: a space spanned by pivots of size p is known to within
+/// the rounding error over p.
+struct Doubt {
+    tolerance: f64,
+    smallest_pivot: f64,
+}
+
+impl Doubt {
+    /// The doubt before the first decision.
+    fn new(tolerance: f64) -> Self {
+        Self { tolerance, smallest_pivot: 1.0 }
+    }
+
+    fn threshold(&self) -> f64 {
+        self.tolerance / self.smallest_pivot
+    }
+}
+
 /// A pivoted QR decomposition with the rank that it revealed.
 struct Compression {
     qr: nalgebra::ColPivQR<f64, Dyn, Dyn>,
@@ -11,11 +31,16 @@ struct Compression {
 }
 
 impl Compression {
-    /// Finds an orthogonal Q so that only the first `rank` rows of `Qᵀ m` differ from zero by more than `tolerance`.
-    fn of(m: DMatrix<f64>, tolerance: f64) -> Self {
+    /// Finds an orthogonal Q so that only the first `rank` rows of `Qᵀ m` differ from zero by more than rounding.
+    fn of(m: DMatrix<f64>, doubt: &mut Doubt) -> Self {
         let qr = m.col_piv_qr();
         let r = qr.r();
-        let rank = (0..r.nrows()).take_while(|i| r[(*i, *i)].abs() > tolerance).count();
+        let threshold = doubt.threshold();
+        let mut rank = 0;
+        for pivot in (0..r.nrows()).map(|i| r[(i, i)].abs()).take_while(|pivot| *pivot > threshold) {
+            rank += 1;
+            doubt.smallest_pivot = doubt.smallest_pivot.min(pivot);
+        }
         Self { qr, rank }
     }
 
@@ -40,18 +65,18 @@ impl Compression {
 ///
 /// What is left out are the decoupling zeros, modes that G(s) does not show.
 pub(super) fn minimal(model: StateSpace, tolerance: f64) -> StateSpace {
-    observable(observable(model, tolerance).dual(), tolerance).dual()
+    observable(observable(model, Doubt::new(tolerance)).dual(), Doubt::new(tolerance)).dual()
 }
 
 /// The observable part, by the staircase algorithm: first the states that the outputs see, then those that these
 /// states see, until nothing new is seen.
-fn observable(model: StateSpace, tolerance: f64) -> StateSpace {
+fn observable(model: StateSpace, mut doubt: Doubt) -> StateSpace {
     let n = model.order();
     let StateSpace { mut a, mut b, mut c, d } = model;
     let mut seen = 0;
     let mut view = c.clone();
     while seen < n && view.nrows() > 0 {
-        let step = Compression::of(view.transpose(), tolerance);
+        let step = Compression::of(view.transpose(), &mut doubt);
         if step.rank == 0 {
             break;
         }
@@ -80,15 +105,16 @@ fn observable(model: StateSpace, tolerance: f64) -> StateSpace {
 /// the states that they see too, hence the derivatives of those states, which become outputs in their place. An output
 /// that depends on the others drops out; the number of outputs left is the normal rank of G.
 pub(super) fn reduce(mut model: StateSpace, tolerance: f64) -> StateSpace {
+    let mut doubt = Doubt::new(tolerance);
     while model.outputs() > 0 {
         let StateSpace { a, b, c, d } = model;
-        let direct = Compression::of(d.clone(), tolerance);
+        let direct = Compression::of(d.clone(), &mut doubt);
         let sigma = direct.rank;
         if sigma == d.nrows() {
             return StateSpace { a, b, c, d };
         }
         let (c, d) = (direct.rows(c), direct.rows(d).rows(0, sigma).into_owned());
-        let indirect = Compression::of(c.rows_range(sigma..).transpose(), tolerance);
+        let indirect = Compression::of(c.rows_range(sigma..).transpose(), &mut doubt);
         let c = c.rows(0, sigma).into_owned();
         let tau = indirect.rank;
         if tau == 0 {

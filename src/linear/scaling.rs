@@ -1,5 +1,7 @@
 //! Units out of the way: a model scaled so that its entries can be compared with each other.
 
+use nalgebra::linalg::balancing::balance_parlett_reinsch;
+
 use super::{LinearError, StateSpace};
 
 /// Sweeps over all rows and columns; two or three settle an ordinary model.
@@ -32,9 +34,9 @@ impl Scaled {
             inputs: vec![1.0; model.inputs()],
             outputs: vec![1.0; model.outputs()],
         };
+        scaled.scale_time();
         for _ in 0..SWEEPS {
-            let mut settled = scaled.scale_time();
-            settled &= scaled.scale_inputs();
+            let mut settled = scaled.scale_inputs();
             settled &= scaled.scale_outputs();
             settled &= scaled.balance_states();
             if settled {
@@ -46,12 +48,16 @@ impl Scaled {
         if usable { Ok(scaled) } else { Err(LinearError::NoConvergence { size: model.order() }) }
     }
 
-    fn scale_time(&mut self) -> bool {
-        let factor = power_of_two(self.model.a.iter().fold(0.0, |max: f64, a| max.max(a.abs())));
-        self.model.a.unscale_mut(factor);
-        self.model.b.unscale_mut(factor);
-        self.rate *= factor;
-        factor == 1.0
+    fn scale_time(&mut self) {
+        let mut balanced = self.model.a.clone();
+        let size = largest(balanced.iter());
+        if size > 0.0 {
+            balanced.unscale_mut(size);
+            balance_parlett_reinsch(&mut balanced);
+            self.rate = power_of_two(size) * power_of_two(largest(balanced.iter()));
+            self.model.a.unscale_mut(self.rate);
+            self.model.b.unscale_mut(self.rate);
+        }
     }
 
     fn scale_inputs(&mut self) -> bool {
@@ -107,9 +113,9 @@ fn largest<'a>(entries: impl Iterator<Item = &'a f64>) -> f64 {
     entries.fold(0.0, |max, x| max.max(x.abs()))
 }
 
-/// The power of two nearest to `size` from below; 1 for zero, so that an empty row is left alone.
+/// The power of two nearest to `size`; 1 for zero, so that an empty row is left alone.
 fn power_of_two(size: f64) -> f64 {
-    if size == 0.0 { 1.0 } else { size.log2().floor().exp2() }
+    if size == 0.0 { 1.0 } else { size.log2().round().exp2() }
 }
 
 #[cfg(test)]

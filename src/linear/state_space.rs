@@ -92,6 +92,7 @@ impl StateSpace {
     }
 
     /// The model with its arrows reversed, `(Aᵀ, Cᵀ, Bᵀ, Dᵀ)`: the same poles and zeros, inputs and outputs exchanged.
+    #[must_use]
     pub fn dual(&self) -> Self {
         Self { a: self.a.transpose(), b: self.c.transpose(), c: self.b.transpose(), d: self.d.transpose() }
     }

@@ -13,6 +13,9 @@ const ROUNDINGS: f64 = 64.0;
 /// Two zeros closer than this, relative to the larger, are one zero twice when directions are looked for.
 const SAME_ZERO: f64 = 1e-7;
 
+/// A null vector of the pencil with a smaller share of inputs (or outputs) than this belongs to a hidden mode.
+const HIDDEN: f64 = 1e-12;
+
 /// Entries of a direction within this of the largest count as equally large when its sign is chosen.
 const SAME_SIZE: f64 = 1e-9;
 
@@ -55,17 +58,16 @@ pub fn transmission_zeros(model: &StateSpace) -> Result<Vec<TransmissionZero>, L
     let dynamics = zero_dynamics(reduced).ok_or(failure)?;
     let values = eigenvalues(&dynamics)?;
     let mut zeros: Vec<TransmissionZero> = Vec::with_capacity(values.len());
-    for (i, &value) in values.iter().enumerate() {
-        let zero = match zeros.last().filter(|last| value.im > 0.0 && last.value == value.conj() * scaled.rate) {
-            Some(conjugate) => conjugate.conjugate(),
-            None => {
-                let close = |other: &&Complex| (*other - value).norm() <= SAME_ZERO * value.norm();
-                let repetition = values.iter().take(i).filter(close).count();
-                scaled.zero(&system, value, repetition).ok_or(failure)?
-            }
-        };
+    for (i, &value) in values.iter().enumerate().filter(|(_, value)| value.im <= 0.0) {
+        let close = |other: &&Complex| (*other - value).norm() <= SAME_ZERO * value.norm();
+        let repetition = values.iter().take(i).filter(close).count();
+        let Some(zero) = scaled.zero(&system, value, repetition)? else { continue };
+        if value.im < 0.0 {
+            zeros.push(zero.conjugate());
+        }
         zeros.push(zero);
     }
+    zeros.sort_by(|x, y| x.value.re.total_cmp(&y.value.re).then(x.value.im.total_cmp(&y.value.im)));
     Ok(zeros)
 }
 
@@ -94,19 +96,38 @@ impl TransmissionZero {
 }
 
 impl Scaled {
-    /// The zero of the unscaled model that belongs to the zero `value` of `system`, the minimal part of the scaled one.
-    fn zero(&self, system: &StateSpace, value: Complex, repetition: usize) -> Option<TransmissionZero> {
-        let (input, output) = if value.im == 0.0 {
-            let (input, output) = directions(system, value.re, repetition)?;
-            (input.map(Complex::from), output.map(Complex::from))
+    /// The zero of the unscaled model that belongs to the zero `value` of `system`, the minimal part of the scaled one;
+    /// `None` where inputs or outputs have no part in it, a mode that is hidden after all.
+    fn zero(
+        &self,
+        system: &StateSpace,
+        value: Complex,
+        repetition: usize,
+    ) -> Result<Option<TransmissionZero>, LinearError> {
+        let failure = LinearError::NoConvergence { size: self.model.order() };
+        let (value, right, left) = if value.im == 0.0 {
+            let (value, right, left) = polish(system, value.re, repetition).ok_or(failure)?;
+            (Complex::from(value), right.map(Complex::from), left.map(Complex::from))
         } else {
-            directions(system, value, repetition)?
+            polish(system, value, repetition).ok_or(failure)?
         };
-        let input = input.zip_map(&DVector::from_column_slice(&self.inputs), |u, scale| u * scale);
-        let output = output.zip_map(&DVector::from_column_slice(&self.outputs), |y, scale| y * scale);
         let value = value * self.rate;
-        let zero = TransmissionZero { value, input_direction: unit(input)?, output_direction: unit(output)? };
-        value.is_finite().then_some(zero)
+        let direction = |null_vector: &DVector<Complex>, scales: &[f64]| {
+            let part = null_vector.rows_range(system.order()..);
+            let hidden = part.norm() <= HIDDEN * null_vector.norm();
+            if hidden {
+                Ok(None)
+            } else {
+                unit(part.zip_map(&DVector::from_column_slice(scales), |x, scale| x * scale)).map(Some).ok_or(failure)
+            }
+        };
+        let directions = (direction(&right, &self.inputs)?, direction(&left, &self.outputs)?);
+        let (Some(input_direction), Some(output_direction)) = directions else { return Ok(None) };
+        if value.is_finite() {
+            Ok(Some(TransmissionZero { value, input_direction, output_direction }))
+        } else {
+            Err(failure)
+        }
     }
 }
 
@@ -122,8 +143,29 @@ fn zero_dynamics(reduced: StateSpace) -> Option<DMatrix<f64>> {
     if d.is_empty() { Some(a) } else { d.full_piv_lu().solve(&c).map(|x| a - b * x) }
 }
 
-/// Input and output direction from the null vectors of `[A − zI, B; C, D]`, not yet of unit length.
-fn directions<T>(system: &StateSpace, z: T, repetition: usize) -> Option<(DVector<T>, DVector<T>)>
+/// A zero brought to full accuracy, with the right and left null vector of its pencil.
+///
+/// The reduction may have divided by a small number. The model itself has not: with the null vectors v, w of the pencil
+/// `M − zE = [A − zI, B; C, D]`, the zero is off by `wᵀ(M − zE)v / wᵀEv`, to second order.
+fn polish<T>(system: &StateSpace, z: T, repetition: usize) -> Option<(T, DVector<T>, DVector<T>)>
+where
+    T: ComplexField<RealField = f64>,
+{
+    let n = system.order();
+    let at = pencil(system, &z);
+    let (mut right, mut left) = null_vectors(at.clone(), repetition)?;
+    let slope = left.rows(0, n).dot(&right.rows(0, n));
+    let correction = left.dot(&(at * &right)) / slope;
+    let small = correction.clone().abs() <= SAME_ZERO * (1.0 + z.clone().abs());
+    let z = if small { z + correction } else { z };
+    if small {
+        (right, left) = null_vectors(pencil(system, &z), repetition)?;
+    }
+    Some((z, right, left))
+}
+
+/// `[A − zI, B; C, D]`.
+fn pencil<T>(system: &StateSpace, z: &T) -> DMatrix<T>
 where
     T: ComplexField<RealField = f64>,
 {
@@ -140,8 +182,7 @@ where
     for i in 0..n {
         pencil[(i, i)] -= z.clone();
     }
-    let (right, left) = null_vectors(pencil, repetition)?;
-    Some((right.rows(n, m).into_owned(), left.rows(n, m).into_owned()))
+    pencil
 }
 
 /// The vector brought to unit length, its largest entry (the first of equals) real and positive.
@@ -154,4 +195,108 @@ fn unit(mut vector: DVector<Complex>) -> Option<DVector<Complex>> {
     let leading = vector.iter().find(|x| x.norm() >= 1.0 - SAME_SIZE)?;
     let turn = leading.conj() / (leading.norm() * vector.norm());
     Some(vector * turn)
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::dmatrix;
+
+    use super::*;
+
+    fn real(vector: &DVector<Complex>) -> Vec<f64> {
+        assert!(vector.iter().all(|entry| entry.im == 0.0));
+        vector.iter().map(|entry| entry.re).collect()
+    }
+
+    fn static_gain(d: DMatrix<f64>) -> StateSpace {
+        let (p, m) = d.shape();
+        StateSpace::new(DMatrix::zeros(0, 0), DMatrix::zeros(0, m), DMatrix::zeros(p, 0), d).unwrap()
+    }
+
+    #[test]
+    fn one_input_one_output() {
+        // (s − 2)/((s + 1)(s + 3)) in controllable form.
+        let a = dmatrix![0.0, 1.0; -3.0, -4.0];
+        let model = StateSpace::strictly_proper(a, dmatrix![0.0; 1.0], dmatrix![-2.0, 1.0]).unwrap();
+        let zeros = transmission_zeros(&model).unwrap();
+        assert_eq!(zeros.len(), 1);
+        assert!((zeros[0].value - 2.0).norm() < 1e-14);
+        assert_eq!(real(&zeros[0].input_direction), [1.0]);
+        assert_eq!(real(&zeros[0].output_direction), [1.0]);
+    }
+
+    #[test]
+    fn a_pair_of_complex_zeros_with_conjugate_directions() {
+        // (s² + 1)/(s + 1)³ beside 1/(s + 2), coupled from input 1 to output 2.
+        let a = dmatrix![
+            0.0, 1.0, 0.0, 0.0;
+            0.0, 0.0, 1.0, 0.0;
+            -1.0, -3.0, -3.0, 0.0;
+            0.0, 0.0, 0.0, -2.0
+        ];
+        let b = dmatrix![0.0, 0.0; 0.0, 0.0; 1.0, 0.0; 1.0, 1.0];
+        let c = dmatrix![1.0, 0.0, 1.0, 0.0; 0.0, 0.0, 0.0, 1.0];
+        let model = StateSpace::strictly_proper(a, b, c).unwrap();
+        let zeros = transmission_zeros(&model).unwrap();
+        assert_eq!(zeros.len(), 2);
+        assert_eq!(zeros[0].value, zeros[1].value.conj());
+        assert_eq!(zeros[0].input_direction, zeros[1].input_direction.conjugate());
+        for zero in &zeros {
+            assert!((zero.value.norm() - 1.0).abs() < 1e-14 && zero.value.re.abs() < 1e-14);
+            let gain = model.gain_at(zero.value).unwrap();
+            assert!((&gain * &zero.input_direction).norm() < 1e-14);
+            assert!((gain.transpose() * &zero.output_direction).norm() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn a_zero_at_a_pole_has_directions_too() {
+        // G = [1, 0; 1/s, 1]: det G = 1, yet both a pole and a zero at the origin.
+        let model =
+            StateSpace::new(dmatrix![0.0], dmatrix![1.0, 0.0], dmatrix![0.0; 1.0], DMatrix::identity(2, 2)).unwrap();
+        let zeros = transmission_zeros(&model).unwrap();
+        assert_eq!(zeros.len(), 1);
+        assert!(zeros[0].value.norm() < 1e-15);
+        let (input, output) = (real(&zeros[0].input_direction), real(&zeros[0].output_direction));
+        assert!(input[0].abs() < 1e-15 && (input[1] - 1.0).abs() < 1e-15, "{input:?}");
+        assert!(output[1].abs() < 1e-15 && (output[0] - 1.0).abs() < 1e-15, "{output:?}");
+    }
+
+    #[test]
+    fn a_zero_of_both_channels_has_two_directions() {
+        // (s − 1)/(s + 1) twice.
+        let identity = DMatrix::identity(2, 2);
+        let model = StateSpace::new(-&identity, identity.clone(), &identity * -2.0, identity).unwrap();
+        let zeros = transmission_zeros(&model).unwrap();
+        assert_eq!(zeros.len(), 2);
+        assert!(zeros.iter().all(|zero| (zero.value - 1.0).norm() < 1e-14));
+        let (first, second) = (&zeros[0], &zeros[1]);
+        assert!(first.input_direction.dotc(&second.input_direction).norm() < 0.5);
+        assert!(first.output_direction.dotc(&second.output_direction).norm() < 0.5);
+    }
+
+    #[test]
+    fn static_gains() {
+        assert_eq!(transmission_zeros(&static_gain(dmatrix![1.0, 2.0; 3.0, 4.0])), Ok(vec![]));
+        let singular = static_gain(dmatrix![1.0, 2.0; 3.0, 6.0]);
+        assert_eq!(transmission_zeros(&singular), Err(LinearError::DegenerateRank { rank: 1, size: 2 }));
+        assert_eq!(static_gain(dmatrix![1.0, 2.0, 3.0; 2.0, 4.0, 6.5]).normal_rank(), Ok(2));
+        assert_eq!(transmission_zeros(&static_gain(DMatrix::zeros(0, 0))), Ok(vec![]));
+    }
+
+    #[test]
+    fn more_inputs_than_outputs_are_refused() {
+        let wide = static_gain(dmatrix![1.0, 2.0]);
+        assert_eq!(transmission_zeros(&wide), Err(LinearError::NotSquare { inputs: 2, outputs: 1 }));
+    }
+
+    #[test]
+    fn equally_large_entries_do_not_turn_a_direction_by_rounding() {
+        let almost = |first: f64, second: f64| {
+            unit(DVector::from_vec(vec![Complex::from(first), Complex::from(second)])).unwrap()
+        };
+        assert!(real(&almost(-1.0, 1.0 + 1e-15))[0] > 0.0);
+        assert!(real(&almost(-1.0 - 1e-15, 1.0))[0] > 0.0);
+        assert!(unit(DVector::zeros(2)).is_none());
+    }
 }

@@ -97,3 +97,96 @@ impl QuadrupleTank {
         (!(0.0..=max).contains(&value)).then_some(PlantError::LevelOutOfRange { tank, value, max })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plant::PresetId;
+
+    fn johansson(valves: [f64; 2]) -> QuadrupleTank {
+        PresetId::JohanssonMinimumPhase.preset().plant.with_valves(valves)
+    }
+
+    #[test]
+    fn singular_plant_on_the_line_and_at_its_ends() {
+        for valves in [[0.5, 0.5], [0.7, 0.3], [1.0, 0.0], [0.0, 1.0], [0.43, 0.57 + 1e-12]] {
+            let plant = johansson(valves);
+            let expected = PlantError::SingularPlant { gamma_sum: valves[0] + valves[1] };
+            assert_eq!(plant.inputs_for_levels([0.12, 0.12]), Err(expected));
+            // Inputs still have their equilibrium.
+            assert!(plant.free_equilibrium([3.0, 3.0]).levels.iter().all(|level| level.is_finite()));
+        }
+    }
+
+    #[test]
+    fn the_singular_band_is_as_narrow_as_stated() {
+        let outside = johansson([0.5, 0.5 + 2.0 * SINGULAR_MARGIN]).inputs_for_levels([0.12, 0.12]);
+        assert!(!matches!(outside, Err(PlantError::SingularPlant { .. })));
+        let inside = johansson([0.5, 0.5 + 0.5 * SINGULAR_MARGIN]).inputs_for_levels([0.12, 0.12]);
+        assert!(matches!(inside, Err(PlantError::SingularPlant { .. })));
+    }
+
+    #[test]
+    fn levels_outside_the_walls() {
+        let plant = johansson([0.7, 0.6]);
+        for (levels, tank, value) in [([-0.01, 0.1], 0, -0.01), ([0.1, 0.21], 1, 0.21)] {
+            let expected = PlantError::LevelOutOfRange { tank, value, max: 0.2 };
+            assert_eq!(plant.inputs_for_levels(levels), Err(expected));
+        }
+        assert!(matches!(plant.inputs_for_levels([f64::NAN, 0.1]), Err(PlantError::LevelOutOfRange { tank: 0, .. })));
+    }
+
+    #[test]
+    fn an_upper_tank_that_would_overflow() {
+        // The outlets above are the smaller ones, and γ = 0.2 sends four fifths of the water through them.
+        let plant = PresetId::CocotaNonMinimumPhase.preset().plant.with_valves([0.2, 0.2]);
+        let result = plant.inputs_for_levels([0.15, 0.15]);
+        assert!(matches!(result, Err(PlantError::LevelOutOfRange { tank: 2 | 3, value, max: 0.395 }) if value > 0.395));
+    }
+
+    #[test]
+    fn a_pump_that_would_have_to_suck() {
+        let result = johansson([0.7, 0.6]).inputs_for_levels([0.19, 0.01]);
+        assert!(matches!(result, Err(PlantError::VoltageOutOfRange { pump: 1, value, min: 0.0, .. }) if value < 0.0));
+        // A lower limit below 0 does not make it possible.
+        let mut plant = johansson([0.7, 0.6]);
+        plant.pumps = plant.pumps.map(|pump| crate::plant::Pump { voltage_min: -10.0, ..pump });
+        assert_eq!(plant.inputs_for_levels([0.19, 0.01]), result);
+    }
+
+    #[test]
+    fn a_pump_that_is_too_weak() {
+        let mut plant = johansson([0.7, 0.6]);
+        plant.pumps[0].voltage_max = 2.0;
+        assert_eq!(
+            plant.equilibrium([3.0, 3.0]),
+            Err(PlantError::VoltageOutOfRange { pump: 0, value: 3.0, min: 0.0, max: 2.0 })
+        );
+        let needed = plant.inputs_for_levels([0.12, 0.12]);
+        assert!(matches!(needed, Err(PlantError::VoltageOutOfRange { pump: 0, max: 2.0, .. })));
+    }
+
+    #[test]
+    fn every_violation_is_named() {
+        let plant = johansson([0.7, 0.6]);
+        let point = plant.free_equilibrium([11.0, -1.0]);
+        let found = plant.violations(&point);
+        assert!(found.contains(&PlantError::VoltageOutOfRange { pump: 0, value: 11.0, min: 0.0, max: 10.0 }));
+        assert!(found.contains(&PlantError::VoltageOutOfRange { pump: 1, value: -1.0, min: 0.0, max: 10.0 }));
+        assert!(found.contains(&PlantError::LevelOutOfRange { tank: 0, value: point.levels[0], max: 0.2 }));
+        assert!(plant.violations(&plant.free_equilibrium([3.0, 3.0])).is_empty());
+    }
+
+    #[test]
+    fn shut_pumps_empty_the_plant() {
+        assert_eq!(johansson([0.7, 0.6]).free_equilibrium([0.0, 0.0]).levels, [0.0; 4]);
+        assert_eq!(johansson([0.7, 0.6]).free_equilibrium([-1.0, -1.0]).levels, [0.0; 4]);
+    }
+
+    #[test]
+    fn open_valves_dry_the_upper_tanks() {
+        let levels = johansson([1.0, 1.0]).free_equilibrium([3.0, 3.0]).levels;
+        assert!(levels[0] > 0.0 && levels[1] > 0.0);
+        assert_eq!([levels[2], levels[3]], [0.0, 0.0]);
+    }
+}

@@ -12,9 +12,9 @@ pub const DRY_LEVEL: f64 = 1e-9;
 /// (m), `u` pump voltages (V), `y` measured signals (V).
 ///
 /// A tank that is dry at the operating point (level at or below [`DRY_LEVEL`]) has an infinite √-slope: it follows its
-/// inflow at once and holds no water. What enters a dry upper tank therefore enters the lower one: its row of B is added
-/// to that of the tank below, as a flow. Such a tank is listed in `dry`, its row and column in A, its row in B and its column in C are zero, and
-/// [`Jacobian::reduced`] leaves it out.
+/// inflow at once and holds no water. Such a tank is listed in `dry`, its row and column in A, its row in B and its
+/// column in C are zero, and [`Jacobian::reduced`] leaves it out. What a pump sends into a dry upper tank stands in the
+/// row of B of the lower one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Jacobian {
     /// System matrix (1/s), 4 × 4.
@@ -60,21 +60,21 @@ impl QuadrupleTank {
         for (j, rate) in rates.into_iter().enumerate() {
             jacobian.a[(j, j)] = -rate.unwrap_or(0.0);
         }
-        let [[k1, k1_above], [k2, k2_above]] = self.valve_gains();
-        // Lower tank, its upper tank, the pump that feeds each of the two, and the gains of those feeds.
-        for (lower, upper, direct_pump, direct, indirect_pump, indirect) in
-            [(0, 2, 0, k1, 1, k2_above), (1, 3, 1, k2, 0, k1_above)]
-        {
+        for lower in 0..2 {
+            let (upper, other) = (lower + 2, 1 - lower);
+            // Flow per volt of the pump that feeds the lower tank, and of the other one that feeds the upper tank.
+            let direct = self.valves[lower] * self.pumps[lower].gain;
+            let from_above = (1.0 - self.valves[other]) * self.pumps[other].gain;
             if !dry[upper] {
-                jacobian.b[(upper, indirect_pump)] = indirect / area[upper];
+                jacobian.b[(upper, other)] = from_above / area[upper];
             }
             if dry[lower] {
                 continue;
             }
-            jacobian.b[(lower, direct_pump)] = direct / area[lower];
+            jacobian.b[(lower, lower)] = direct / area[lower];
             jacobian.c[(lower, lower)] = self.sensor.gain;
             if dry[upper] {
-                jacobian.b[(lower, indirect_pump)] = indirect / area[lower];
+                jacobian.b[(lower, other)] = from_above / area[lower];
             } else {
                 let slope = self.tanks[upper].outflow_slope(levels[upper], self.gravity);
                 jacobian.a[(lower, upper)] = slope / area[lower];
@@ -94,12 +94,87 @@ impl QuadrupleTank {
             (level > DRY_LEVEL).then(|| tank.outflow_slope(level, self.gravity) / area + delta)
         })
     }
+}
 
-    /// For each pump the flow per volt (m³/(s V)) into its lower and into its upper tank.
-    fn valve_gains(&self) -> [[f64; 2]; 2] {
-        std::array::from_fn(|i| {
-            let (k, gamma) = (self.pumps[i].gain, self.valves[i]);
-            [gamma * k, (1.0 - gamma) * k]
-        })
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+    use crate::plant::PresetId;
+
+    fn johansson(valves: [f64; 2], pump_voltage: [f64; 2]) -> (QuadrupleTank, OperatingPoint) {
+        let plant = PresetId::JohanssonMinimumPhase.preset().plant.with_valves(valves);
+        (plant, plant.free_equilibrium(pump_voltage))
+    }
+
+    #[test]
+    fn delta_2_is_that_of_cocota_and_zero_at_rest() {
+        let preset = PresetId::CocotaMinimumPhase.preset();
+        let levels = preset.printed.map(|printed| printed.levels).unwrap_or_default();
+        let point = OperatingPoint { levels, pump_voltage: preset.pump_voltage };
+        let plant = preset.plant;
+        let [_, tank_2, _, tank_4] = &plant.tanks;
+        let area = tank_2.section.area(levels[1]);
+        let imbalance = tank_2.outflow(levels[1], plant.gravity)
+            - tank_4.outflow(levels[3], plant.gravity)
+            - plant.valves[1] * plant.pumps[1].gain * preset.pump_voltage[1];
+        let delta_2 = -tank_2.section.area_slope / (area * area) * imbalance;
+        let expected = tank_2.outflow_slope(levels[1], plant.gravity) / area + delta_2;
+        assert!(delta_2.abs() > 1e-7);
+        assert_relative_eq!(plant.linearise(&point).a[(1, 1)], -expected, max_relative = 1e-12);
+
+        let rest = plant.free_equilibrium(preset.pump_voltage);
+        let without_delta = tank_2.outflow_slope(rest.levels[1], plant.gravity) / tank_2.section.area(rest.levels[1]);
+        assert_relative_eq!(plant.linearise(&rest).a[(1, 1)], -without_delta, max_relative = 1e-12);
+    }
+
+    #[test]
+    fn an_open_valve_leaves_its_upper_tank_out() {
+        let (plant, point) = johansson([0.7, 1.0], [3.0, 3.0]);
+        let jacobian = plant.linearise(&point);
+        assert_eq!(jacobian.dry, [false, false, true, false]);
+        assert_eq!(plant.time_constants_s(&point)[2], None);
+        assert_eq!(jacobian.b[(0, 1)], 0.0);
+        let (a, b, c) = jacobian.reduced();
+        assert_eq!((a.shape(), b.shape(), c.shape()), ((3, 3), (3, 2), (2, 3)));
+        // Tank 4 is now the third state.
+        assert_eq!(a[(1, 2)], jacobian.a[(1, 3)]);
+        assert_eq!(b[(2, 0)], jacobian.b[(3, 0)]);
+        assert!(a.iter().chain(&b).chain(&c).all(|entry| entry.is_finite()));
+    }
+
+    #[test]
+    fn water_passes_a_dry_tank_at_once() {
+        // Pump 2 is off, so tank 3 is dry although its valve would feed it.
+        let (plant, point) = johansson([0.7, 0.6], [3.0, 0.0]);
+        let jacobian = plant.linearise(&point);
+        assert_eq!(jacobian.dry, [false, false, true, false]);
+        assert_relative_eq!(jacobian.b[(0, 1)], 0.4 * 3.35e-6 / 28e-4, max_relative = 1e-12);
+
+        // The limit of a nearly dry one: the same gain from pump 2 to level 1 at rest.
+        let gain = |voltage| {
+            let (plant, point) = johansson([0.7, 0.6], [3.0, voltage]);
+            let (a, b, c) = plant.linearise(&point).reduced();
+            a.lu().solve(&b).map(|x| (c * x)[(0, 1)])
+        };
+        let (dry, wet) = (gain(0.0).unwrap_or(f64::NAN), gain(1e-3).unwrap_or(f64::NAN));
+        assert_relative_eq!(dry, wet, max_relative = 1e-3);
+    }
+
+    #[test]
+    fn an_empty_plant_has_no_states() {
+        let (plant, point) = johansson([0.7, 0.6], [0.0, 0.0]);
+        let (a, b, c) = plant.linearise(&point).reduced();
+        assert_eq!((a.shape(), b.shape(), c.shape()), ((0, 0), (0, 2), (2, 0)));
+    }
+
+    #[test]
+    fn a_tank_is_dry_at_the_stated_level() {
+        let (plant, mut point) = johansson([0.7, 0.6], [3.0, 3.0]);
+        point.levels[2] = DRY_LEVEL;
+        assert_eq!(plant.time_constants_s(&point)[2], None);
+        point.levels[2] = 1.01 * DRY_LEVEL;
+        assert!(plant.time_constants_s(&point)[2].is_some_and(|t| t > 0.0 && t < 0.01));
     }
 }

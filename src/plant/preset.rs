@@ -127,3 +127,39 @@ pub struct Preset {
     /// What the source prints, where it prints anything.
     pub printed: Option<Printed>,
 }
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+
+    #[test]
+    fn names_are_those_of_the_document() -> Result<(), serde_json::Error> {
+        for id in PresetId::ALL {
+            assert_eq!(serde_json::to_value(id)?, id.name());
+            assert_eq!(PresetId::from_name(id.name()), Some(id));
+            assert_eq!(id.preset().id, id);
+        }
+        assert_eq!(PresetId::from_name("johansson-2000"), None);
+        Ok(())
+    }
+
+    #[test]
+    fn every_rig_can_rest_at_its_inputs() {
+        for id in PresetId::ALL {
+            let preset = id.preset();
+            assert!(preset.plant.equilibrium(preset.pump_voltage).is_ok(), "{}", id.name());
+        }
+    }
+
+    #[test]
+    fn junqueira_rests_at_ten_centimetres() {
+        for id in [PresetId::JunqueiraA, PresetId::JunqueiraB] {
+            let preset = id.preset();
+            let levels = preset.plant.free_equilibrium(preset.pump_voltage).levels;
+            assert_relative_eq!(levels[0], 0.1, max_relative = 1e-12);
+            assert_relative_eq!(levels[1], 0.1, max_relative = 1e-12);
+        }
+    }
+}

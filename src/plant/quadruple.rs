@@ -130,3 +130,62 @@ impl QuadrupleTank {
         self.pumps.map(|pump| (pump.voltage_min / self.power_gain, pump.voltage_max / self.power_gain))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+    use crate::plant::PresetId;
+
+    #[test]
+    fn sensor_limits_then_rounds() {
+        let sensor = Sensor { gain: 100.0 / 3.0, range: 0.3, resolution: 10.0 / 2_f64.powi(11) };
+        assert_relative_eq!(sensor.measure(0.15), 5.0, max_relative = 1e-15);
+        assert_eq!(sensor.quantise(-1.0), 0.0);
+        assert_relative_eq!(sensor.quantise(11.0), 10.0, max_relative = 1e-15);
+        assert_eq!(sensor.quantise(0.4 * sensor.resolution), 0.0);
+        assert_eq!(sensor.quantise(3.6 * sensor.resolution), 4.0 * sensor.resolution);
+        assert_eq!(Sensor { resolution: 0.0, ..sensor }.quantise(1.234), 1.234);
+    }
+
+    #[test]
+    fn controller_limits_are_ahead_of_the_power_module() {
+        let mut plant = PresetId::CocotaMinimumPhase.preset().plant;
+        plant.pumps[1].voltage_min = 2.4;
+        let [first, second] = plant.controller_limits();
+        for (found, expected) in [(first, (0.0, 10.0)), (second, (2.0, 10.0))] {
+            assert_relative_eq!(found.0, expected.0, max_relative = 1e-15);
+            assert_relative_eq!(found.1, expected.1, max_relative = 1e-15);
+        }
+    }
+
+    #[test]
+    fn a_load_on_a_pump_passes_its_valve() {
+        let plant = PresetId::JohanssonMinimumPhase.preset().plant;
+        let load = Disturbance { pump_flow: [1e-6, 0.0], ..Disturbance::default() };
+        let [tank_1, tank_2, tank_3, tank_4] = plant.valve_flows(&[0.0, 0.0], &load);
+        assert_relative_eq!(tank_1, 0.7e-6, max_relative = 1e-12);
+        assert_relative_eq!(tank_4, 0.3e-6, max_relative = 1e-12);
+        assert_eq!([tank_2, tank_3], [0.0, 0.0]);
+    }
+
+    #[test]
+    fn no_load_makes_a_pump_suck() {
+        let plant = PresetId::JohanssonMinimumPhase.preset().plant;
+        let load = Disturbance { pump_flow: [-1.0, 0.0], ..Disturbance::default() };
+        assert_eq!(plant.derivative(&[0.0; 4], &[3.0, 0.0], &load), [0.0; 4]);
+    }
+
+    #[test]
+    fn a_leak_takes_water_from_its_tank_only() {
+        let plant = PresetId::JohanssonMinimumPhase.preset().plant;
+        let levels = [0.12, 0.13, 0.02, 0.01];
+        let leak = Disturbance { leak_area: [0.0, 0.0, 1e-6, 0.0], ..Disturbance::default() };
+        let with = plant.derivative(&levels, &[3.0; 2], &leak);
+        let without = plant.derivative(&levels, &[3.0; 2], &Disturbance::default());
+        let lost = 1e-6 * (2.0 * 9.81 * 0.02_f64).sqrt() / 28e-4;
+        assert_relative_eq!(without[2] - with[2], lost, max_relative = 1e-9);
+        assert_eq!([with[0], with[1], with[3]], [without[0], without[1], without[3]]);
+    }
+}

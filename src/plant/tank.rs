@@ -95,3 +95,56 @@ impl Tank {
 pub(super) fn torricelli_speed(level: f64, gravity: f64) -> f64 {
     (2.0 * gravity * level.max(0.0)).sqrt()
 }
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+
+    /// The trapezoidal test tank of Cocota (2009, ch. 2).
+    fn trapezoid() -> CrossSection {
+        CrossSection::trapezoidal(0.078, 0.076, 23.5_f64.to_radians())
+    }
+
+    #[test]
+    fn trapezoid_area_and_volume_follow_eq_2_28() {
+        let (b, c, h, tan) = (0.078, 0.076, 0.389, 23.5_f64.to_radians().tan());
+        assert_relative_eq!(trapezoid().area(h), b * (c + h * tan), max_relative = 1e-15);
+        assert_relative_eq!(trapezoid().volume(h), b * c * h + b * h * h * tan / 2.0, max_relative = 1e-15);
+        // "About 4.8 l" for a tank of the height of the rectangular one.
+        assert!((trapezoid().volume(h) - 4.8e-3).abs() < 0.1e-3);
+    }
+
+    #[test]
+    fn below_the_bottom_the_section_is_that_of_the_bottom() {
+        assert_eq!(trapezoid().area(-0.1), trapezoid().area(0.0));
+        assert_eq!(trapezoid().volume(-0.1), 0.0);
+    }
+
+    #[test]
+    fn volume_is_the_integral_of_area() {
+        let (section, h, dh) = (trapezoid(), 0.2, 1e-5);
+        let slope = (section.volume(h + dh) - section.volume(h - dh)) / (2.0 * dh);
+        assert_relative_eq!(slope, section.area(h), max_relative = 1e-9);
+    }
+
+    #[test]
+    fn nothing_flows_from_an_empty_tank() {
+        let outlet = Outlet { area: 37.4e-6, loss_coefficient: 0.68 };
+        let tank = Tank { section: trapezoid(), outlet, height: 0.395 };
+        assert_eq!(tank.outflow(0.0, 9.81), 0.0);
+        assert_eq!(tank.outflow(-0.1, 9.81), 0.0);
+        assert_eq!(tank.level_for_outflow(0.0, 9.81), 0.0);
+        assert_eq!(tank.level_for_outflow(-1e-6, 9.81), 0.0);
+        assert_eq!(tank.outflow_slope(0.0, 9.81), f64::INFINITY);
+    }
+
+    #[test]
+    fn a_plugged_tank_has_no_finite_level_under_inflow() {
+        let outlet = Outlet { area: 0.0, loss_coefficient: 1.0 };
+        let tank = Tank { section: CrossSection::prismatic(1e-2), outlet, height: 0.2 };
+        assert_eq!(tank.level_for_outflow(0.0, 9.81), 0.0);
+        assert_eq!(tank.level_for_outflow(1e-6, 9.81), f64::INFINITY);
+    }
+}
