@@ -7,9 +7,7 @@ use quadtank::control::{AntiWindup, DecentralisedPi, LoopMode, Pairing, PiSettin
 use quadtank::interaction::relative_gain_array;
 use quadtank::linear::{StateSpace, transmission_zeros};
 use quadtank::plant::{OperatingPoint, PresetId, QuadrupleTank};
-use quadtank::sim::{
-    Experiment, Measurement, SetPointStep, closed_loop, loop_metrics, simulate, simulate_linear,
-};
+use quadtank::sim::{Experiment, Measurement, SetPointStep, closed_loop, loop_metrics, simulate, simulate_linear};
 
 /// Johansson (2000), P−, with its published controllers: 3000 s at one sample per second, a step of 5 % of each
 /// reference.

@@ -154,7 +154,6 @@ fn levels_and_outputs_agree_with_the_reference() {
             for (column, expected) in trajectory.levels.iter().zip(sample.levels) {
                 worst.0 = worst.0.max((column[row] - expected).abs() / step);
             }
-            println!("{} {:?}", sample.time, [0,1,2,3].map(|i| (trajectory.levels[i][row]-sample.levels[i])/step));println!("  {:?}", sample.levels);
             let output = law.pairing.by_loop(sample.controller_output);
             for (column, expected) in trajectory.controller_output.iter().zip(output) {
                 worst.1 = worst.1.max((column[row] - expected).abs() / (rig.sensor.gain * step));
@@ -171,7 +170,6 @@ fn integrated_errors_agree_with_the_reference() {
         let metrics = loop_metrics(trajectory, rig, law, experiment);
         for (metrics, expected) in metrics.iter().zip(run.iae_measured) {
             let iae = rig.sensor.gain * metrics.iae;
-            println!("{name}: {iae} {expected} {:e}", iae / expected - 1.0);
             assert!((iae / expected - 1.0).abs() <= BAR, "{name}: {iae} instead of {expected}");
         }
     });

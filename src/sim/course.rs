@@ -159,8 +159,8 @@ impl Loops {
     /// One sample: new outputs from references and measured signals (V). Notes the pumps that are at a limit.
     fn step(&mut self, time: f64, reference: [f64; 2], measured: [f64; 2], events: &mut Events) -> [f64; 2] {
         let output = self.pi.step(time, reference, measured);
-        for i in 0..2 {
-            if output[i] <= self.limits[i].0 || output[i] >= self.limits[i].1 {
+        for (i, (&output, (min, max))) in output.iter().zip(self.limits).enumerate() {
+            if output <= min || output >= max {
                 events.note(time, EventKind::Saturated { pump: self.pairing.pump_of(i) });
             }
         }

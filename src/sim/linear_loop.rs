@@ -62,9 +62,8 @@ impl Process for LinearModel<'_> {
     }
 
     fn set_inputs(&mut self, pump_voltage: &[f64; 2], disturbance: &Disturbance) {
-        let [u1, u2] = [0, 1].map(|j| {
-            pump_voltage[j] - self.op.pump_voltage[j] + self.voltage_of(j, disturbance.pump_flow[j])
-        });
+        let [u1, u2] =
+            [0, 1].map(|j| pump_voltage[j] - self.op.pump_voltage[j] + self.voltage_of(j, disturbance.pump_flow[j]));
         let leaks = Vector4::from_fn(|i, _| self.leak_rate(i, disturbance.leak_area[i]));
         self.forcing = self.jacobian.b.column(0) * u1 + self.jacobian.b.column(1) * u2 + leaks;
         self.push = self.hold.response * self.forcing;

@@ -42,9 +42,10 @@ pub struct LoopMetrics {
     pub iae: f64,
     /// Σ (r − h)² Δt (m² s).
     pub ise: f64,
-    /// Σ (t − t_step) |r − h| Δt from the step on, or from the start where there is none (m s²).
+    /// Σ (t − `t_step`) |r − h| Δt from the step on, or from the start where there is none (m s²).
     pub itae: f64,
-    /// Furthest that the *other* level moves from its own reference within the window of this step (m); 0 without a step.
+    /// Furthest that the *other* level moves, within the window of this step, from where it was when this reference
+    /// stepped (m); 0 without a step.
     pub other_peak: f64,
     /// Σ |Δu| of the controller output of this loop (V).
     pub total_variation: f64,
@@ -105,5 +106,139 @@ impl LoopMetrics {
                 self.saturated_s += elapsed;
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+    use crate::control::{AntiWindup, LoopMode, Pairing, PiSettings};
+    use crate::plant::PresetId;
+    use crate::sim::{Load, LoadStep, Measurement, SetPointStep};
+
+    const STEP: f64 = 0.01;
+
+    fn law() -> DecentralisedPi {
+        let settings = PiSettings {
+            gain: 1.0,
+            integral_time_s: 10.0,
+            set_point_weight: 1.0,
+            anti_windup: AntiWindup::Off,
+            mode: LoopMode::Automatic,
+        };
+        DecentralisedPi { pairing: Pairing::Diagonal, loops: [settings; 2], sampling_time_s: 1.0 }
+    }
+
+    fn experiment(steps: &[(usize, f64)], load_steps: Vec<LoadStep>) -> Experiment {
+        Experiment {
+            duration_s: 100.0,
+            set_point_steps: steps.iter().map(|&(level, time_s)| SetPointStep { level, time_s, size: STEP }).collect(),
+            load_steps,
+            measurement: Measurement { noise_std: 0.0, seed: 0, quantised: false },
+        }
+    }
+
+    /// A run whose level 1 answers its step at `step_time` (s) by `progress` of the time since; level 2 stands still.
+    fn run(steps: &[(usize, f64)], progress: impl Fn(f64) -> f64) -> Trajectory {
+        let mut trajectory = Trajectory::with_capacity(101);
+        let reference =
+            |level: usize, t: f64| 0.1 + steps.iter().filter(|s| s.0 == level && s.1 <= t).map(|_| STEP).sum::<f64>();
+        let begin = steps.iter().find(|s| s.0 == 0).map_or(f64::INFINITY, |s| s.1);
+        for k in 0..=100 {
+            let t = f64::from(k);
+            let level = if t > begin { 0.1 + STEP * progress(t - begin) } else { 0.1 };
+            let output = if (20..30).contains(&k) { 10.0 } else { 5.0 };
+            let references = [reference(0, t), reference(1, t)];
+            trajectory.push(t, [level, 0.1, 0.0, 0.0], references, [output, 5.0], [output, 5.0]);
+        }
+        trajectory
+    }
+
+    fn first(trajectory: &Trajectory, experiment: &Experiment) -> LoopMetrics {
+        let mut plant = PresetId::JohanssonMinimumPhase.preset().plant;
+        plant.power_gain = 1.0;
+        plant.pumps = plant.pumps.map(|pump| crate::plant::Pump { voltage_min: 0.0, voltage_max: 10.0, ..pump });
+        let [first, second] = loop_metrics(trajectory, &plant, &law(), experiment);
+        assert_eq!(second.saturated_s, 0.0);
+        first
+    }
+
+    #[test]
+    fn a_first_order_lag_has_its_textbook_figures() {
+        let steps = [(0, 10.0)];
+        let metrics = first(&run(&steps, |t| 1.0 - (-t / 8.0).exp()), &experiment(&steps, vec![]));
+        assert_eq!(metrics.step_time_s, Some(10.0));
+        // Exponentials interpolated by chords of 1/8 of the time constant.
+        assert_relative_eq!(metrics.rise_time_s.unwrap(), 8.0 * 9.0_f64.ln(), max_relative = 2e-3);
+        for (settling, band) in [(metrics.settling_2_percent, 0.02_f64), (metrics.settling_5_percent, 0.05)] {
+            let Some(Settling::After { time_s }) = settling else { panic!("{settling:?}") };
+            assert_relative_eq!(time_s, -8.0 * band.ln(), max_relative = 1e-3);
+        }
+        assert_eq!((metrics.overshoot, metrics.undershoot), (Some(0.0), Some(0.0)));
+        assert_eq!(metrics.other_peak, 0.0);
+        // Left rectangles of a falling exponential: a geometric series.
+        let q = (-1.0_f64 / 8.0).exp();
+        assert_relative_eq!(metrics.iae, STEP / (1.0 - q), max_relative = 1e-4);
+        assert_relative_eq!(metrics.ise, STEP * STEP / (1.0 - q * q), max_relative = 1e-4);
+        assert_relative_eq!(metrics.itae, STEP * q / (1.0 - q).powi(2), max_relative = 1e-3);
+        assert_eq!((metrics.total_variation, metrics.saturated_s), (10.0, 10.0));
+    }
+
+    #[test]
+    fn overshoot_and_the_wrong_way_count_in_fractions_of_the_step() {
+        let steps = [(0, 10.0)];
+        let peaks = |t: f64| {
+            if t < 5.0 {
+                -0.2
+            } else if t < 20.0 {
+                1.3
+            } else {
+                1.0
+            }
+        };
+        let metrics = first(&run(&steps, peaks), &experiment(&steps, vec![]));
+        assert_relative_eq!(metrics.overshoot.unwrap(), 0.3, max_relative = 1e-9);
+        assert_relative_eq!(metrics.undershoot.unwrap(), 0.2, max_relative = 1e-9);
+    }
+
+    #[test]
+    fn a_response_that_stays_outside_never_settles() {
+        let steps = [(0, 10.0)];
+        let metrics = first(&run(&steps, |_| 0.8), &experiment(&steps, vec![]));
+        assert_eq!(metrics.settling_2_percent, Some(Settling::Never));
+        assert_eq!(metrics.rise_time_s, None);
+    }
+
+    #[test]
+    fn the_window_ends_where_anything_else_is_done() {
+        let late = |t: f64| if t < 40.0 { 1.0 } else { 3.0 };
+        let settled = Some(Settling::After { time_s: 0.98 });
+        let figures = |steps: &[(usize, f64)], loads| {
+            let metrics = first(&run(steps, late), &experiment(steps, loads));
+            (metrics.settling_2_percent, metrics.overshoot)
+        };
+        let near = |settling: Option<Settling>| match (settling, settled) {
+            (Some(Settling::After { time_s: a }), Some(Settling::After { time_s: b })) => (a - b).abs() < 1e-9,
+            _ => false,
+        };
+        let load = LoadStep { time_s: 30.5, load: Load::PumpFlow { pump: 0, flow: 1e-6 } };
+        for (steps, loads) in [(&[(0, 10.0), (1, 40.0)][..], vec![]), (&[(0, 10.0)], vec![load])] {
+            let (settling, overshoot) = figures(steps, loads);
+            assert!(near(settling), "{settling:?}");
+            assert!(overshoot.unwrap() < 1e-9);
+        }
+        assert_eq!(figures(&[(0, 10.0)], vec![]).0, Some(Settling::Never));
+    }
+
+    #[test]
+    fn a_step_at_the_start_counts_and_none_is_none() {
+        let steps = [(0, 0.0)];
+        let metrics = first(&run(&steps, |t| 1.0 - (-t / 8.0).exp()), &experiment(&steps, vec![]));
+        assert_eq!(metrics.step_time_s, Some(0.0));
+        assert!(metrics.rise_time_s.is_some());
+        let metrics = first(&run(&[], |_| 0.0), &experiment(&[], vec![]));
+        assert_eq!((metrics.step_time_s, metrics.settling_2_percent, metrics.overshoot), (None, None, None));
     }
 }

@@ -37,3 +37,42 @@ impl Noise {
         self.measurement.noise_std * f64::from(normal)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SENSOR: Sensor = Sensor { gain: 50.0, range: 0.2, resolution: 0.01 };
+
+    fn signals(noise_std: f64, seed: u32, quantised: bool, level: f64) -> Vec<f64> {
+        let mut noise = Noise::new(&Measurement { noise_std, seed, quantised });
+        (0..5000).flat_map(|_| noise.measure(&SENSOR, [level, level])).collect()
+    }
+
+    #[test]
+    fn noise_has_the_deviation_asked_for_and_no_bias() {
+        let signals = signals(1e-3, 7, false, 0.1);
+        let n = signals.len() as f64;
+        let mean = signals.iter().sum::<f64>() / n;
+        let variance = signals.iter().map(|y| (y - mean).powi(2)).sum::<f64>() / n;
+        // Four standard errors.
+        assert!((mean - 5.0).abs() < 4.0 * 0.05 / n.sqrt());
+        assert!((variance.sqrt() / 0.05 - 1.0).abs() < 4.0 / (2.0 * n).sqrt());
+    }
+
+    #[test]
+    fn a_seed_gives_the_same_noise_on_every_platform() {
+        let mut noise = Noise::new(&Measurement { noise_std: 1.0, seed: 2000, quantised: false });
+        // So many that some come from the tail of the distribution, which takes a logarithm.
+        let mixed = (0..20_000).fold(0_u64, |mixed, _| mixed.rotate_left(7) ^ noise.deviation().to_bits());
+        assert_eq!(mixed, 9_167_368_444_216_369_150);
+        assert_ne!(signals(1.0, 1, false, 0.1), signals(1.0, 2, false, 0.1));
+    }
+
+    #[test]
+    fn a_real_sensor_rounds_and_saturates() {
+        assert_eq!(signals(0.0, 1, false, 0.3)[0], 15.0);
+        assert_eq!(signals(0.0, 1, true, 0.3)[0], 10.0);
+        assert!((signals(0.0, 1, true, 0.100_06)[0] - 5.0).abs() < 1e-12);
+    }
+}

@@ -40,23 +40,22 @@ impl<'a> OpenLoop<'a> {
     /// State matrix of the closed loop without the tanks that are `dry`. States are levels (m), then one integral per
     /// loop that acts, `s = I − K Ts/(2 Ti) e` (V), with which Tustin's rule reads `c = K (1 + Ts/(2 Ti)) e + s` and
     /// `s⁺ = s + K Ts/Ti e`.
-    pub(super) fn closed(&self, dry: &[bool; 4]) -> DMatrix<f64> {
+    pub(super) fn closed(&self, dry: [bool; 4]) -> DMatrix<f64> {
         let wet: Vec<usize> = (0..4).filter(|&tank| !dry[tank]).collect();
         let acting: Vec<usize> = (0..2).filter(|&i| self.controller.loops[i].gain != 0.0).collect();
         let n = wet.len();
         let share = |i: usize| self.controller.sampling_time_s / self.controller.loops[i].integral_time_s;
         let gain = |i: usize| self.controller.loops[i].gain * self.sensor[i];
-        DMatrix::from_fn(n + acting.len(), n + acting.len(), |row, column| {
-            match (wet.get(row), wet.get(column)) {
-                (Some(&to), Some(&from)) => {
-                    let feedback = if from < 2 { gain(from) * (1.0 + share(from) / 2.0) * self.input[(to, from)] } else { 0.0 };
-                    self.transition[(to, from)] - feedback
-                }
-                (Some(&to), None) => self.input[(to, acting[column - n])],
-                (None, Some(&from)) if from == acting[row - n] => -gain(from) * share(from),
-                (None, None) if row == column => 1.0,
-                (None, _) => 0.0,
+        DMatrix::from_fn(n + acting.len(), n + acting.len(), |row, column| match (wet.get(row), wet.get(column)) {
+            (Some(&to), Some(&from)) => {
+                let feedback =
+                    if from < 2 { gain(from) * (1.0 + share(from) / 2.0) * self.input[(to, from)] } else { 0.0 };
+                self.transition[(to, from)] - feedback
             }
+            (Some(&to), None) => self.input[(to, acting[column - n])],
+            (None, Some(&from)) if from == acting[row - n] => -gain(from) * share(from),
+            (None, None) if row == column => 1.0,
+            (None, _) => 0.0,
         })
     }
 
@@ -116,5 +115,5 @@ fn largest_singular_value_of_inverse(m: &Matrix2<Complex>) -> f64 {
     let sum = m.iter().map(Complex::norm_sqr).sum::<f64>();
     let product = (m[(0, 0)] * m[(1, 1)] - m[(0, 1)] * m[(1, 0)]).norm();
     let difference = ((sum - 2.0 * product) * (sum + 2.0 * product)).max(0.0).sqrt();
-    ((sum + difference) / 2.0).sqrt() / product
+    f64::midpoint(sum, difference).sqrt() / product
 }

@@ -9,7 +9,6 @@ pub(super) struct Response<'a> {
     time: &'a [f64],
     level: &'a [f64],
     other_level: &'a [f64],
-    other_reference: &'a [f64],
     before: f64,
     after: f64,
 }
@@ -21,15 +20,13 @@ impl<'a> Response<'a> {
         let at_start: f64 =
             experiment.set_point_steps.iter().filter(|s| s.level == index && s.time_s <= 0.0).map(|s| s.size).sum();
         let initial = reference.first()? - at_start;
-        let (first, before) =
-            if at_start == 0.0 { (moved_after(reference, 0)?, initial) } else { (0, initial) };
+        let (first, before) = if at_start == 0.0 { (moved_after(reference, 0)?, initial) } else { (0, initial) };
         let end = window_end(trajectory, experiment, first);
         let other = 1 - index;
         Some(Self {
             time: trajectory.time_s.get(first..end)?,
             level: trajectory.levels[index].get(first..end)?,
             other_level: trajectory.levels[other].get(first..end)?,
-            other_reference: trajectory.references[other].get(first..end)?,
             before,
             after: reference[first],
         })
@@ -86,9 +83,9 @@ impl<'a> Response<'a> {
         (0..self.level.len()).map(|row| -self.progress(row)).fold(0.0, f64::max)
     }
 
-    /// Furthest that the other level is from its own reference (m).
+    /// Furthest that the other level moves from where it was (m).
     pub(super) fn other_peak(&self) -> f64 {
-        self.other_level.iter().zip(self.other_reference).map(|(h, r)| (h - r).abs()).fold(0.0, f64::max)
+        self.other_level.iter().map(|h| (h - self.other_level[0]).abs()).fold(0.0, f64::max)
     }
 }
 
@@ -102,7 +99,8 @@ fn moved_after(reference: &[f64], row: usize) -> Option<usize> {
 fn window_end(trajectory: &Trajectory, experiment: &Experiment, first: usize) -> usize {
     let time = &trajectory.time_s;
     let next_reference = trajectory.references.iter().filter_map(|reference| moved_after(reference, first)).min();
-    let next_load = experiment.load_steps.iter().map(|load| load.time_s).filter(|&t| t > time[first]).fold(f64::INFINITY, f64::min);
+    let next_load =
+        experiment.load_steps.iter().map(|load| load.time_s).filter(|&t| t > time[first]).fold(f64::INFINITY, f64::min);
     let last_before_load = time.partition_point(|&t| t <= next_load);
     next_reference.map_or(time.len(), |row| row + 1).min(last_before_load)
 }

@@ -63,7 +63,14 @@ impl Trajectory {
     }
 
     /// Adds a row.
-    pub(super) fn push(&mut self, time_s: f64, levels: [f64; 4], references: [f64; 2], controller_output: [f64; 2], pump_voltage: [f64; 2]) {
+    pub(super) fn push(
+        &mut self,
+        time_s: f64,
+        levels: [f64; 4],
+        references: [f64; 2],
+        controller_output: [f64; 2],
+        pump_voltage: [f64; 2],
+    ) {
         self.time_s.push(time_s);
         for (column, level) in self.levels.iter_mut().zip(levels) {
             column.push(level);
