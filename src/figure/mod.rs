@@ -9,8 +9,9 @@
 //! 3. [`paint`] draws on any plotters [`DrawingBackend`](plotters::prelude::DrawingBackend): the canvas on screen, the
 //!    recorder of the tests, or the SVG backend behind [`to_svg`].
 //!
-//! Plotters gives the backends and the shapes. Its own charts are not used: they measure text with fonts that the
-//! browser does not offer them, take whole pixels, and draw every point of a curve even outside the plot.
+//! Plotters gives the backends and the shapes. Its own chart type is not used: it measures every label, which in a
+//! browser costs a layout each; it moves points outside the plot to the edge, which bends a curve that leaves it; and
+//! it draws every point of a series.
 
 mod axis;
 mod chart;

@@ -1,6 +1,6 @@
 /// A number with its sign (a true minus) and so many significant digits, with the reader's decimal separator.
 ///
-/// Zero has no sign; what is not finite is `∞`, `−∞` or `–`.
+/// Zero is `0`; what is not finite is `+∞`, `−∞` or `–`.
 pub fn signed(value: f64, digits: usize, decimal: char) -> String {
     if !value.is_finite() {
         return if value.is_nan() {
@@ -12,6 +12,9 @@ pub fn signed(value: f64, digits: usize, decimal: char) -> String {
         }
         .into();
     }
+    if value == 0.0 {
+        return "0".into();
+    }
     // Rounding first: 0.09996 has its first digit elsewhere once it is 0.100.
     let scientific = format!("{:.*e}", digits.max(1) - 1, value.abs());
     let exponent = scientific.split_once('e').and_then(|(_, exponent)| exponent.parse::<i32>().ok()).unwrap_or(0);
@@ -21,13 +24,7 @@ pub fn signed(value: f64, digits: usize, decimal: char) -> String {
     } else {
         scientific.replace('-', "−")
     };
-    let sign = if value > 0.0 {
-        "+"
-    } else if value < 0.0 {
-        "−"
-    } else {
-        ""
-    };
+    let sign = if value > 0.0 { "+" } else { "−" };
     format!("{sign}{}", body.replace('.', decimal.encode_utf8(&mut [0; 4])))
 }
 
@@ -42,7 +39,7 @@ mod tests {
         assert_eq!(signed(0.099_96, 3, '.'), "+0.100");
         assert_eq!(signed(123.4, 3, '.'), "+123");
         assert_eq!(signed(-1.5e-9, 2, ','), "−1,5e−9");
-        assert_eq!(signed(0.0, 3, '.'), "0.00");
+        assert_eq!(signed(-0.0, 3, '.'), "0");
     }
 
     #[test]

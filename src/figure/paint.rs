@@ -217,7 +217,7 @@ impl<DB: DrawingBackend> Brush<'_, DB> {
 
     fn label(&self, label: &Label) -> Result<(), PaintError<DB>> {
         let (x, y) = self.inside(label.at);
-        let length = label.text.chars().count() as f64 * if label.bold { CHARACTER * 1.08 } else { CHARACTER };
+        let length = label.text.chars().count() as f64 * if label.bold { CHARACTER * 1.25 } else { CHARACTER };
         let (h_pos, behind, ahead) = match label.anchor {
             Anchor::Left => (HPos::Left, 0.0, length),
             Anchor::Middle => (HPos::Center, length / 2.0, length / 2.0),

@@ -33,7 +33,7 @@ pub struct ValvePlaneTexts<'a> {
     pub right_half_plane: &'a str,
 }
 
-/// The plane of the two valves (Johansson 2000, sec. IV): shaded by the right-most zero, which crosses into the right
+/// The plane of the two valves (Johansson 2000): shaded by the right-most zero, which crosses into the right
 /// half-plane where γ1 + γ2 falls below 1.
 pub fn valve_plane(spec: &ValvePlane) -> Chart<'static> {
     let mut chart = Chart::new(Axis::new(spec.texts.gamma_1, (0.0, 1.0)), Axis::new(spec.texts.gamma_2, (0.0, 1.0)));

@@ -94,7 +94,7 @@ pub fn s_plane(poles: &[Complex<f64>], zeros: &[Complex<f64>], closed_loop: &[Co
     pole_zero(&PoleZero { poles, zeros, zero_paths: &[path], closed_loop, decimal: '.', texts })
 }
 
-/// The poles and zeros of Johansson's P+ (2000, table and eq. 12), rounded.
+/// Time constants and zeros of P+ as Johansson (2000) prints them; closed-loop poles made up.
 pub fn johansson_s_plane() -> Chart<'static> {
     let real = |re| Complex::new(re, 0.0);
     let poles = [-1.0 / 63.0, -1.0 / 91.0, -1.0 / 39.0, -1.0 / 56.0].map(real);
