@@ -144,6 +144,20 @@ fn cocota_non_minimum_phase_takes_an_hour() {
     }
 }
 
+/// Cocota (2009), §4.2, recomputed: at most 9 % of the step reaches the other level in P−, 76 % and 106 % in P+.
+#[test]
+fn cocota_couples_the_loops_as_recomputed() {
+    let peaks = |id: PresetId| {
+        let setup = setup_of(id);
+        let metrics = run(&setup).unwrap().metrics;
+        [0, 1].map(|index| metrics[index].other_peak / setup.experiment.set_point_steps[index].size)
+    };
+    assert!(peaks(PresetId::CocotaMinimumPhase).iter().all(|peak| (0.05..0.095).contains(peak)));
+    for (found, expected) in peaks(PresetId::CocotaNonMinimumPhase).into_iter().zip([0.76, 1.06]) {
+        assert_relative_eq!(found, expected, epsilon = 0.006);
+    }
+}
+
 /// Cocota (2009), §5: with the diagonal pairing any integral action diverges.
 #[test]
 fn cocota_non_minimum_phase_paired_diagonally_is_unstable() {
