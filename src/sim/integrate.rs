@@ -38,8 +38,11 @@ const TOLERANCE: f64 = 5e-9;
 /// Most sub-steps between two rows of a trajectory. The method is stable with any.
 const MAX_STEPS: u32 = 8;
 
-/// A correction this small, as a fraction of √h, leaves an error below rounding: the iteration converges cubically.
-const CORRECTION_TOLERANCE: f64 = 1e-5;
+/// A correction of √h this small, as a fraction, leaves an error below rounding.
+const NEWTON_TOLERANCE: f64 = 1e-8;
+
+/// Newton's iteration needs three or four; this only bounds it when numbers are not sane.
+const MOST_ITERATIONS: u32 = 30;
 
 /// One number for each of the two upper or the two lower tanks.
 type Pair = [f64; 2];
@@ -52,6 +55,8 @@ type Pair = [f64; 2];
 #[derive(Clone, Copy, Debug)]
 struct Tier {
     section: [CrossSection; 2],
+    /// Level at the start of the step (m).
+    level: Pair,
     /// Diagonal × step × drain (m^2.5).
     passed: Pair,
     passed_squared: Pair,
@@ -82,7 +87,7 @@ impl Tier {
         let start = from_fn(|i| passed_squared[i] + four_areas[i] * (section[i].volume(level[i]) + offset[i]));
         let scale = four_areas.map(|area| area * step);
         let drain = from_fn(|i| scale[i] * drain[i]);
-        Self { section, passed, passed_squared, four_areas, offset, start, scale, drain }
+        Self { section, level, passed, passed_squared, four_areas, offset, start, scale, drain }
     }
 
     /// √h at the stages, the last of which is the end of the step. The tanks receive the flows `pumped`, and `above` at
@@ -103,32 +108,43 @@ impl Tier {
             }
             let wet: Pair =
                 from_fn(|i| if square[i] > self.passed_squared[i] { square[i] } else { self.passed_squared[i] });
-            root[stage] = from_fn(|i| (wet[i].sqrt() - self.passed[i]) * half_over_area[i]);
+            let slope = wet.map(f64::sqrt);
+            root[stage] = from_fn(|i| (slope[i] - self.passed[i]) * half_over_area[i]);
             if !prismatic {
-                root[stage] = from_fn(|i| self.refine(i, root[stage][i], wet[i]));
+                root[stage] = from_fn(|i| self.leave_tangent(i, root[stage][i], slope[i]));
             }
             net[stage] = from_fn(|i| above[i] - self.drain[i] * root[stage][i]);
         }
         root
     }
 
-    /// From the solution on the tangent to that on V, by Chebyshev's iteration.
-    fn refine(&self, i: usize, on_tangent: f64, square: f64) -> f64 {
-        let CrossSection { area_at_empty, area_slope } = self.section[i];
-        if area_slope == 0.0 {
+    /// From the solution on the tangent, where the left-hand side rises by `slope` per √h, to that on V, which is
+    /// `A′/2` times the squared distance from the start of the step above its tangent: by one step of Newton, or more
+    /// when the level moves far.
+    fn leave_tangent(&self, i: usize, on_tangent: f64, slope: f64) -> f64 {
+        let half_slope = self.section[i].area_slope / 2.0;
+        if half_slope == 0.0 {
             return on_tangent;
         }
+        let moved = on_tangent * on_tangent - self.level[i];
+        let correction = half_slope * moved * moved / (slope + 4.0 * half_slope * moved * on_tangent);
+        let root = on_tangent - correction;
+        if correction.abs() <= NEWTON_TOLERANCE * root {
+            return root;
+        }
+        self.solve(i, root.max(0.0), slope * slope)
+    }
+
+    /// Newton's iteration on V itself; it falls monotonically when the start is to the right of the solution.
+    fn solve(&self, i: usize, start: f64, square: f64) -> f64 {
         let available = (square - self.passed_squared[i]) / self.four_areas[i] - self.offset[i];
-        let mut root = on_tangent;
-        for _ in 0..20 {
+        let mut root = start;
+        for _ in 0..MOST_ITERATIONS {
             let level = root * root;
-            let excess = (area_at_empty + 0.5 * area_slope * level) * level + self.passed[i] * root - available;
-            let over_slope = 1.0 / (2.0 * (area_at_empty + area_slope * level) * root + self.passed[i]);
-            let half_curvature = area_at_empty + 3.0 * area_slope * level;
-            let newton = excess * over_slope;
-            let correction = newton * (1.0 + newton * half_curvature * over_slope);
+            let excess = self.section[i].volume(level) + self.passed[i] * root - available;
+            let correction = excess / (2.0 * self.section[i].area(level) * root + self.passed[i]);
             root = (root - correction).max(0.0);
-            if correction.abs() <= CORRECTION_TOLERANCE * root {
+            if correction.abs() <= NEWTON_TOLERANCE * root {
                 break;
             }
         }
