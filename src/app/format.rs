@@ -39,12 +39,6 @@ impl NumberStyle {
         self.fixed(value, decimals)
     }
 
-    /// `value` with an explicit sign, for steps and zeros.
-    pub fn signed(self, value: f64, digits: usize) -> String {
-        let text = self.fixed(value, digits);
-        if value > 0.0 && !text.chars().all(|c| matches!(c, '0' | '.' | ',')) { format!("+{text}") } else { text }
-    }
-
     /// What a person typed, with point or comma and either minus sign.
     pub fn parse(text: &str) -> Option<f64> {
         let plain: String = text
@@ -80,13 +74,6 @@ mod tests {
         assert_eq!(EN.significant(1430.4, 3), "1430");
         assert_eq!(EN.significant(0.0, 3), "0");
         assert_eq!(EN.significant(1.0e-9, 3), "1.00e−9");
-    }
-
-    #[test]
-    fn a_sign_is_shown_only_where_there_is_one() {
-        assert_eq!(EN.signed(1.0, 1), "+1.0");
-        assert_eq!(EN.signed(0.0, 1), "0.0");
-        assert_eq!(EN.signed(-2.0, 1), "−2.0");
     }
 
     #[test]

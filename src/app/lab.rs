@@ -102,6 +102,14 @@ impl Lab {
     where
         T: PartialEq + Send + Sync + 'static,
     {
+        self.boxed_part(Box::new(read))
+    }
+
+    /// Compiled once for each kind of part rather than for each part.
+    fn boxed_part<T>(self, read: Box<dyn Fn(&Setup) -> T + Send + Sync>) -> Signal<T>
+    where
+        T: PartialEq + Send + Sync + 'static,
+    {
         let scenario = self.scenario;
         Memo::new(move |_| scenario.with(|s| read(&s.setup))).into()
     }

@@ -4,7 +4,7 @@ use leptos::prelude::*;
 
 use super::lab::{Lab, use_lab};
 use super::start::Control;
-use super::texts::tr;
+use super::texts::{say, tr};
 use crate::plant::PresetId;
 use crate::scenario::{PlantSpec, Scenario, setup_of};
 
@@ -44,14 +44,27 @@ pub fn load(lab: Lab, id: PresetId) {
     });
 }
 
+/// The rig in force, if it is a published one.
+fn chosen(lab: Lab) -> Signal<Option<PresetId>> {
+    lab.part(|s| match s.plant {
+        PlantSpec::Preset(id) => Some(id),
+        PlantSpec::Parameters { .. } => None,
+    })
+}
+
+/// What to know about the rig in force.
+#[component]
+pub fn PresetRemark() -> impl IntoView {
+    let lab = use_lab();
+    let id = chosen(lab);
+    view! { <p class="remark" data-testid="preset-remark">{Signal::derive(move || remark_of(lab, id.get()))}</p> }
+}
+
 /// The select with all published rigs.
 #[component]
 pub fn PresetChoice() -> impl IntoView {
     let lab = use_lab();
-    let id = lab.part(|s| match s.plant {
-        PlantSpec::Preset(id) => Some(id),
-        PlantSpec::Parameters { .. } => None,
-    });
+    let id = chosen(lab);
     let on_change = move |event| {
         if let Some(id) = PresetId::from_name(&event_target_value(&event)) {
             load(lab, id);
@@ -68,7 +81,7 @@ pub fn PresetChoice() -> impl IntoView {
     view! {
         <select
             data-testid="preset"
-            aria-label=move || tr!(lab, preset.choose)
+            aria-label=say!(lab, preset.choose)
             title=move || remark_of(lab, id.get())
             disabled=lab.locks(Control::Preset)
             prop:value=move || id.get().map_or("", PresetId::name)
@@ -77,6 +90,5 @@ pub fn PresetChoice() -> impl IntoView {
             {options}
             {move || id.get().is_none().then(|| view! { <option value="" selected>{tr!(lab, preset.own)}</option> })}
         </select>
-        <p class="remark">{move || remark_of(lab, id.get())}</p>
     }
 }

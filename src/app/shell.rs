@@ -10,7 +10,7 @@ use super::quadruple::QuadrupleTankBench;
 use super::share;
 use super::start::StartFlags;
 use super::storage::{LANGUAGE, THEME};
-use super::texts::{Locale, language_of, tag_of, tr};
+use super::texts::{Locale, language_of, say, tag_of, tr};
 use crate::scenario::{Scenario, ScenarioError, setup_of};
 
 /// The element of the page that the laboratory fills; it holds the static outline until then.
@@ -86,11 +86,11 @@ fn Header() -> impl IntoView {
     let lab = use_lab();
     view! {
         <header class="top">
-            <h1>{move || tr!(lab, app.title)}</h1>
-            <span class="tagline">{move || tr!(lab, app.tagline)}</span>
+            <h1>{say!(lab, app.title)}</h1>
+            <span class="tagline">{say!(lab, app.tagline)}</span>
             <span class="spacer"></span>
             <button type="button" class="button" data-testid="share" on:click=move |_| share::share(lab)>
-                {move || tr!(lab, app.share)}
+                {say!(lab, app.share)}
             </button>
             <FileMenu />
             <LanguageChoice />
@@ -114,13 +114,13 @@ fn FileMenu() -> impl IntoView {
     let single = is_single_file();
     view! {
         <details class="menu" data-testid="file-menu">
-            <summary>{move || tr!(lab, app.export)}</summary>
+            <summary>{say!(lab, app.export)}</summary>
             <div>
-                <button type="button" data-testid="save" on:click=move |_| share::save(lab)>{move || tr!(lab, app.export_scenario)}</button>
+                <button type="button" data-testid="save" on:click=move |_| share::save(lab)>{say!(lab, app.export_scenario)}</button>
                 <button type="button" data-testid="open" on:click=move |_| if let Some(input) = picker.get_untracked() { input.click() }>
-                    {move || tr!(lab, app.open_scenario)}
+                    {say!(lab, app.open_scenario)}
                 </button>
-                {(!single).then(|| view! { <a href="quadtank.html" download="quadtank.html" data-testid="single-file">{move || tr!(lab, app.single_file)}</a> })}
+                {(!single).then(|| view! { <a href="quadtank.html" download="quadtank.html" data-testid="single-file">{say!(lab, app.single_file)}</a> })}
             </div>
             <input type="file" accept=".json,application/json" hidden node_ref=picker data-testid="open-input" on:change=on_file />
         </details>
@@ -144,7 +144,7 @@ fn LanguageChoice() -> impl IntoView {
         view! { <option value=tag_of(language) lang=tag_of(language) selected=move || lab.language.get() == language>{name}</option> }
     };
     view! {
-        <select data-testid="language" aria-label=move || tr!(lab, app.language) on:change=choose prop:value=move || tag_of(lab.language.get())>
+        <select data-testid="language" aria-label=say!(lab, app.language) on:change=choose prop:value=move || tag_of(lab.language.get())>
             {option(Locale::en, "English")}
             {option(Locale::pt_BR, "Português")}
         </select>

@@ -12,10 +12,18 @@ use super::format::NumberStyle;
 /// A text in the language of the laboratory, with its values filled in; follows a change of language.
 macro_rules! tr {
     ($lab:expr, $($key_and_values:tt)+) => {
-        leptos_i18n::td_string!($lab.language.get(), $($key_and_values)+)
+        leptos_i18n::td_string!(leptos::prelude::Get::get(&$lab.language), $($key_and_values)+)
     };
 }
 pub(crate) use tr;
+
+/// The same as a signal. Views take this rather than a closure: they are then compiled once, not once for each text.
+macro_rules! say {
+    ($lab:expr, $($key_and_values:tt)+) => {
+        leptos::prelude::Signal::derive(move || $crate::app::texts::tr!($lab, $($key_and_values)+).to_string())
+    };
+}
+pub(crate) use say;
 
 /// The language of a tag such as `pt-BR` or `en_GB`; English where it is not spoken here.
 pub fn language_of(tag: &str) -> Locale {

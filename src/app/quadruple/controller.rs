@@ -5,7 +5,7 @@ use leptos::prelude::*;
 use super::sentences::{self, with_analysis};
 use crate::app::lab::use_lab;
 use crate::app::start::Control;
-use crate::app::texts::tr;
+use crate::app::texts::{say, tr};
 use crate::app::widgets::{NumberField, Scale, Segmented, SliderField, rich};
 use crate::control::{AntiWindup, LoopMode, Pairing, PiSettings};
 use crate::interaction::PairingVerdict;
@@ -39,14 +39,14 @@ pub fn ControllerCard() -> impl IntoView {
     view! {
         <section class="card pi" aria-labelledby="pi-title">
             <header>
-                <h2 id="pi-title">{move || tr!(lab, pi.title)}</h2>
+                <h2 id="pi-title">{say!(lab, pi.title)}</h2>
                 <span class="remark">{remark}</span>
             </header>
             <PairingSwitch />
             <LoopControls index=0 />
             <LoopControls index=1 />
             <details class="more">
-                <summary data-testid="pi-more">{move || tr!(lab, pi.more)}</summary>
+                <summary data-testid="pi-more">{say!(lab, pi.more)}</summary>
                 <FinePrint />
             </details>
             <p class="sentence" class:warm=move || stability().1 role="status" data-testid="stability">
@@ -81,7 +81,7 @@ fn PairingSwitch() -> impl IntoView {
     let against = move || suggested.get().is_some_and(|s| s != pairing.get());
     view! {
         <Segmented
-            label=Signal::derive(move || tr!(lab, pi.pairing).to_string())
+            label=say!(lab, pi.pairing)
             choices=vec![
                 (Pairing::Diagonal, "pairing-diagonal", text(Pairing::Diagonal)),
                 (Pairing::Swapped, "pairing-swapped", text(Pairing::Swapped)),
@@ -111,7 +111,7 @@ fn LoopControls(index: usize) -> impl IntoView {
         <SliderField
             id=GAIN_IDS[index]
             label=format!("K{}", ["₁", "₂"][index])
-            name=Signal::derive(move || tr!(lab, pi.gain, level = index + 1).to_string())
+            name=say!(lab, pi.gain, level = index + 1)
             value=gain
             on_change=move |k| if k != 0.0 { edit(&move |l| l.gain = k) }
             travel=GAIN_TRAVEL
@@ -125,7 +125,7 @@ fn LoopControls(index: usize) -> impl IntoView {
         <SliderField
             id=INTEGRAL_IDS[index]
             label=format!("Ti{}", ["₁", "₂"][index])
-            name=Signal::derive(move || tr!(lab, pi.integral, level = index + 1).to_string())
+            name=say!(lab, pi.integral, level = index + 1)
             value=lab.part(move |s| s.controller.loops[index].integral_time_s)
             on_change=move |t| edit(&move |l| l.integral_time_s = t)
             travel=INTEGRAL_TRAVEL_S
@@ -158,8 +158,8 @@ fn FinePrint() -> impl IntoView {
     view! {
         <SliderField
             id=("weight", "weight-number")
-            label=Signal::derive(move || tr!(lab, pi.weight_label).to_string())
-            name=Signal::derive(move || tr!(lab, pi.weight).to_string())
+            label=say!(lab, pi.weight_label)
+            name=say!(lab, pi.weight)
             value=lab.part(|s| s.controller.loops[0].set_point_weight)
             on_change=move |b| both(&move |l| l.set_point_weight = b)
             travel=(limits::SET_POINT_WEIGHT.min, limits::SET_POINT_WEIGHT.max)
@@ -171,8 +171,8 @@ fn FinePrint() -> impl IntoView {
         />
         <SliderField
             id=("sampling", "sampling-number")
-            label=Signal::derive(move || tr!(lab, pi.sampling_label).to_string())
-            name=Signal::derive(move || tr!(lab, pi.sampling).to_string())
+            label=say!(lab, pi.sampling_label)
+            name=say!(lab, pi.sampling)
             value=lab.part(|s| s.controller.sampling_time_s)
             on_change=move |t| lab.edit(|s| s.controller.sampling_time_s = t)
             travel=lab.part(|s| { let l = limits::sampling_time_s(s.experiment.duration_s); (l.min, l.max) })
@@ -190,12 +190,12 @@ fn FinePrint() -> impl IntoView {
                 disabled=locked
                 on:change=switch_windup
             />
-            {move || tr!(lab, pi.antiwindup)}
+            {say!(lab, pi.antiwindup)}
         </label>
         <SliderField
             id=("tracking", "tracking-number")
-            label=Signal::derive(move || tr!(lab, pi.tracking_label).to_string())
-            name=Signal::derive(move || tr!(lab, pi.tracking).to_string())
+            label=say!(lab, pi.tracking_label)
+            name=say!(lab, pi.tracking)
             value=tracking
             on_change=move |ratio| both(&move |l| l.anti_windup = AntiWindup::BackCalculation { tracking_ratio: ratio })
             travel=(0.02, 20.0)
@@ -238,14 +238,14 @@ fn ManualMode(index: usize) -> impl IntoView {
         <div class="toolbar">
             <label class="check">
                 <input type="checkbox" data-testid=check_id prop:checked=move || parts.get().is_some() disabled=locked on:change=switch />
-                {move || tr!(lab, pi.manual, level = index + 1).to_string()}
+                {say!(lab, pi.manual, level = index + 1)}
             </label>
             <button
                 type="button"
                 class="button small"
                 data-testid=SIGN_IDS[index]
                 disabled=lab.locks(Control::Gains)
-                aria-label=move || tr!(lab, pi.sign, level = index + 1).to_string()
+                aria-label=say!(lab, pi.sign, level = index + 1)
                 on:click=move |_| lab.edit(|s| s.controller.loops[index].gain *= -1.0)
             >
                 "±K"{["₁", "₂"][index]}
@@ -256,7 +256,7 @@ fn ManualMode(index: usize) -> impl IntoView {
                 <div class="row wide">
                     <NumberField
                         id=until_id
-                        name=Signal::derive(move || tr!(lab, pi.manual_until, level = index + 1).to_string())
+                        name=say!(lab, pi.manual_until, level = index + 1)
                         value=Signal::derive(move || parts.get().map_or(0.0, |p| p.1))
                         on_change=move |until_s| if let Some((output, _)) = parts.get_untracked() { set(LoopMode::Manual { output, until_s }) }
                         limits=(limits::TIME_S.min, limits::TIME_S.max)
@@ -269,7 +269,7 @@ fn ManualMode(index: usize) -> impl IntoView {
                 <div class="row wide">
                     <NumberField
                         id=output_id
-                        name=Signal::derive(move || tr!(lab, pi.manual_output, level = index + 1).to_string())
+                        name=say!(lab, pi.manual_output, level = index + 1)
                         value=Signal::derive(move || parts.get().map_or(0.0, |p| p.0))
                         on_change=move |output| if let Some((_, until_s)) = parts.get_untracked() { set(LoopMode::Manual { output, until_s }) }
                         limits=range

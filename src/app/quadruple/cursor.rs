@@ -4,7 +4,7 @@ use gloo_timers::callback::Interval;
 use leptos::prelude::*;
 
 use crate::app::lab::use_lab;
-use crate::app::texts::tr;
+use crate::app::texts::{say, tr};
 
 /// Between two steps of a running cursor (ms).
 const TICK_MS: u32 = 50;
@@ -55,14 +55,14 @@ pub fn PlayControls() -> impl IntoView {
                 class="button"
                 data-testid="play"
                 aria-pressed=move || if playing.get() { "true" } else { "false" }
-                title=move || tr!(lab, experiment.play_name)
+                title=say!(lab, experiment.play_name)
                 on:click=move |_| if playing.get_untracked() { stop() } else { start() }
             >
                 {move || if playing.get() { format!("❚❚ {}", tr!(lab, experiment.pause)) } else { format!("▶ {}", tr!(lab, experiment.play)) }}
             </button>
             <select
                 data-testid="speed"
-                aria-label=move || tr!(lab, experiment.speed)
+                aria-label=say!(lab, experiment.speed)
                 on:change=move |event| if let Ok(choice) = event_target_value(&event).parse() { speed.set(choice) }
             >
                 {speeds}

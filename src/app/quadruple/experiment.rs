@@ -6,7 +6,7 @@ use super::cursor::PlayControls;
 use crate::app::lab::{Lab, use_lab};
 use crate::app::shown::{CM3_PER_M3, MM2_PER_M2, to_metres, to_shown, unit_name};
 use crate::app::start::Control;
-use crate::app::texts::tr;
+use crate::app::texts::{say, tr};
 use crate::app::widgets::{NumberField, Scale, SliderField};
 use crate::scenario::limits;
 use crate::sim::{Experiment, Load, LoadStep, SetPointStep};
@@ -34,15 +34,15 @@ pub fn ExperimentCard() -> impl IntoView {
     view! {
         <section class="card experiment" aria-labelledby="experiment-title">
             <header>
-                <h2 id="experiment-title">{move || tr!(lab, experiment.title)}</h2>
-                <span class="remark">{move || tr!(lab, experiment.remark)}</span>
+                <h2 id="experiment-title">{say!(lab, experiment.title)}</h2>
+                <span class="remark">{say!(lab, experiment.remark)}</span>
             </header>
             {(0..2).map(|level| view! { <ReferenceStep level /> }).collect_view()}
             <LoadControls />
             <SliderField
                 id=("noise", "noise-number")
-                label=Signal::derive(move || tr!(lab, experiment.noise).to_string())
-                name=Signal::derive(move || tr!(lab, experiment.noise_name).to_string())
+                label=say!(lab, experiment.noise)
+                name=say!(lab, experiment.noise_name)
                 value=Signal::derive(move || to_shown(noise.get(), unit.get()))
                 on_change=move |v| { let m = to_metres(v, unit.get_untracked()); lab.edit(|s| s.experiment.measurement.noise_std = m) }
                 travel=Signal::derive(move || (0.0, to_shown(0.005, unit.get())))
@@ -54,8 +54,8 @@ pub fn ExperimentCard() -> impl IntoView {
             />
             <SliderField
                 id=("duration", "duration-number")
-                label=Signal::derive(move || tr!(lab, experiment.duration).to_string())
-                name=Signal::derive(move || tr!(lab, experiment.duration_name).to_string())
+                label=say!(lab, experiment.duration)
+                name=say!(lab, experiment.duration_name)
                 value=lab.part(|s| s.experiment.duration_s)
                 on_change=move |t| lab.edit(|s| s.experiment.duration_s = t)
                 travel=(100.0, 20_000.0)
@@ -74,7 +74,7 @@ pub fn ExperimentCard() -> impl IntoView {
                     disabled=locked
                     on:change=move |event| { let on = event_target_checked(&event); lab.edit(|s| s.experiment.measurement.quantised = on) }
                 />
-                {move || tr!(lab, experiment.quantised)}
+                {say!(lab, experiment.quantised)}
             </label>
             {move || (further.get() > 0).then(|| view! { <p class="remark">{tr!(lab, experiment.further, count = further.get()).to_string()}</p> })}
             <PlayControls />
@@ -119,25 +119,27 @@ fn ReferenceStep(level: usize) -> impl IntoView {
         (-reach, reach)
     });
     view! {
-        <SliderField
-            id=REFERENCE_IDS[level]
-            label=format!("r{}", ["₁", "₂"][level])
-            name=Signal::derive(move || tr!(lab, experiment.reference, level = level + 1).to_string())
-            value=Signal::derive(move || step.get().map_or(0.0, |s| to_shown(s.size, unit.get())))
-            on_change=move |v| { let size = to_metres(v, unit.get_untracked()); edit_step(lab, level, move |s| s.size = size) }
-            travel
-            scale=Scale::Linear(0.01)
-            digits=Some(2)
-            unit=Signal::derive(move || unit_name(unit.get()).to_owned())
-            class=if level == 0 { "wide loop1-row" } else { "wide loop2-row" }
-            disabled=locked
-        />
-        <TimeField
-            id=TIME_IDS[level]
-            name=Signal::derive(move || tr!(lab, experiment.reference_time, level = level + 1).to_string())
-            value=Signal::derive(move || step.get().map_or(FIRST_STEP_AT_S, |s| s.time_s))
-            on_change=move |t| edit_step(lab, level, move |s| s.time_s = t)
-        />
+        <div class="timed">
+            <SliderField
+                id=REFERENCE_IDS[level]
+                label=format!("r{}", ["₁", "₂"][level])
+                name=say!(lab, experiment.reference, level = level + 1)
+                value=Signal::derive(move || step.get().map_or(0.0, |s| to_shown(s.size, unit.get())))
+                on_change=move |v| { let size = to_metres(v, unit.get_untracked()); edit_step(lab, level, move |s| s.size = size) }
+                travel
+                scale=Scale::Linear(0.01)
+                digits=Some(2)
+                unit=Signal::derive(move || unit_name(unit.get()).to_owned())
+                class=if level == 0 { "loop1-row" } else { "loop2-row" }
+                disabled=locked
+            />
+            <TimeField
+                id=TIME_IDS[level]
+                name=say!(lab, experiment.reference_time, level = level + 1)
+                value=Signal::derive(move || step.get().map_or(FIRST_STEP_AT_S, |s| s.time_s))
+                on_change=move |t| edit_step(lab, level, move |s| s.time_s = t)
+            />
+        </div>
     }
 }
 
@@ -151,9 +153,8 @@ fn TimeField(
 ) -> impl IntoView {
     let lab = use_lab();
     view! {
-        <div class="row wide at">
-            <span></span>
-            <span class="unit">{move || tr!(lab, experiment.at)}</span>
+        <div class="at">
+            <span class="unit">{say!(lab, experiment.at)}</span>
             <NumberField
                 id
                 name
@@ -222,14 +223,14 @@ fn LoadControls() -> impl IntoView {
     };
     view! {
         <div class="row load">
-            <label for="load-kind">{move || tr!(lab, experiment.load)}</label>
+            <label for="load-kind">{say!(lab, experiment.load)}</label>
             <select id="load-kind" data-testid="load-kind" disabled=locked on:change=choose>{options}</select>
         </div>
-        {move || step.get().is_some().then(|| view! {
+        {move || step.get().is_some().then(|| view! { <div class="timed">
             <SliderField
                 id=("load-size", "load-size-number")
                 label=String::new()
-                name=Signal::derive(move || tr!(lab, experiment.load_size).to_string())
+                name=say!(lab, experiment.load_size)
                 value=size
                 on_change=set_size
                 travel=Signal::derive(move || if is_leak() { (0.0, 10.0) } else { (-5.0, 5.0) })
@@ -241,16 +242,15 @@ fn LoadControls() -> impl IntoView {
                 scale=Scale::Linear(0.1)
                 digits=Some(2)
                 unit=Signal::derive(move || if is_leak() { "mm²" } else { "cm³/s" }.to_owned())
-                class="wide"
                 disabled=locked
             />
             <TimeField
                 id="load-time"
-                name=Signal::derive(move || tr!(lab, experiment.load_time).to_string())
+                name=say!(lab, experiment.load_time)
                 value=Signal::derive(move || step.get().map_or(0.0, |s| s.time_s))
                 on_change=move |t| edit(&move |s| s.time_s = t)
             />
-        })}
+        </div> })}
     }
 }
 

@@ -4,7 +4,7 @@ use leptos::prelude::*;
 
 use crate::app::lab::{Lab, use_lab};
 use crate::app::shown::{length_digits, per_metre, to_shown, unit_name};
-use crate::app::texts::tr;
+use crate::app::texts::{say, tr};
 use crate::sim::{LoopMetrics, Settling};
 
 /// A row of the table: its name, the class of its colour, its figures.
@@ -14,7 +14,7 @@ struct Row {
     metrics: LoopMetrics,
 }
 
-/// Metrics of the nonlinear and the linear run and of the pinned ones.
+/// Metrics of the nonlinear run and of the pinned ones.
 #[component]
 pub fn MetricsTable() -> impl IntoView {
     let lab = use_lab();
@@ -23,9 +23,9 @@ pub fn MetricsTable() -> impl IntoView {
     let column = |text: Signal<String>| view! { <th scope="col">{text}</th> };
     let plain = move |read: fn(Lab) -> String| column(Signal::derive(move || read(lab)));
     view! {
-        <div class="scroll" tabindex="0" role="region" aria-label=move || tr!(lab, responses.metrics)>
+        <div class="scroll" tabindex="0" role="region" aria-label=say!(lab, responses.metrics)>
             <table class="plain" data-testid="metrics">
-                <caption class="visually-hidden">{move || tr!(lab, responses.metrics)}</caption>
+                <caption class="visually-hidden">{say!(lab, responses.metrics)}</caption>
                 <thead>
                     <tr>
                         {plain(|lab| tr!(lab, responses.run).to_string())}
@@ -34,10 +34,10 @@ pub fn MetricsTable() -> impl IntoView {
                         {plain(|lab| tr!(lab, responses.settling_5).to_string())}
                         {plain(|lab| tr!(lab, responses.overshoot).to_string())}
                         {plain(|lab| tr!(lab, responses.undershoot).to_string())}
-                        {column(Signal::derive(move || tr!(lab, responses.other, unit = unit()).to_string()))}
-                        {column(Signal::derive(move || tr!(lab, responses.iae, unit = unit()).to_string()))}
-                        {column(Signal::derive(move || tr!(lab, responses.ise, unit = unit()).to_string()))}
-                        {column(Signal::derive(move || tr!(lab, responses.itae, unit = unit()).to_string()))}
+                        {column(say!(lab, responses.other, unit = unit()))}
+                        {column(say!(lab, responses.iae, unit = unit()))}
+                        {column(say!(lab, responses.ise, unit = unit()))}
+                        {column(say!(lab, responses.itae, unit = unit()))}
                         {plain(|lab| tr!(lab, responses.variation).to_string())}
                         {plain(|lab| tr!(lab, responses.saturated).to_string())}
                     </tr>
@@ -50,18 +50,11 @@ pub fn MetricsTable() -> impl IntoView {
 
 fn rows(lab: Lab) -> Vec<Row> {
     let class = |k: usize| ["loop1", "loop2"][k];
-    let hide_linear = lab.scenario.with(|s| s.view.hide_linear);
     let mut rows = Vec::new();
     lab.run.with(|outcome| {
         let Ok(run) = outcome.as_ref() else { return };
         for (k, &metrics) in run.metrics.iter().enumerate() {
             rows.push(Row { name: tr!(lab, responses.row, number = k + 1).to_string(), class: class(k), metrics });
-        }
-        if !hide_linear {
-            for (k, &metrics) in run.linear_metrics.iter().enumerate() {
-                let name = tr!(lab, responses.row_linear, number = k + 1).to_string();
-                rows.push(Row { name, class: class(k), metrics });
-            }
         }
     });
     lab.pinned.with(|runs| {

@@ -31,14 +31,16 @@ pub fn QuadrupleTankBench() -> impl IntoView {
     let chosen = lab.flags.with_value(|f| !f.panels.is_empty());
     view! {
         <main class=if chosen { "bench chosen" } else { "bench" } id="bench">
-            <div class="side left">{shows(Panel::Process).then(|| view! { <process::ProcessCard /> }.into_any())}</div>
+            <div class="side left">
+                {shows(Panel::Process).then(|| view! { <process::ProcessCard /> }.into_any())}
+                {shows(Panel::Why).then(|| view! { <why::WhyCard /> }.into_any())}
+            </div>
             {shows(Panel::Valves).then(|| view! { <valves::ValvePlaneCard /> }.into_any())}
             {shows(Panel::Zeros).then(|| view! { <poles::PolesAndZerosCard /> }.into_any())}
             {shows(Panel::Rga).then(|| view! { <rga::RelativeGainCard /> }.into_any())}
             <div class="side right">
                 {shows(Panel::Controller).then(|| view! { <controller::ControllerCard /> }.into_any())}
                 {shows(Panel::Experiment).then(|| view! { <experiment::ExperimentCard /> }.into_any())}
-                {shows(Panel::Why).then(|| view! { <why::WhyCard /> }.into_any())}
             </div>
             {shows(Panel::Responses).then(|| view! { <responses::ResponsesCard /> }.into_any())}
         </main>

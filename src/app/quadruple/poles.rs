@@ -5,7 +5,7 @@ use leptos::prelude::*;
 use super::pictures;
 use super::sentences::{self, with_analysis};
 use crate::app::lab::{Lab, use_lab};
-use crate::app::texts::tr;
+use crate::app::texts::{say, tr};
 use crate::app::widgets::{ChartCanvas, ChartMenu, rich};
 use crate::figure::Frame;
 use crate::linear::Complex;
@@ -16,13 +16,13 @@ pub fn PolesAndZerosCard() -> impl IntoView {
     let lab = use_lab();
     let frames = RwSignal::new(Vec::<Frame>::new());
     let picture = pictures::pole_zero(lab);
-    let title = Signal::derive(move || tr!(lab, zeros.title).to_string());
+    let title = say!(lab, zeros.title);
     let summary = Signal::derive(move || summary(lab));
     view! {
         <section class="card zeros" aria-labelledby="zeros-title">
             <header>
                 <h2 id="zeros-title">{title}</h2>
-                <span class="remark">{move || tr!(lab, zeros.remark)}</span>
+                <span class="remark">{say!(lab, zeros.remark)}</span>
                 <ChartMenu picture=picture.clone() file="poles-and-zeros" title />
             </header>
             <div class="chart">

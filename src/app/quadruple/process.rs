@@ -7,9 +7,9 @@ use super::published::PublishedFigures;
 use super::rig::Rig;
 use super::sentences;
 use crate::app::lab::use_lab;
-use crate::app::preset::PresetChoice;
+use crate::app::preset::{PresetChoice, PresetRemark};
 use crate::app::start::Control;
-use crate::app::texts::tr;
+use crate::app::texts::{say, tr};
 use crate::app::widgets::{NumberField, Scale, SliderField, rich};
 use crate::scenario::{OperatingPointSpec, Setup};
 
@@ -30,10 +30,10 @@ pub fn ProcessCard() -> impl IntoView {
     view! {
         <section class="card process" aria-labelledby="process-title">
             <header>
-                <h2 id="process-title">{move || tr!(lab, process.title)}</h2>
-                <span class="remark">{remark}</span>
+                <h2 id="process-title">{say!(lab, process.title)}</h2>
                 <PresetChoice />
             </header>
+            <p class="remark moment">{Signal::derive(remark)}</p>
             <Rig />
             <div>{(0..2).map(|valve| view! { <ValveSlider valve /> }).collect_view()}</div>
             <div
@@ -45,7 +45,8 @@ pub fn ProcessCard() -> impl IntoView {
                 {warnings}
             </div>
             <details class="more">
-                <summary>{move || tr!(lab, process.operating_point)}</summary>
+                <summary>{say!(lab, process.operating_point)}</summary>
+                <PresetRemark />
                 <div class="fields">{(0..2).map(|pump| view! { <VoltageField pump /> }).collect_view()}</div>
                 <PublishedFigures />
             </details>
@@ -60,7 +61,7 @@ fn ValveSlider(valve: usize) -> impl IntoView {
         <SliderField
             id=GAMMA_IDS[valve]
             label=Signal::derive(move || format!("γ{}", ["₁", "₂"][valve]))
-            name=Signal::derive(move || tr!(lab, process.gamma, pump = valve + 1).to_string())
+            name=say!(lab, process.gamma, pump = valve + 1)
             value=lab.part(move |s| s.valves[valve])
             on_change=move |v| lab.edit(|s| s.valves[valve] = v)
             travel=(0.0, 1.0)
@@ -93,7 +94,7 @@ fn VoltageField(pump: usize) -> impl IntoView {
             <span>{format!("v{}", ["₁", "₂"][pump])}</span>
             <NumberField
                 id=VOLTAGE_IDS[pump]
-                name=Signal::derive(move || tr!(lab, process.voltage, pump = pump + 1).to_string())
+                name=say!(lab, process.voltage, pump = pump + 1)
                 value
                 on_change
                 limits=range

@@ -5,7 +5,7 @@ use leptos::prelude::*;
 use super::sentences::with_analysis;
 use crate::app::lab::use_lab;
 use crate::app::shown::{length_digits, to_shown, unit_name};
-use crate::app::texts::tr;
+use crate::app::texts::{say, tr};
 use crate::plant::Preset;
 use crate::scenario::PlantSpec;
 
@@ -45,13 +45,13 @@ pub fn PublishedFigures() -> impl IntoView {
         })
     };
     view! {
-        <div class="scroll" tabindex="0" role="region" aria-label=move || tr!(lab, process.operating_point)>
+        <div class="scroll" tabindex="0" role="region" aria-label=say!(lab, process.operating_point)>
             <table class="plain" data-testid="published">
                 <thead>
                     <tr>
-                        <th scope="col">{move || tr!(lab, process.quantity)}</th>
-                        <th scope="col">{move || tr!(lab, process.exact)}</th>
-                        <th scope="col">{move || tr!(lab, process.printed)}</th>
+                        <th scope="col">{say!(lab, process.quantity)}</th>
+                        <th scope="col">{say!(lab, process.exact)}</th>
+                        <th scope="col">{say!(lab, process.printed)}</th>
                     </tr>
                 </thead>
                 <tbody>{rows}</tbody>

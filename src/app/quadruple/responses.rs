@@ -8,7 +8,7 @@ use super::moment::{Moment, use_moment};
 use super::pictures;
 use crate::app::lab::{Lab, use_lab};
 use crate::app::shown::{length_digits, to_shown, unit_name};
-use crate::app::texts::tr;
+use crate::app::texts::{say, tr};
 use crate::app::widgets::{ChartCanvas, ChartMenu, Picture, rich};
 use crate::figure::{Frame, Table, table};
 use crate::scenario::Scenario;
@@ -32,8 +32,8 @@ pub fn ResponsesCard() -> impl IntoView {
     let frames = RwSignal::new(Vec::<Frame>::new());
     let picture = pictures::responses(lab);
     let table_picture = picture.clone();
-    let title = Signal::derive(move || tr!(lab, responses.title).to_string());
-    let summary = Signal::derive(move || tr!(lab, responses.summary, sentence = sentence(lab).replace("**", "")).to_string());
+    let title = say!(lab, responses.title);
+    let summary = say!(lab, responses.summary, sentence = sentence(lab).replace("**", ""));
     view! {
         <section class="card responses" aria-labelledby="responses-title">
             <header>
@@ -71,7 +71,7 @@ fn Toolbar() -> impl IntoView {
     let linear = move || lab.scenario.with(|s| !s.view.hide_linear);
     view! {
         <div class="toolbar">
-            <button type="button" class="button small" data-testid="pin" on:click=pin>{move || tr!(lab, responses.pin)}</button>
+            <button type="button" class="button small" data-testid="pin" on:click=pin>{say!(lab, responses.pin)}</button>
             {move || (count() > 0).then(|| view! {
                 <button type="button" class="button small" data-testid="unpin" on:click=move |_| lab.scenario.update(|s| s.pinned.clear())>
                     {tr!(lab, responses.unpin)}
@@ -84,11 +84,11 @@ fn Toolbar() -> impl IntoView {
                 aria-pressed=move || if linear() { "true" } else { "false" }
                 on:click=move |_| lab.scenario.update(|s| s.view.hide_linear = !s.view.hide_linear)
             >
-                {move || tr!(lab, responses.hide_linear)}
+                {say!(lab, responses.hide_linear)}
             </button>
-            <button type="button" class="button small" data-testid="zoom-in" aria-label=move || tr!(lab, responses.zoom_in) on:click=move |_| zoom(lab, ZOOM, None)>"+"</button>
-            <button type="button" class="button small" data-testid="zoom-out" aria-label=move || tr!(lab, responses.zoom_out) on:click=move |_| zoom(lab, 1.0 / ZOOM, None)>"−"</button>
-            <button type="button" class="button small" data-testid="zoom-reset" on:click=move |_| show(lab, None)>{move || tr!(lab, responses.zoom_reset)}</button>
+            <button type="button" class="button small" data-testid="zoom-in" aria-label=say!(lab, responses.zoom_in) on:click=move |_| zoom(lab, ZOOM, None)>"+"</button>
+            <button type="button" class="button small" data-testid="zoom-out" aria-label=say!(lab, responses.zoom_out) on:click=move |_| zoom(lab, 1.0 / ZOOM, None)>"−"</button>
+            <button type="button" class="button small" data-testid="zoom-reset" on:click=move |_| show(lab, None)>{say!(lab, responses.zoom_reset)}</button>
         </div>
     }
 }
@@ -202,7 +202,7 @@ fn Surface(frames: RwSignal<Vec<Frame>>) -> impl IntoView {
             tabindex="0"
             role="slider"
             data-testid="responses-surface"
-            aria-label=move || tr!(lab, responses.cursor)
+            aria-label=say!(lab, responses.cursor)
             aria-valuemin="0"
             aria-valuemax=move || lab.scenario.with(|s| s.setup.experiment.duration_s).to_string()
             aria-valuenow=move || cursor.get().unwrap_or(0.0).to_string()
@@ -350,7 +350,7 @@ fn DataTable(picture: Picture) -> impl IntoView {
     };
     view! {
         <details class="more" on:toggle=move |_| open.update(|o| *o = !*o)>
-            <summary data-testid="data-table">{move || tr!(lab, responses.table)}</summary>
+            <summary data-testid="data-table">{say!(lab, responses.table)}</summary>
             {move || open.get().then(content.clone())}
         </details>
     }

@@ -4,7 +4,7 @@ use leptos::prelude::*;
 
 use super::sentences::with_analysis;
 use crate::app::lab::{Lab, use_lab};
-use crate::app::texts::tr;
+use crate::app::texts::{say, tr};
 use crate::app::widgets::rich;
 use crate::interaction::{PairingReason, PairingVerdict};
 
@@ -17,11 +17,11 @@ pub fn RelativeGainCard() -> impl IntoView {
     view! {
         <section class="card rga" aria-labelledby="rga-title">
             <header>
-                <h2 id="rga-title">{move || tr!(lab, rga.title)}</h2>
-                <span class="remark">{move || tr!(lab, rga.remark)}</span>
+                <h2 id="rga-title">{say!(lab, rga.title)}</h2>
+                <span class="remark">{say!(lab, rga.remark)}</span>
             </header>
             <Gains />
-            <div class="formula" role="region" tabindex="0" aria-label=move || tr!(lab, rga.title)><Formula /></div>
+            <div class="formula" role="region" tabindex="0" aria-label=say!(lab, rga.title)><Formula /></div>
             <div class=move || if warm() { "verdict warm" } else { "verdict" } role="status" data-testid="rga-verdict">
                 <p>{move || rich(&verdict().map(|v| of_verdict(lab, v)).unwrap_or_else(|| tr!(lab, process.no_equilibrium).to_string()))}</p>
             </div>
@@ -50,11 +50,11 @@ fn Gains() -> impl IntoView {
         let note = move || chosen(row, column).then(|| view! { <span class="visually-hidden">{format!(" ({})", tr!(lab, rga.suggested))}</span> });
         view! { <td class=class><span data-testid=format!("lambda-{}{}", row + 1, column + 1)>{text}</span>{note}</td> }
     };
-    let heading = move |column: usize| view! { <th scope="col">{move || tr!(lab, rga.pump, number = column + 1).to_string()}</th> };
+    let heading = move |column: usize| view! { <th scope="col">{say!(lab, rga.pump, number = column + 1)}</th> };
     let row = move |row: usize| {
         view! {
             <tr>
-                <th scope="row">{move || tr!(lab, rga.level, number = row + 1).to_string()}</th>
+                <th scope="row">{say!(lab, rga.level, number = row + 1)}</th>
                 {cell(row, 0)}
                 {cell(row, 1)}
             </tr>
@@ -62,7 +62,7 @@ fn Gains() -> impl IntoView {
     };
     view! {
         <table class="gains">
-            <caption class="visually-hidden">{move || tr!(lab, rga.table)}</caption>
+            <caption class="visually-hidden">{say!(lab, rga.table)}</caption>
             <thead><tr><td></td>{heading(0)}{heading(1)}</tr></thead>
             <tbody>{row(0)}{row(1)}</tbody>
         </table>

@@ -5,7 +5,7 @@ use leptos::prelude::*;
 use super::moment::{Moment, use_moment};
 use crate::app::lab::use_lab;
 use crate::app::shown::{length_digits, to_shown, unit_name};
-use crate::app::texts::tr;
+use crate::app::texts::{say, tr};
 use crate::plant::{Disturbance, QuadrupleTank};
 use crate::scenario::Setup;
 
@@ -57,10 +57,10 @@ pub fn Rig() -> impl IntoView {
 #[component]
 fn Pipes() -> impl IntoView {
     view! {
-        <path class="pipe" d="M42 258 V18 H194 V34" />
-        <path class="pipe" d="M42 148 H80 V152" />
-        <path class="pipe" d="M234 258 V26 H82 V34" />
-        <path class="pipe" d="M234 148 H196 V152" />
+        <path class="pipe" d="M42 258 V18 H206 V34" />
+        <path class="pipe" d="M42 148 H70 V152" />
+        <path class="pipe" d="M234 258 V26 H70 V34" />
+        <path class="pipe" d="M234 148 H206 V152" />
     }
 }
 
@@ -109,7 +109,7 @@ fn TankView(tank: usize, plant: Signal<QuadrupleTank>) -> impl IntoView {
     view! {
         <path class=colour d=water stroke-width="0" />
         <path class="wall" d=walls />
-        <text class="name" x=left + 4.0 y=top + 12.0>{move || tr!(lab, process.tank, number = tank + 1).to_string()}</text>
+        <text class="name" x=middle y=top + 12.0 text-anchor="middle">{say!(lab, process.tank, number = tank + 1)}</text>
         <text class="value" x=middle y=top + TANK.1 - 8.0 text-anchor="middle" data-testid=format!("rig-level-{}", tank + 1)>
             {shown}
         </text>
@@ -123,7 +123,7 @@ fn streams(plant: &QuadrupleTank, moment: &Moment) -> impl IntoView + use<> {
     let inflow = plant.valve_flows(&moment.pump_voltage, &Disturbance::default());
     let outflow = plant.outflows(&moment.levels);
     let width = move |flow: f64| format!("{:.2}", (flow / most).clamp(0.0, 1.5).sqrt() * WIDEST_STREAM);
-    let inlets = [(80.0, 152.0, 1), (196.0, 152.0, 2), (82.0, 34.0, 2), (194.0, 34.0, 1)];
+    let inlets = [(70.0, 152.0, 1), (206.0, 152.0, 2), (70.0, 34.0, 2), (206.0, 34.0, 1)];
     let falling = inlets.into_iter().zip(inflow).zip(TANKS).zip(moment.levels).zip(plant.tanks).map(
         move |((((inlet, flow), (_, top)), level), tank)| {
             let (x, y, pump) = inlet;
@@ -135,7 +135,7 @@ fn streams(plant: &QuadrupleTank, moment: &Moment) -> impl IntoView + use<> {
     let drains = TANKS.into_iter().zip(outflow).enumerate().map(move |(tank, ((left, top), flow))| {
         // The upper tanks pour into the lower ones; the lower ones into the basin.
         let below = if tank < 2 { 268.0 } else { TANKS[tank - 2].1 + 14.0 };
-        let x = left + TANK.0 / 2.0 - 4.0;
+        let x = left + TANK.0 / 2.0;
         view! { <line class="flow drain" x1=x y1=top + TANK.1 + 1.0 x2=x y2=below stroke-width=width(flow) /> }
     });
     (falling.collect_view(), drains.collect_view())

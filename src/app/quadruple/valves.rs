@@ -7,7 +7,7 @@ use super::{pictures, sentences};
 use crate::app::lab::{Lab, use_lab};
 use crate::app::preset::{load, name_of};
 use crate::app::start::Control;
-use crate::app::texts::tr;
+use crate::app::texts::{say, tr};
 use crate::app::widgets::{ChartCanvas, ChartMenu, rich};
 use crate::figure::Frame;
 use crate::plant::PresetId;
@@ -22,7 +22,7 @@ pub fn ValvePlaneCard() -> impl IntoView {
     let lab = use_lab();
     let frames = RwSignal::new(Vec::<Frame>::new());
     let picture = pictures::valve_plane(lab);
-    let title = Signal::derive(move || tr!(lab, valves.title).to_string());
+    let title = say!(lab, valves.title);
     let summary = move || {
         let [g1, g2] = lab.scenario.with(|s| s.setup.valves);
         let style = lab.number_style();
@@ -32,7 +32,7 @@ pub fn ValvePlaneCard() -> impl IntoView {
         <section class="card plane" aria-labelledby="plane-title">
             <header>
                 <h2 id="plane-title">{title}</h2>
-                <span class="remark">{move || tr!(lab, valves.remark)}</span>
+                <span class="remark">{say!(lab, valves.remark)}</span>
                 <ChartMenu picture=picture.clone() file="valve-plane" title />
             </header>
             <div class="chart square">
@@ -188,7 +188,7 @@ fn Handle(frame: Frame, lab: Lab) -> impl IntoView {
             role="slider"
             tabindex="0"
             data-testid="valve-handle"
-            aria-label=move || tr!(lab, valves.handle)
+            aria-label=say!(lab, valves.handle)
             aria-valuemin="0"
             aria-valuemax="1"
             aria-valuenow=move || format!("{:.2}", valves.get()[0])

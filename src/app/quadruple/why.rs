@@ -5,7 +5,7 @@ use leptos::prelude::*;
 use super::sentences::{ZeroSituation, situation, with_analysis};
 use crate::app::lab::use_lab;
 use crate::app::shown::{to_shown, unit_name};
-use crate::app::texts::tr;
+use crate::app::texts::{say, tr};
 
 /// ∫ ηᵀe(t) e^(−zt) dt = ηᵀr/z for every stabilising controller.
 #[component]
@@ -25,14 +25,14 @@ pub fn WhyCard() -> impl IntoView {
     };
     view! {
         <section class="card why" aria-labelledby="why-title">
-            <header><h2 id="why-title">{move || tr!(lab, why.title)}</h2></header>
+            <header><h2 id="why-title">{say!(lab, why.title)}</h2></header>
             <p class="sentence" data-testid="why">{text}</p>
             {move || constraint().map(|integral| {
                 let unit = lab.unit().get();
                 let style = lab.number_style();
                 let value = style.significant(to_shown(integral, unit), 3);
                 view! {
-                    <div class="formula" role="region" tabindex="0" aria-label=move || tr!(lab, why.title)>
+                    <div class="formula" role="region" tabindex="0" aria-label=say!(lab, why.title)>
                         <math>
                             <msubsup><mo>"∫"</mo><mn>"0"</mn><mi>"∞"</mi></msubsup>
                             <msup><mi>"η"</mi><mi>"T"</mi></msup><mi>"e"</mi><mo>"("</mo><mi>"t"</mi><mo>")"</mo>
