@@ -45,7 +45,7 @@ pub fn Laboratory() -> impl IntoView {
             {(!embed).then(|| view! { <Header /> })}
             <Notices />
             <QuadrupleTankBench />
-            <Footer embed />
+            {embed.then(|| view! { <EmbedFooter /> })}
         </div>
     }
 }
@@ -93,6 +93,13 @@ fn Header() -> impl IntoView {
                 {say!(lab, app.share)}
             </button>
             <FileMenu />
+            <details class="menu about">
+                <summary>{say!(lab, app.about)}</summary>
+                <div>
+                    <p>{say!(lab, app.footer)}</p>
+                    <p>{say!(lab, app.licence)}</p>
+                </div>
+            </details>
             <LanguageChoice />
             <ThemeSwitch />
         </header>
@@ -215,18 +222,14 @@ fn of_error(lab: Lab, error: &ScenarioError) -> String {
     }
 }
 
+/// In a course page: the way to the whole laboratory, which is this page without its query.
 #[component]
-fn Footer(embed: bool) -> impl IntoView {
+fn EmbedFooter() -> impl IntoView {
     let lab = use_lab();
+    let page = window().location().pathname().unwrap_or_default();
     view! {
         <footer class="page">
-            {move || if embed {
-                // The full lab is the same page without its query.
-                let page = window().location().pathname().unwrap_or_default();
-                view! { <a href=page target="_blank" rel="noopener">{tr!(lab, app.embedded)}</a> }.into_any()
-            } else {
-                view! { <span>{tr!(lab, app.footer)}</span> }.into_any()
-            }}
+            <a href=page target="_blank" rel="noopener">{say!(lab, app.embedded)}</a>
         </footer>
     }
 }

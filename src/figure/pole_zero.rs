@@ -5,7 +5,7 @@ use super::{Anchor, Axis, Chart, Course, Entry, Label, Layer, Marker, Pen, Role,
 /// A zero or a closed-loop pole farther out than this many times the fastest open-loop pole is only pointed at.
 const REACH: f64 = 5.0;
 /// Zeros closer than this share of the axis have their numbers on different sides.
-const CLOSE: f64 = 0.25;
+const CLOSE: f64 = 0.5;
 /// Significant digits of the numbers beside zeros.
 const DIGITS: usize = 3;
 

@@ -91,9 +91,7 @@ fn Formula() -> impl IntoView {
             <mo>"="</mo>
             <mfrac>
                 <mrow><mn>{move || number(valves.get()[0])}</mn><mo>"·"</mo><mn>{move || number(valves.get()[1])}</mn></mrow>
-                <mrow>
-                    <mn>{move || number(valves.get()[0])}</mn><mo>"+"</mo><mn>{move || number(valves.get()[1])}</mn><mo>"−"</mo><mn>"1"</mn>
-                </mrow>
+                <mn>{move || number(valves.get()[0] + valves.get()[1] - 1.0)}</mn>
             </mfrac>
             <mo>"="</mo>
             <mn data-testid="lambda">{value}</mn>

@@ -14,6 +14,8 @@ const TANKS: [(f64, f64); 4] = [(62.0, 158.0), (150.0, 158.0), (62.0, 40.0), (15
 const TANK: (f64, f64) = (64.0, 78.0);
 /// Width of a stream that carries the most a pump can deliver.
 const WIDEST_STREAM: f64 = 7.0;
+/// A trapezoidal tank is drawn with at least this share of its brim at the bottom, so that its level can be read.
+const LEAST_BOTTOM: f64 = 0.6;
 /// The valves, left and right.
 const VALVES: [(f64, f64); 2] = [(42.0, 148.0), (234.0, 148.0)];
 
@@ -78,7 +80,7 @@ fn TankView(tank: usize, plant: Signal<QuadrupleTank>) -> impl IntoView {
         plant.with(|p| {
             let section = p.tanks[tank].section;
             let (bottom, brim) = (section.area(0.0), section.area(p.tanks[tank].height));
-            TANK.0 * (1.0 - (bottom / brim).clamp(0.3, 1.0))
+            TANK.0 * (1.0 - (bottom / brim).clamp(LEAST_BOTTOM, 1.0))
         })
     };
     let walls = move || {
@@ -110,7 +112,7 @@ fn TankView(tank: usize, plant: Signal<QuadrupleTank>) -> impl IntoView {
         <path class=colour d=water stroke-width="0" />
         <path class="wall" d=walls />
         <text class="name" x=middle y=top + 12.0 text-anchor="middle">{say!(lab, process.tank, number = tank + 1)}</text>
-        <text class="value" x=middle y=top + TANK.1 - 8.0 text-anchor="middle" data-testid=format!("rig-level-{}", tank + 1)>
+        <text class="value" x=move || middle - lean() / 2.0 y=top + TANK.1 - 8.0 text-anchor="middle" data-testid=format!("rig-level-{}", tank + 1)>
             {shown}
         </text>
         <text class="alarm" x=middle y=top + 26.0 text-anchor="middle">{alarm}</text>

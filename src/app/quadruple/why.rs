@@ -35,13 +35,13 @@ pub fn WhyCard() -> impl IntoView {
                     <div class="formula" role="region" tabindex="0" aria-label=say!(lab, why.title)>
                         <math>
                             <msubsup><mo>"∫"</mo><mn>"0"</mn><mi>"∞"</mi></msubsup>
-                            <msup><mi>"η"</mi><mi>"T"</mi></msup><mi>"e"</mi><mo>"("</mo><mi>"t"</mi><mo>")"</mo>
+                            <msup><mi>"η"</mi><mi>"T"</mi></msup><mi>"e"</mi><mo stretchy="false">"("</mo><mi>"t"</mi><mo stretchy="false">")"</mo>
                             <msup><mi>"e"</mi><mrow><mo>"−"</mo><mi>"z"</mi><mi>"t"</mi></mrow></msup>
                             <mi>"d"</mi><mi>"t"</mi>
                             <mo>"="</mo>
                             <mfrac><mrow><msup><mi>"η"</mi><mi>"T"</mi></msup><mi>"r"</mi></mrow><mi>"z"</mi></mfrac>
                             <mo>"="</mo>
-                            <mn>{value}</mn><mtext>{format!(" {} s", unit_name(unit))}</mtext>
+                            <mn>{value}</mn><mtext>{format!("\u{a0}{}\u{a0}s", unit_name(unit))}</mtext>
                         </math>
                     </div>
                     <p class="sentence">{tr!(lab, why.right_end)}</p>
