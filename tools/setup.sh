@@ -63,7 +63,7 @@ crates() {
 node_modules() {
   [ $E2E/node_modules/.package-lock.json -nt $E2E/package-lock.json ] || {
     say "Playwright, axe and wasm-opt, as in $E2E/package-lock.json"
-    PLAYWRIGHT_SKIP_BROWSER_DOWNLOAD=1 npm ci --prefix $E2E --no-audit --no-fund --silent
+    PLAYWRIGHT_SKIP_BROWSER_DOWNLOAD=1 npm ci --prefix $E2E --no-audit --no-fund --loglevel=error
   }
 }
 
