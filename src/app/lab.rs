@@ -11,7 +11,7 @@ use leptos::prelude::*;
 use super::canvas;
 use super::format::NumberStyle;
 use super::start::{Control, StartFlags};
-use super::texts::{Locale, number_style};
+use super::texts::Language;
 use super::timing::Stopwatch;
 use crate::figure::{Palette, Style};
 use crate::plant::DisplayUnit;
@@ -43,7 +43,7 @@ pub struct Lab {
     /// The pinned runs, in the order of the scenario.
     pub pinned: RwSignal<Arc<Vec<Outcome<Run>>>>,
     /// The language of the texts.
-    pub language: RwSignal<Locale>,
+    pub language: RwSignal<Language>,
     /// Whether the theme is dark.
     pub dark: RwSignal<bool>,
     /// What to tell at the top of the page.
@@ -61,7 +61,7 @@ pub fn use_lab() -> Lab {
 
 impl Lab {
     /// A laboratory that shows `scenario`, computed at once.
-    pub fn new(scenario: Scenario, language: Locale, dark: bool, flags: StartFlags) -> Self {
+    pub fn new(scenario: Scenario, language: Language, dark: bool, flags: StartFlags) -> Self {
         let lab = Self {
             analysis: RwSignal::new(Arc::new(scenario::analyse(&scenario.setup))),
             run: RwSignal::new(Arc::new(scenario::run(&scenario.setup))),
@@ -121,7 +121,7 @@ impl Lab {
 
     /// How the chosen language writes numbers.
     pub fn number_style(self) -> NumberStyle {
-        number_style(self.language.get())
+        self.language.get().number_style()
     }
 
     /// How charts look in the chosen theme and language.

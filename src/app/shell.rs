@@ -10,7 +10,7 @@ use super::quadruple::QuadrupleTankBench;
 use super::share;
 use super::start::StartFlags;
 use super::storage::{LANGUAGE, THEME};
-use super::texts::{Locale, language_of, say, tag_of, tr};
+use super::texts::{Language, say, tr};
 use crate::scenario::{Scenario, ScenarioError, setup_of};
 
 /// The element of the page that the laboratory fills; it holds the static outline until then.
@@ -32,7 +32,7 @@ pub fn Laboratory() -> impl IntoView {
     let lab = start();
     provide_context(lab);
     Effect::new(move || show_on_root("data-theme", if lab.dark.get() { "dark" } else { "light" }));
-    Effect::new(move || show_on_root("lang", tag_of(lab.language.get())));
+    Effect::new(move || show_on_root("lang", lab.language.get().tag()));
     let on_hash = window_event_listener(ev::hashchange, move |_| {
         if let Some(outcome) = share::from_address() {
             lab.open(outcome);
@@ -70,7 +70,7 @@ fn start() -> Lab {
         Some(Ok(scenario)) => (scenario, None),
         Some(Err(error)) => (fallback(), Some(Notice::Refused(error))),
     };
-    let lab = Lab::new(scenario, language.as_deref().map_or(Locale::en, language_of), dark, flags);
+    let lab = Lab::new(scenario, language.as_deref().map_or(Language::English, Language::of_tag), dark, flags);
     lab.notice.set(refused);
     lab
 }
@@ -143,17 +143,17 @@ fn is_single_file() -> bool {
 fn LanguageChoice() -> impl IntoView {
     let lab = use_lab();
     let choose = move |event| {
-        let language = language_of(&event_target_value(&event));
+        let language = Language::of_tag(&event_target_value(&event));
         lab.language.set(language);
-        LANGUAGE.write(tag_of(language));
+        LANGUAGE.write(language.tag());
     };
-    let option = move |language: Locale, name: &'static str| {
-        view! { <option value=tag_of(language) lang=tag_of(language) selected=move || lab.language.get() == language>{name}</option> }
+    let option = move |language: Language, name: &'static str| {
+        view! { <option value=language.tag() lang=language.tag() selected=move || lab.language.get() == language>{name}</option> }
     };
     view! {
-        <select data-testid="language" aria-label=say!(lab, app.language) on:change=choose prop:value=move || tag_of(lab.language.get())>
-            {option(Locale::en, "English")}
-            {option(Locale::pt_BR, "Português")}
+        <select data-testid="language" aria-label=say!(lab, app.language) on:change=choose prop:value=move || lab.language.get().tag()>
+            {option(Language::English, "English")}
+            {option(Language::Portuguese, "Português")}
         </select>
     }
 }

@@ -1,18 +1,72 @@
-//! The texts for people: keys from `assets/locales`, checked when the crate is compiled.
+//! The texts for people: keys from `assets/locales`, checked when the crate is compiled (see `build.rs`).
 
-#[allow(missing_docs, clippy::all, clippy::pedantic, unused, reason = "generated")]
-mod generated {
-    include!(concat!(env!("OUT_DIR"), "/i18n/mod.rs"));
-}
-
-pub use generated::i18n::Locale;
+use std::fmt::{Display, Write as _};
 
 use super::format::NumberStyle;
 
+#[allow(missing_docs, non_camel_case_types, clippy::pedantic, dead_code, reason = "generated")]
+pub(super) mod generated {
+    include!(concat!(env!("OUT_DIR"), "/texts.rs"));
+}
+
+/// A language of the laboratory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Language {
+    /// English.
+    English,
+    /// Brazilian Portuguese.
+    Portuguese,
+}
+
+impl Language {
+    /// The language of a tag such as `pt-BR` or `en_GB`; English where it is not spoken here.
+    pub fn of_tag(tag: &str) -> Self {
+        if tag.to_ascii_lowercase().starts_with("pt") { Self::Portuguese } else { Self::English }
+    }
+
+    /// The tag for the `lang` attribute.
+    pub fn tag(self) -> &'static str {
+        match self {
+            Self::English => "en",
+            Self::Portuguese => "pt-BR",
+        }
+    }
+
+    /// How the language writes numbers.
+    pub fn number_style(self) -> NumberStyle {
+        NumberStyle {
+            decimal: match self {
+                Self::English => '.',
+                Self::Portuguese => ',',
+            },
+        }
+    }
+}
+
+/// A text with its `{{ values }}` filled in. Only the generated code calls this, so every value has a name that the text
+/// knows.
+fn fill(text: &str, values: &[(&str, &dyn Display)]) -> String {
+    let mut filled = String::with_capacity(text.len() + 16);
+    let mut parts = text.split("{{");
+    filled.push_str(parts.next().unwrap_or_default());
+    for part in parts {
+        let (name, rest) = part.split_once("}}").unwrap_or((part, ""));
+        if let Some((_, value)) = values.iter().find(|(known, _)| *known == name.trim()) {
+            // Writing to a String cannot fail.
+            let _ = write!(filled, "{value}");
+        }
+        filled.push_str(rest);
+    }
+    filled
+}
+
 /// A text in the language of the laboratory, with its values filled in; follows a change of language.
 macro_rules! tr {
-    ($lab:expr, $($key_and_values:tt)+) => {
-        leptos_i18n::td_string!(leptos::prelude::Get::get(&$lab.language), $($key_and_values)+)
+    ($lab:expr, $group:ident . $key:ident) => {
+        $crate::app::texts::generated::$group::$key.text(leptos::prelude::Get::get(&$lab.language))
+    };
+    ($lab:expr, $group:ident . $key:ident, $($name:ident = $value:expr),+ $(,)?) => {
+        $crate::app::texts::generated::$group::$key { $($name: &$value),+ }.text(leptos::prelude::Get::get(&$lab.language))
     };
 }
 pub(crate) use tr;
@@ -25,25 +79,28 @@ macro_rules! say {
 }
 pub(crate) use say;
 
-/// The language of a tag such as `pt-BR` or `en_GB`; English where it is not spoken here.
-pub fn language_of(tag: &str) -> Locale {
-    if tag.to_ascii_lowercase().starts_with("pt") { Locale::pt_BR } else { Locale::en }
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-/// The tag of a language for the `lang` attribute.
-pub fn tag_of(language: Locale) -> &'static str {
-    match language {
-        Locale::en => "en",
-        Locale::pt_BR => "pt-BR",
+    #[test]
+    fn values_are_filled_in_wherever_they_stand() {
+        assert_eq!(fill("{{ a }} to {{b}}, {{ a }}", &[("a", &1), ("b", &"x")]), "1 to x, 1");
+        assert_eq!(fill("nothing", &[("a", &1)]), "nothing");
     }
-}
 
-/// How a language writes numbers.
-pub fn number_style(language: Locale) -> NumberStyle {
-    NumberStyle {
-        decimal: match language {
-            Locale::en => '.',
-            Locale::pt_BR => ',',
-        },
+    #[test]
+    fn a_text_knows_both_languages() {
+        assert_eq!(generated::process::title.text(Language::English), "Process");
+        assert_eq!(generated::process::title.text(Language::Portuguese), "Processo");
+        let allowed = generated::field::allowed { min: &0, max: &1 };
+        assert_eq!(allowed.text(Language::Portuguese), "de 0 a 1");
+    }
+
+    #[test]
+    fn a_language_is_found_by_its_tag() {
+        assert_eq!(Language::of_tag("pt"), Language::Portuguese);
+        assert_eq!(Language::of_tag("PT_br").tag(), "pt-BR");
+        assert_eq!(Language::of_tag("de-CH"), Language::English);
     }
 }

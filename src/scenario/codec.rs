@@ -1,6 +1,7 @@
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
+use super::path::path_at;
 use super::{Scenario, ScenarioError};
 
 /// Longest document that is read (bytes): far more than any scenario needs.
@@ -45,13 +46,10 @@ const DOCUMENT: &str = "document";
 
 /// Reads JSON to its end; an error names the field by its path.
 fn parse<T: DeserializeOwned>(text: &str) -> Result<T, ScenarioError> {
-    let mut json = serde_json::Deserializer::from_str(text);
-    let value = serde_path_to_error::deserialize(&mut json).map_err(|error| {
-        let path = error.path().to_string();
-        malformed(if path == "." { DOCUMENT } else { &path }, error.inner())
-    })?;
-    json.end().map_err(|error| malformed(DOCUMENT, &error))?;
-    Ok(value)
+    serde_json::from_str(text).map_err(|error| {
+        let path = path_at(text, error.line(), error.column());
+        malformed(if path.is_empty() { DOCUMENT } else { &path }, &error)
+    })
 }
 
 pub(super) fn malformed(path: &str, reason: &serde_json::Error) -> ScenarioError {

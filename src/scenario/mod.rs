@@ -12,6 +12,7 @@ mod document;
 mod error;
 pub mod limits;
 mod link;
+mod path;
 mod margins;
 mod presets;
 mod report;

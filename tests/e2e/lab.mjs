@@ -1,0 +1,127 @@
+// What every test starts from. `test` opens no page by itself; call `lab.open()`.
+//
+// - The site is served under a strict content security policy (server.mjs).
+// - A console message of any kind, a page error or a failed request fails the test at its end.
+// - `lab.text(id)` and `lab.number(id)` read what a data-testid shows; numbers understand − and the decimal comma.
+// - `lab.clean()` asserts that nothing on the page reads NaN, Infinity, undefined or null; `lab.axe()` that axe finds
+//   nothing.
+import AxeBuilder from '@axe-core/playwright';
+import { test as base, expect } from '@playwright/test';
+import { serve } from './server.mjs';
+
+export { expect };
+
+export class Lab {
+  constructor(page, origin, complaints) {
+    this.page = page;
+    this.origin = origin;
+    this.complaints = complaints;
+  }
+
+  /** Listens to a page; also one that a test opens by itself. */
+  watch(page) {
+    page.on('console', (message) => this.complaints.push(`console ${message.type()}: ${message.text()}`));
+    page.on('pageerror', (error) => this.complaints.push(`error: ${error.message}`));
+    page.on('requestfailed', (request) => this.complaints.push(`failed: ${request.url()}`));
+  }
+
+  /** Opens the laboratory with a query (`preset=…&lang=…`) and a fragment, and waits until it runs. */
+  async open(query = '', fragment = '') {
+    await this.page.goto(`${this.origin}/?${query}${fragment ? `#${fragment}` : ''}`);
+    await this.ready();
+  }
+
+  async ready(page = this.page) {
+    await page.locator('#bench:not(.outline)').waitFor();
+    await this.settle(page);
+  }
+
+  /** Waits until what was asked for is computed and painted. */
+  async settle(page = this.page) {
+    await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 0)))));
+  }
+
+  id(name) {
+    return this.page.getByTestId(name);
+  }
+
+  async text(name) {
+    return (await this.id(name).textContent()).trim();
+  }
+
+  async number(name) {
+    return numberIn(await this.text(name));
+  }
+
+  async value(name) {
+    return numberIn(await this.id(name).inputValue());
+  }
+
+  /** Types into a number field and leaves it. */
+  async type(name, text) {
+    await this.id(name).fill(text);
+    await this.id(name).blur();
+    await this.settle();
+  }
+
+  async preset(name) {
+    await this.id('preset').selectOption(name);
+    await this.settle();
+  }
+
+  /** Middle of an element on the page. */
+  async middle(name) {
+    const box = await this.id(name).boundingBox();
+    return { x: box.x + box.width / 2, y: box.y + box.height / 2 };
+  }
+
+  /** How much of a canvas is painted, as a count of pixels and a text that changes with them. */
+  async picture(name) {
+    return this.id(name).evaluate((canvas) => {
+      const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+      let ink = 0;
+      let hash = 0;
+      for (let i = 0; i < data.length; i += 4) {
+        if (data[i + 3] > 0) ink += 1;
+        hash = (hash * 31 + data[i] + data[i + 1] * 3 + data[i + 2] * 7 + data[i + 3] * 11) | 0;
+      }
+      return { ink, hash };
+    });
+  }
+
+  async clean() {
+    const text = await this.page.locator('body').innerText();
+    expect(text).not.toMatch(/NaN|Infinity|undefined|\bnull\b|\binf\b/);
+  }
+
+  async axe() {
+    const { violations } = await new AxeBuilder({ page: this.page }).analyze();
+    expect(violations.map((v) => `${v.id}: ${v.nodes.map((n) => n.target).join(' | ')}`)).toEqual([]);
+  }
+}
+
+export function numberIn(text) {
+  const found = text.replaceAll('−', '-').replaceAll(',', '.').match(/[+-]?\d+(\.\d+)?/);
+  return found ? Number(found[0]) : Number.NaN;
+}
+
+export const test = base.extend({
+  site: [
+    async ({}, use) => {
+      const site = await serve();
+      await use(site);
+      site.close();
+    },
+    { scope: 'worker' },
+  ],
+  complaints: async ({}, use) => {
+    const complaints = [];
+    await use(complaints);
+    expect(complaints).toEqual([]);
+  },
+  lab: async ({ page, site, complaints }, use) => {
+    const lab = new Lab(page, site.origin, complaints);
+    lab.watch(page);
+    await use(lab);
+  },
+});

@@ -1,0 +1,127 @@
+// The responses: cursor, zoom, pinned runs, playing, exports, data table.
+import { readFile } from 'node:fs/promises';
+import { expect, test } from './lab.mjs';
+
+test('the cursor shows values and moves the drawing', async ({ lab, page }) => {
+  await lab.open();
+  const rest = await lab.text('rig-level-1');
+  const box = await lab.id('responses-surface').boundingBox();
+  await page.mouse.move(box.x + box.width * 0.8, box.y + box.height * 0.3);
+  await lab.settle();
+  await expect(lab.id('readout')).toContainText('t = ');
+  expect(await lab.text('rig-level-1')).not.toBe(rest);
+  const shown = (await lab.text('readout')).match(/h₁ ([\d.]+)/)[1];
+  expect(await lab.text('rig-level-1')).toContain(shown);
+  await page.mouse.move(box.x + box.width / 2, box.y - 60);
+  await lab.settle();
+  await expect(lab.id('readout')).toHaveCount(0);
+  expect(await lab.text('rig-level-1')).toBe(rest);
+});
+
+test('the cursor and the zoom work by keyboard', async ({ lab, page }) => {
+  await lab.open();
+  await lab.id('responses-surface').focus();
+  await page.keyboard.press('Shift+ArrowRight');
+  await page.keyboard.press('ArrowRight');
+  await lab.settle();
+  await expect(lab.id('readout')).toContainText('t = 165 s');
+  const whole = await lab.picture('responses');
+  await page.keyboard.press('+');
+  await lab.settle();
+  const zoomed = await lab.picture('responses');
+  expect(zoomed.hash).not.toBe(whole.hash);
+  await page.keyboard.press('0');
+  await lab.settle();
+  expect(await lab.picture('responses')).toEqual(whole);
+  await page.keyboard.press('Escape');
+  await lab.settle();
+  await expect(lab.id('readout')).toHaveCount(0);
+});
+
+test('dragging across the chart zooms into that stretch', async ({ lab, page }) => {
+  await lab.open();
+  const whole = await lab.picture('responses');
+  const box = await lab.id('responses-surface').boundingBox();
+  await page.mouse.move(box.x + box.width * 0.45, box.y + 60);
+  await page.mouse.down();
+  await page.mouse.move(box.x + box.width * 0.7, box.y + 60, { steps: 5 });
+  await page.mouse.up();
+  await page.mouse.move(box.x + 10, box.y - 80);
+  await lab.settle();
+  expect((await lab.picture('responses')).hash).not.toBe(whole.hash);
+  await lab.id('zoom-reset').click();
+  await lab.settle();
+  expect(await lab.picture('responses')).toEqual(whole);
+});
+
+test('a pinned run stays to compare with, and its metrics too', async ({ lab, page }) => {
+  await lab.open('preset=johansson-2000-non-minimum-phase');
+  const alone = await lab.picture('responses');
+  await expect(lab.id('metrics').locator('tbody tr')).toHaveCount(2);
+  await lab.id('pin').click();
+  await lab.id('pairing-swapped').click();
+  await lab.type('gain1-number', '0.3');
+  await lab.type('gain2-number', '0.28');
+  await expect(lab.id('metrics').locator('tbody tr')).toHaveCount(4);
+  const both = await lab.picture('responses');
+  expect(both.hash).not.toBe(alone.hash);
+  for (let k = 0; k < 4; k += 1) await lab.id('pin').click();
+  await expect(lab.id('metrics').locator('tbody tr')).toHaveCount(8);
+  await lab.id('unpin').click();
+  await expect(lab.id('metrics').locator('tbody tr')).toHaveCount(2);
+  await lab.id('linear').click();
+  await lab.settle();
+  await expect(lab.id('linear')).toHaveAttribute('aria-pressed', 'false');
+  await page.keyboard.press('Tab');
+  await lab.clean();
+});
+
+test('the run plays on the drawing and pauses', async ({ lab }) => {
+  await lab.open();
+  await lab.id('speed').selectOption('100');
+  await lab.id('play').click();
+  await expect(lab.id('readout')).toBeVisible();
+  const first = await lab.text('readout');
+  await expect.poll(() => lab.text('readout')).not.toBe(first);
+  await lab.id('play').click();
+  const paused = await lab.text('readout');
+  await lab.settle();
+  expect(await lab.text('readout')).toBe(paused);
+});
+
+const EXPORTS = [
+  ['responses', /^time_s,level_1_m,level_2_m,level_3_m,level_4_m,reference_1_m/, 3001],
+  ['valve-plane', /^gamma_1,gamma_2,rightmost_zero_per_s/, 441],
+  ['poles-and-zeros', /^kind,real_per_s,imaginary_per_s/, 12],
+];
+for (const [name, heading, rows] of EXPORTS) {
+  test(`${name} is exported as CSV, SVG and PNG`, async ({ lab, page }) => {
+    await lab.open();
+    await lab.id(`${name}-menu`).locator('summary').click();
+    const save = async (kind) => {
+      const [download] = await Promise.all([page.waitForEvent('download'), lab.id(`${name}-${kind}`).click()]);
+      expect(download.suggestedFilename()).toBe(`${name}.${kind}`);
+      return readFile(await download.path());
+    };
+    const csv = (await save('csv')).toString();
+    expect(csv).toMatch(heading);
+    expect(csv.trim().split('\n').length - 1).toBe(rows);
+    expect(csv).not.toMatch(/NaN|inf/);
+    const svg = (await save('svg')).toString();
+    const problem = await page.evaluate((text) => new DOMParser().parseFromString(text, 'image/svg+xml').querySelector('parsererror')?.textContent ?? null, svg);
+    expect(problem).toBeNull();
+    expect(svg).toContain('<path');
+    const png = await save('png');
+    expect(png.subarray(1, 4).toString()).toBe('PNG');
+    expect(png.length).toBeGreaterThan(5000);
+  });
+}
+
+test('the data table holds the numbers of the picture', async ({ lab, page }) => {
+  await lab.open();
+  await lab.id('data-table').click();
+  const table = page.locator('.responses details table');
+  await expect(table.locator('tbody tr')).toHaveCount(25);
+  expect(await table.locator('thead').innerText()).toContain('level 1');
+  await lab.clean();
+});

@@ -1,0 +1,127 @@
+// An experiment leaves the page as a link or a file and comes back whole.
+import { readFile } from 'node:fs/promises';
+import { Lab, expect, test } from './lab.mjs';
+
+async function change(lab, page) {
+  await lab.preset('johansson-2000-non-minimum-phase');
+  await lab.id('pairing-swapped').click();
+  await lab.type('gain1-number', '0.3');
+  await lab.type('integral2-number', '160');
+  await lab.type('step1-number', '1.25');
+  await lab.id('pin').click();
+  await lab.type('gamma2-number', '0.27');
+  await lab.id('responses-surface').focus();
+  for (let k = 0; k < 5; k += 1) await page.keyboard.press('Shift+ArrowRight');
+  await lab.settle();
+}
+
+async function state(lab) {
+  const fields = ['gamma1-number', 'gamma2-number', 'gain1-number', 'gain2-number', 'integral1-number', 'integral2-number', 'step1-number', 'step1-time', 'duration-number'];
+  const values = await Promise.all(fields.map((name) => lab.id(name).inputValue()));
+  const swapped = await lab.id('pairing-swapped').getAttribute('aria-pressed');
+  const table = await lab.id('metrics').innerText();
+  return [...values, swapped, table, await lab.text('readout'), await lab.id('preset').inputValue()];
+}
+
+test('a shared link restores everything in a new page and after a reload', async ({ lab, page, context }) => {
+  await context.grantPermissions(['clipboard-read', 'clipboard-write']);
+  await lab.open();
+  await change(lab, page);
+  const before = await state(lab);
+  await lab.id('share').click();
+  await expect(lab.id('notice')).toContainText('Link copied');
+  const link = await page.evaluate(() => navigator.clipboard.readText());
+  expect(link.split('#')[1].length).toBeLessThanOrEqual(2000);
+
+  const other = await context.newPage();
+  const second = new Lab(other, lab.origin, lab.complaints);
+  second.watch(other);
+  await other.goto(link);
+  await second.ready();
+  expect(await state(second)).toEqual(before);
+  expect(await second.picture('responses')).toEqual(await lab.picture('responses'));
+
+  await page.reload();
+  await lab.ready();
+  expect(await state(lab)).toEqual(before);
+});
+
+test('opening a link leaves the remembered choices alone', async ({ lab, page, context }) => {
+  await context.grantPermissions(['clipboard-read', 'clipboard-write']);
+  await lab.open();
+  await lab.id('theme').click();
+  await lab.id('language').selectOption('pt-BR');
+  const kept = await page.evaluate(() => JSON.stringify({ ...localStorage }));
+  await lab.id('share').click();
+  await expect(lab.id('notice')).toBeVisible();
+  const link = await page.evaluate(() => navigator.clipboard.readText());
+  await page.goto('about:blank');
+  await page.goto(link.replace('/?', '/?lang=en&theme=light&'));
+  await lab.ready();
+  await expect(page.locator('html')).toHaveAttribute('lang', 'en');
+  expect(await page.evaluate(() => JSON.stringify({ ...localStorage }))).toBe(kept);
+});
+
+const BAD = ['lab=', 'lab=q1.AAAA', 'lab=%00%ff', `lab=q1.${'A'.repeat(5000)}`, 'lab=q9.eJw', 'lab=<script>alert(1)</script>', 'lab=q1.-_-_-_-_-_'];
+for (const fragment of BAD) {
+  test(`a hostile link (${fragment.slice(0, 14)}) gives a message and a working bench`, async ({ lab }) => {
+    await lab.open('', fragment);
+    await expect(lab.id('notice')).toContainText('could not be used');
+    expect(await lab.number('lambda-11')).toBeCloseTo(1.4, 2);
+    await lab.type('gamma1-number', '0.3');
+    expect(await lab.number('lambda-11')).toBeLessThan(0);
+    await lab.clean();
+  });
+}
+
+test('a link cut off at any place gives a message, never a broken bench', async ({ lab, page, context }) => {
+  await context.grantPermissions(['clipboard-read', 'clipboard-write']);
+  await lab.open();
+  await change(lab, page);
+  await lab.id('share').click();
+  await expect(lab.id('notice')).toBeVisible();
+  const [, fragment] = (await page.evaluate(() => navigator.clipboard.readText())).split('#');
+  for (const part of [0.2, 0.5, 0.8, 0.97]) {
+    await page.goto('about:blank');
+    await lab.open('', fragment.slice(0, Math.floor(fragment.length * part)));
+    await expect(lab.id('notice')).toContainText('could not be used');
+    await lab.clean();
+  }
+});
+
+test('an experiment is saved as a file and opened again', async ({ lab, page }) => {
+  await lab.open();
+  await change(lab, page);
+  const before = await state(lab);
+  await lab.id('file-menu').locator('summary').click();
+  const [download] = await Promise.all([page.waitForEvent('download'), lab.id('save').click()]);
+  const file = await download.path();
+  const document = JSON.parse(await readFile(file, 'utf8'));
+  expect(document.version).toBe(1);
+  await lab.open();
+  await lab.id('open-input').setInputFiles(file);
+  await expect(lab.id('gamma2-number')).toHaveValue('0.27');
+  await lab.settle();
+  expect(await state(lab)).toEqual(before);
+});
+
+test('a broken file names the field and the reason', async ({ lab, page }) => {
+  await lab.open();
+  await lab.id('file-menu').locator('summary').click();
+  const [download] = await Promise.all([page.waitForEvent('download'), lab.id('save').click()]);
+  const good = await readFile(await download.path(), 'utf8');
+  const open = (text) => lab.id('open-input').setInputFiles({ name: 'x.json', mimeType: 'application/json', buffer: Buffer.from(text) });
+  const broken = JSON.parse(good);
+  broken.setup.valves[0] = 1.5;
+  await open(JSON.stringify(broken));
+  await expect(lab.id('notice')).toContainText('setup.valves[0]');
+  await expect(lab.id('notice')).toContainText('1.5');
+  broken.setup.valves[0] = 'open';
+  await open(JSON.stringify(broken));
+  await expect(lab.id('notice')).toContainText('setup.valves[0]');
+  await open(good.replace('"version": 1', '"version": 7').replace('"version":1', '"version":7'));
+  await expect(lab.id('notice')).toContainText('version');
+  await open('{');
+  await expect(lab.id('notice')).toContainText('could not be used');
+  await lab.clean();
+});

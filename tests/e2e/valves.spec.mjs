@@ -1,0 +1,116 @@
+// The heart of the home bench: move the valves, see everything follow.
+import { expect, test } from './lab.mjs';
+
+/** What the page says about the zero: the sign of the right-most one. */
+async function zero(lab) {
+  const sentence = await lab.text('valves-sentence');
+  return Number(sentence.replaceAll('−', '-').match(/[+-]?\d+\.\d+/)[0]);
+}
+
+async function minimumPhase(lab) {
+  expect(await zero(lab)).toBeLessThan(0);
+  expect(await lab.number('lambda-11')).toBeGreaterThan(1);
+  expect(await lab.text('rga-verdict')).toContain('level 1 – pump 1');
+  expect(await lab.text('pairing-diagonal')).toContain('✓');
+  expect(await lab.text('process-sentence')).toContain('minimum phase');
+}
+
+async function rightHalfPlane(lab) {
+  expect(await zero(lab)).toBeGreaterThan(0);
+  expect(await lab.number('lambda-11')).toBeLessThan(0);
+  expect(await lab.text('rga-verdict')).toContain('level 1 – pump 2');
+  expect(await lab.text('pairing-swapped')).toContain('✓');
+  expect(await lab.text('process-sentence')).toContain('right half-plane');
+}
+
+test('dragging the point across the line flips zero, relative gain, pairing and responses', async ({ lab, page }) => {
+  await lab.open();
+  await minimumPhase(lab);
+  const before = { responses: await lab.picture('responses'), poles: await lab.picture('pole-zero') };
+  const plane = await lab.id('valve-plane').boundingBox();
+  const from = await lab.middle('valve-handle');
+  await page.mouse.move(from.x, from.y);
+  await page.mouse.down();
+  await page.mouse.move(plane.x + plane.width * 0.4, plane.y + plane.height * 0.6, { steps: 12 });
+  await page.mouse.up();
+  await lab.settle();
+  await rightHalfPlane(lab);
+  const after = { responses: await lab.picture('responses'), poles: await lab.picture('pole-zero') };
+  expect(after.responses.hash).not.toBe(before.responses.hash);
+  expect(after.poles.hash).not.toBe(before.poles.hash);
+  expect(after.responses.ink).toBeGreaterThan(2000);
+  // The student's own pairing is obeyed, not replaced by the suggestion.
+  await expect(lab.id('pairing-diagonal')).toHaveAttribute('aria-pressed', 'true');
+  await lab.clean();
+});
+
+test('the arrow keys do the same as the mouse', async ({ lab, page }) => {
+  await lab.open();
+  await minimumPhase(lab);
+  await lab.id('valve-handle').focus();
+  for (let k = 0; k < 5; k += 1) await page.keyboard.press('Shift+ArrowLeft');
+  for (let k = 0; k < 4; k += 1) await page.keyboard.press('Shift+ArrowDown');
+  await page.keyboard.press('ArrowLeft');
+  await lab.settle();
+  expect(await lab.value('gamma1-number')).toBeCloseTo(0.44, 9);
+  expect(await lab.value('gamma2-number')).toBeCloseTo(0.4, 9);
+  await rightHalfPlane(lab);
+  await page.keyboard.press('End');
+  await lab.settle();
+  expect(await lab.value('gamma1-number')).toBe(1);
+});
+
+test.describe('by touch', () => {
+  test.use({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
+  test('a finger drags the point', async ({ lab, page }) => {
+    await lab.open();
+    await lab.id('valve-handle').scrollIntoViewIfNeeded();
+    const from = await lab.middle('valve-handle');
+    const client = await page.context().newCDPSession(page);
+    const touch = (type, x, y) => client.send('Input.dispatchTouchEvent', { type, touchPoints: type === 'touchEnd' ? [] : [{ x, y }] });
+    await touch('touchStart', from.x, from.y);
+    for (let k = 1; k <= 10; k += 1) await touch('touchMove', from.x - 8 * k, from.y + 8 * k);
+    await touch('touchEnd');
+    await lab.settle();
+    await rightHalfPlane(lab);
+  });
+});
+
+test('sliders and number fields lead to the same place', async ({ lab }) => {
+  await lab.open();
+  await lab.id('gamma1').fill('0.43');
+  await lab.type('gamma2-number', '0,34');
+  await rightHalfPlane(lab);
+  const drawn = await lab.id('rig').textContent();
+  expect(drawn).toContain('0.43');
+  expect(drawn).toContain('0.34');
+});
+
+const SINGULAR = [
+  ['0.6', '0.4', 'origin', 'No pairing works'],
+  ['1', '0', 'singular at every frequency', 'No pairing works'],
+  ['0', '1', 'singular at every frequency', 'No pairing works'],
+  ['0', '0.5', 'nothing straight down', 'level 1 – pump 2'],
+  ['0', '0', 'nothing straight down', 'level 1 – pump 2'],
+  ['1', '0.5', '> 1', 'level 1 – pump 1'],
+  ['1', '1', 'two separate tanks', 'level 1 – pump 1'],
+];
+for (const [gamma1, gamma2, sentence, verdict] of SINGULAR) {
+  test(`γ = (${gamma1}, ${gamma2}) has its own sentence and no NaN`, async ({ lab }) => {
+    await lab.open();
+    await lab.type('gamma1-number', gamma1);
+    await lab.type('gamma2-number', gamma2);
+    expect(await lab.text('process-sentence')).toContain(sentence);
+    expect(await lab.text('rga-verdict')).toContain(verdict);
+    await lab.clean();
+    expect((await lab.picture('responses')).ink).toBeGreaterThan(2000);
+  });
+}
+
+test('where a wall is too low, the page says so and goes on', async ({ lab }) => {
+  await lab.open();
+  await lab.type('gamma1-number', '1');
+  await lab.type('gamma2-number', '0.2');
+  expect(await lab.text('process-sentence')).toMatch(/Tank 1 would need \d+\.\d cm.*it overflows/);
+  await lab.clean();
+});
