@@ -75,17 +75,23 @@ export class Lab {
     return { x: box.x + box.width / 2, y: box.y + box.height / 2 };
   }
 
-  /** How much of a canvas is painted, as a count of pixels and a text that changes with them. */
+  /** How much of a canvas is painted: pixels, colours, and a text that changes with any pixel. */
   async picture(name) {
     return this.id(name).evaluate((canvas) => {
-      const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+      // Read from a copy: reading the canvas itself makes Chromium warn and changes how it paints.
+      const copy = Object.assign(document.createElement('canvas'), { width: canvas.width, height: canvas.height });
+      const context = copy.getContext('2d', { willReadFrequently: true });
+      context.drawImage(canvas, 0, 0);
+      const pixels = new Uint32Array(context.getImageData(0, 0, copy.width, copy.height).data.buffer);
       let ink = 0;
       let hash = 0;
-      for (let i = 0; i < data.length; i += 4) {
-        if (data[i + 3] > 0) ink += 1;
-        hash = (hash * 31 + data[i] + data[i + 1] * 3 + data[i + 2] * 7 + data[i + 3] * 11) | 0;
+      const colours = new Set();
+      for (const pixel of pixels) {
+        if (pixel >>> 24) ink += 1;
+        hash = (Math.imul(hash, 31) + pixel) | 0;
+        colours.add(pixel);
       }
-      return { ink, hash };
+      return { ink, colours: colours.size, hash };
     });
   }
 

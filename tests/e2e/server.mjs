@@ -1,22 +1,36 @@
-// The site as a careful host would serve it: strict content security policy, right types, under a sub-path.
+// The site as a careful host would serve it: strict content security policy, right types, under any path. Each call of
+// `serve` takes a free port, so a second call is another origin.
 import { createReadStream, statSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { extname, join, normalize } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
-export const SITE = fileURLToPath(new URL('../../dist', import.meta.url));
+/** The release build that is tested; another one by the variable QUADTANK_DIST. */
+export const SITE = process.env.QUADTANK_DIST ?? fileURLToPath(new URL('../../dist', import.meta.url));
 
 export const POLICY =
   "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; " +
   "img-src 'self' data: blob:; connect-src 'self'";
 
+const HTML = 'text/html; charset=utf-8';
 const TYPES = {
-  '.html': 'text/html; charset=utf-8',
+  '.html': HTML,
   '.js': 'text/javascript; charset=utf-8',
   '.css': 'text/css; charset=utf-8',
   '.svg': 'image/svg+xml',
   '.wasm': 'application/wasm',
 };
+
+/** The file of the site that a path means; nothing outside the site. */
+function fileOf(path) {
+  try {
+    const file = join(SITE, normalize(`/${decodeURIComponent(path)}`));
+    const found = statSync(file);
+    return found.isDirectory() ? join(file, 'index.html') : file;
+  } catch {
+    return null;
+  }
+}
 
 /**
  * Serves `dist/` under `base`, and the given extra pages (path → HTML, without a policy of their own) beside it.
@@ -25,15 +39,13 @@ const TYPES = {
 export async function serve({ base = '/', pages = {}, open = false } = {}) {
   const server = createServer((request, response) => {
     const path = request.url.split('?')[0];
-    if (pages[path]) return response.writeHead(200, { 'content-type': TYPES['.html'] }).end(pages[path]);
-    if (!path.startsWith(base)) return response.writeHead(404).end();
-    let file = join(SITE, normalize(`/${decodeURIComponent(path.slice(base.length))}`));
-    try {
-      if (statSync(file).isDirectory()) file = join(file, 'index.html');
-    } catch {
-      return response.writeHead(404).end();
-    }
-    const headers = { 'content-type': TYPES[extname(file)] ?? 'application/octet-stream' };
+    if (pages[path]) return response.writeHead(200, { 'content-type': HTML }).end(pages[path]);
+    // Browsers ask for it on pages that name no icon; that is no failure of the page.
+    if (path === '/favicon.ico') return response.writeHead(204).end();
+    const file = path.startsWith(base) ? fileOf(path.slice(base.length)) : null;
+    const type = file && TYPES[extname(file)];
+    if (!type) return response.writeHead(404).end();
+    const headers = { 'content-type': type };
     // The single file brings its own policy, with the hashes of what is inlined.
     if (!file.endsWith('quadtank.html')) headers['content-security-policy'] = POLICY;
     if (open) headers['access-control-allow-origin'] = '*';
