@@ -275,7 +275,7 @@ fn a_reader_that_stops_early_is_no_failure() {
 /// The lines of the README that start with `$ ` within its section on the command line, run in a shell in their order.
 #[test]
 fn the_examples_of_the_readme_work() {
-    let Ok(readme) = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/README.md")) else { return };
+    let readme = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/README.md")).unwrap();
     let commands: Vec<&str> =
         readme.lines().filter_map(|line| line.strip_prefix("$ ")).filter(|line| line.contains("quadtank ")).collect();
     let folder = folder("readme");

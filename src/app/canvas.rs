@@ -120,8 +120,7 @@ pub fn paint(canvas: &HtmlCanvasElement, charts: &[Chart], size: Size, ratio: f6
     }
     context.clear_rect(0.0, 0.0, size.width * fine, size.height * fine);
     let Some(inner) = CanvasBackend::with_canvas_object(canvas.clone()) else { return };
-    let backend =
-        FineCanvas { inner, context, size: (pixels(size.width, fine), pixels(size.height, fine)) };
+    let backend = FineCanvas { inner, context, size: (pixels(size.width, fine), pixels(size.height, fine)) };
     // Fails only if the canvas does, and then there is nowhere to say so.
     let _ = figure::paint(&backend.into_drawing_area(), charts, size, style);
 }

@@ -47,7 +47,7 @@ pub fn copy(text: &str, then: impl FnOnce(bool) + 'static) {
     // The typed accessor assumes a clipboard; on an insecure origin there is none.
     let has_clipboard =
         js_sys::Reflect::get(&navigator, &"clipboard".into()).is_ok_and(|clipboard| clipboard.is_object());
-    if !has_clipboard {
+    if !has_clipboard || !frame_may_write() {
         then(false);
         return;
     }
@@ -55,4 +55,15 @@ pub fn copy(text: &str, then: impl FnOnce(bool) + 'static) {
     leptos::task::spawn_local(async move {
         then(wasm_bindgen_futures::JsFuture::from(written).await.is_ok());
     });
+}
+
+/// Whether the frame around the page lets it write to the clipboard. Trying without permission would leave an error in the
+/// console; a browser that has no such policy is simply tried.
+fn frame_may_write() -> bool {
+    let Ok(policy) = js_sys::Reflect::get(&leptos::prelude::document(), &"featurePolicy".into()) else { return true };
+    let Ok(allows) = js_sys::Reflect::get(&policy, &"allowsFeature".into()) else { return true };
+    match allows.dyn_into::<js_sys::Function>() {
+        Ok(allows) => allows.call1(&policy, &"clipboard-write".into()).is_ok_and(|answer| answer.is_truthy()),
+        Err(_) => true,
+    }
 }

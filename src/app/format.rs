@@ -32,7 +32,9 @@ impl NumberStyle {
         }
         let magnitude = value.abs().log10().floor();
         if !(-6.0..7.0).contains(&magnitude) {
-            return format!("{value:.*e}", digits.saturating_sub(1)).replace('-', "−").replace('.', &self.decimal.to_string());
+            return format!("{value:.*e}", digits.saturating_sub(1))
+                .replace('-', "−")
+                .replace('.', &self.decimal.to_string());
         }
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between -6 and 13")]
         let decimals = (digits as f64 - 1.0 - magnitude).clamp(0.0, 12.0) as usize;

@@ -36,6 +36,8 @@ pub enum Notice {
 pub struct Lab {
     /// The document that all of it follows from.
     pub scenario: RwSignal<Scenario>,
+    /// The setup that the results are of. Charts read this one, so that they paint when results come, not before.
+    pub computed: RwSignal<Arc<Setup>>,
     /// What theory says.
     pub analysis: RwSignal<Outcome<Analysis>>,
     /// What happens.
@@ -50,7 +52,7 @@ pub struct Lab {
     pub notice: RwSignal<Option<Notice>>,
     /// How the page was started.
     pub flags: StoredValue<StartFlags>,
-    computed: StoredValue<Option<Scenario>>,
+    computed_pinned: StoredValue<Vec<Setup>>,
     stopwatch: StoredValue<Stopwatch>,
 }
 
@@ -66,7 +68,8 @@ impl Lab {
             analysis: RwSignal::new(Arc::new(scenario::analyse(&scenario.setup))),
             run: RwSignal::new(Arc::new(scenario::run(&scenario.setup))),
             pinned: RwSignal::new(run_all(&scenario.pinned)),
-            computed: StoredValue::new(Some(scenario.clone())),
+            computed: RwSignal::new(Arc::new(scenario.setup.clone())),
+            computed_pinned: StoredValue::new(scenario.pinned.clone()),
             scenario: RwSignal::new(scenario),
             language: RwSignal::new(language),
             dark: RwSignal::new(dark),
@@ -144,25 +147,25 @@ impl Lab {
     /// One frame: compute what changed since the last one, hand it to the panels, and note how long it took.
     fn frame(self) {
         let Some(after) = self.scenario.try_get_untracked() else { return };
-        let before = self.computed.try_update_value(Option::take).flatten();
-        let unchanged = |same: fn(&Setup, &Setup) -> bool| {
-            before.as_ref().is_some_and(|b| same(&b.setup, &after.setup))
-        };
+        let before = self.computed.get_untracked();
         self.stopwatch.update_value(Stopwatch::start_computing);
-        let analysis = (!unchanged(same_theory)).then(|| Arc::new(scenario::analyse(&after.setup)));
-        let run = (!unchanged(|a, b| a == b)).then(|| Arc::new(scenario::run(&after.setup)));
-        let pinned = (before.as_ref().map(|b| &b.pinned) != Some(&after.pinned)).then(|| run_all(&after.pinned));
+        let theory = (!same_theory(&before, &after.setup)).then(|| Arc::new(scenario::analyse(&after.setup)));
+        let run = (*before != after.setup).then(|| Arc::new(scenario::run(&after.setup)));
+        let pinned = self.computed_pinned.with_value(|p| *p != after.pinned).then(|| run_all(&after.pinned));
         self.stopwatch.update_value(Stopwatch::stop_computing);
-        if let Some(analysis) = analysis {
-            self.analysis.set(analysis);
+        if run.is_some() {
+            self.computed.set(Arc::new(after.setup));
+        }
+        if let Some(theory) = theory {
+            self.analysis.set(theory);
         }
         if let Some(run) = run {
             self.run.set(run);
         }
         if let Some(pinned) = pinned {
+            self.computed_pinned.set_value(after.pinned);
             self.pinned.set(pinned);
         }
-        self.computed.set_value(Some(after));
         let stopwatch = self.stopwatch;
         // A task after this frame: by then the panels have repainted.
         gloo_timers::callback::Timeout::new(0, move || {

@@ -37,7 +37,12 @@ pub fn remark_of(lab: Lab, id: Option<PresetId>) -> String {
 /// Loads a published rig with its published controller and experiment; pinned runs stay.
 pub fn load(lab: Lab, id: PresetId) {
     lab.scenario.update(|s| {
-        let fresh = Scenario { version: s.version, setup: setup_of(id), pinned: std::mem::take(&mut s.pinned), view: s.view.clone() };
+        let fresh = Scenario {
+            version: s.version,
+            setup: setup_of(id),
+            pinned: std::mem::take(&mut s.pinned),
+            view: s.view.clone(),
+        };
         *s = fresh;
         s.view.cursor_s = None;
         s.view.zoom_s = None;

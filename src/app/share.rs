@@ -32,7 +32,11 @@ pub fn share(lab: Lab) {
             // A sandboxed page may not touch its address; the link is then on the clipboard only.
             if let Ok(history) = window().history() {
                 let fragment = address.split_once('#').map_or("", |(_, fragment)| fragment);
-                let _ = history.replace_state_with_url(&leptos::wasm_bindgen::JsValue::NULL, "", Some(&format!("#{fragment}")));
+                let _ = history.replace_state_with_url(
+                    &leptos::wasm_bindgen::JsValue::NULL,
+                    "",
+                    Some(&format!("#{fragment}")),
+                );
             }
             copy(&address.clone(), move |copied| {
                 lab.notice.set(Some(if copied { Notice::Copied } else { Notice::CopyByHand(address) }));

@@ -42,7 +42,11 @@ pub fn Laboratory() -> impl IntoView {
     let embed = lab.flags.with_value(|f| f.embed);
     view! {
         <div class=if embed { "embed" } else { "page" }>
-            {(!embed).then(|| view! { <Header /> })}
+            {if embed {
+                view! { <h1 class="visually-hidden">{say!(lab, app.title)}</h1> }.into_any()
+            } else {
+                view! { <Header /> }.into_any()
+            }}
             <Notices />
             <QuadrupleTankBench />
             {embed.then(|| view! { <EmbedFooter /> })}
@@ -177,7 +181,8 @@ fn ThemeSwitch() -> impl IntoView {
 #[component]
 fn Notices() -> impl IntoView {
     let lab = use_lab();
-    let content = move |notice: Notice| match notice {
+    let content = move |notice: Notice| {
+        match notice {
         Notice::Refused(error) => view! { <div>{tr!(lab, refused.lead)} " " {of_error(lab, &error)}</div> }.into_any(),
         Notice::Copied => view! { <div>{tr!(lab, app.copied)}</div> }.into_any(),
         Notice::CopyByHand(link) => view! {
@@ -187,6 +192,7 @@ fn Notices() -> impl IntoView {
             </div>
         }
         .into_any(),
+    }
     };
     view! {
         <div role="status" aria-live="polite">
@@ -207,14 +213,24 @@ fn Notices() -> impl IntoView {
 fn of_error(lab: Lab, error: &ScenarioError) -> String {
     let number = |v: f64| lab.number_style().significant(v, 4);
     match error {
-        ScenarioError::Malformed { path, reason } => tr!(lab, refused.malformed, path = path.clone(), reason = reason.clone()).to_string(),
-        ScenarioError::OutOfRange { field, value, min, max } => {
-            tr!(lab, refused.range, field = field.clone(), value = number(*value), min = number(*min), max = number(*max)).to_string()
+        ScenarioError::Malformed { path, reason } => {
+            tr!(lab, refused.malformed, path = path.clone(), reason = reason.clone()).to_string()
         }
+        ScenarioError::OutOfRange { field, value, min, max } => tr!(
+            lab,
+            refused.range,
+            field = field.clone(),
+            value = number(*value),
+            min = number(*min),
+            max = number(*max)
+        )
+        .to_string(),
         ScenarioError::TooMany { field, count, max } => {
             tr!(lab, refused.many, field = field.clone(), count = *count, max = *max).to_string()
         }
-        ScenarioError::UnknownVersion { found, newest } => tr!(lab, refused.version, found = *found, newest = *newest).to_string(),
+        ScenarioError::UnknownVersion { found, newest } => {
+            tr!(lab, refused.version, found = *found, newest = *newest).to_string()
+        }
         ScenarioError::TooLong { length, max } => tr!(lab, refused.long, length = *length, max = *max).to_string(),
         ScenarioError::DamagedLink => tr!(lab, refused.damaged).to_string(),
         ScenarioError::Plant(error) => error.to_string(),

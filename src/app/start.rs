@@ -95,7 +95,7 @@ impl StartFlags {
                 "embed" => flags.embed = value == "1",
                 "panels" => flags.panels = chosen(&value, &PANELS),
                 "lock" => flags.locked = chosen(&value, &CONTROLS),
-                "lang" => flags.language = Some(value),
+                "lang" => flags.language = Some(value).filter(|l| l == "en" || l == "pt-BR"),
                 "theme" => flags.theme = Some(value).filter(|t| t == "light" || t == "dark"),
                 "preset" => flags.preset = PresetId::ALL.into_iter().find(|id| id.name() == value),
                 _ => {}

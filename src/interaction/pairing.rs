@@ -41,7 +41,8 @@ pub enum PairingReason {
 /// Niederlinski index of both pairings of a 2 × 2 gain, diagonal first: the determinant of the gain, columns permuted so
 /// that paired entries are on the diagonal, over the product of these entries (Niederlinski 1971).
 ///
-/// Decentralised control with integral action in a pairing with a negative index is unstable, however it is tuned.
+/// Decentralised control with integral action in a pairing with a negative index is unstable, however it is tuned, if each
+/// loop is stable alone.
 /// `None` where a paired entry is 0, the index does not fit in f64, or the gain is not 2 × 2.
 pub fn niederlinski(gain: &DMatrix<f64>) -> [Option<f64>; 2] {
     if gain.shape() != (2, 2) {

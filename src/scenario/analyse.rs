@@ -1,4 +1,6 @@
-use crate::interaction::{PairingVerdict, interpolation_integral, niederlinski, recommend_pairing, relative_gain_array};
+use crate::interaction::{
+    PairingVerdict, interpolation_integral, niederlinski, recommend_pairing, relative_gain_array,
+};
 use crate::linear::{Complex, LinearError, StateSpace, TransmissionZero, transmission_zeros};
 use crate::plant::{OperatingPoint, PlantError};
 use crate::sim::{ClosedLoop, Experiment, closed_loop};

@@ -84,17 +84,24 @@ test('the first paint comes before the laboratory', async ({ lab, page }) => {
 test('without JavaScript a sentence says what is needed', async ({ browser, lab }) => {
   const context = await browser.newContext({ javaScriptEnabled: false });
   const page = await context.newPage();
-  await page.goto(`${lab.origin}/`);
-  await expect(page.getByText('needs JavaScript and WebAssembly')).toBeVisible();
-  await expect(page.getByText('precisa de JavaScript e WebAssembly')).toBeVisible();
+  for (const name of ['', 'quadtank.html']) {
+    await page.goto(`${lab.origin}/${name}`);
+    // Searches by text pass over <noscript>.
+    const sentence = page.locator('noscript .notice');
+    await expect(sentence).toBeVisible();
+    await expect(sentence).toContainText('needs JavaScript and WebAssembly');
+    await expect(sentence).toContainText('precisa de JavaScript e WebAssembly');
+  }
   await context.close();
 });
 
 test('without WebAssembly a sentence says what is needed', async ({ lab, page }) => {
   await page.addInitScript(() => delete globalThis.WebAssembly);
-  await page.goto(`${lab.origin}/`);
-  await expect(page.getByText('This browser has no WebAssembly')).toBeVisible();
-  await expect(page.getByText('Este navegador não tem WebAssembly')).toBeVisible();
+  for (const name of ['', 'quadtank.html']) {
+    await page.goto(`${lab.origin}/${name}`);
+    await expect(page.getByText('This browser has no WebAssembly')).toBeVisible();
+    await expect(page.getByText('Este navegador não tem WebAssembly')).toBeVisible();
+  }
 });
 
 test('a laboratory that does not arrive is explained', async ({ browser, lab }) => {

@@ -113,9 +113,10 @@ fn LoopControls(index: usize) -> impl IntoView {
             label=format!("K{}", ["₁", "₂"][index])
             name=say!(lab, pi.gain, level = index + 1)
             value=gain
-            on_change=move |k| if k != 0.0 { edit(&move |l| l.gain = k) }
+            on_change=move |k| edit(&move |l| l.gain = k)
             travel=GAIN_TRAVEL
             limits=Signal::from((-most, most))
+            smallest=limits::GAIN_MAGNITUDE.min
             scale=Scale::Logarithmic
             digits=None
             unit="V/V".to_owned()
@@ -253,7 +254,7 @@ fn ManualMode(index: usize) -> impl IntoView {
         </div>
         {move || parts.get().is_some().then(|| view! {
             <div class="fields">
-                <div class="row wide">
+                <div class="field-row">
                     <NumberField
                         id=until_id
                         name=say!(lab, pi.manual_until, level = index + 1)
@@ -266,7 +267,7 @@ fn ManualMode(index: usize) -> impl IntoView {
                     />
                     <span class="unit">"s"</span>
                 </div>
-                <div class="row wide">
+                <div class="field-row">
                     <NumberField
                         id=output_id
                         name=say!(lab, pi.manual_output, level = index + 1)

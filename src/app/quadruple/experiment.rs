@@ -218,7 +218,10 @@ fn LoadControls() -> impl IntoView {
         std::iter::once(("none".to_owned(), tr!(lab, experiment.load_none).to_string()))
             .chain(pumps)
             .chain(leaks)
-            .map(|(value, text)| { let chosen = value == kind(); view! { <option value=value selected=chosen>{text}</option> } })
+            .map(|(value, text)| {
+                let chosen = value == kind();
+                view! { <option value=value selected=chosen>{text}</option> }
+            })
             .collect_view()
     };
     view! {

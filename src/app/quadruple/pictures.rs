@@ -4,9 +4,11 @@ use crate::app::lab::{Lab, Outcome};
 use crate::app::shown::{per_metre, unit_name};
 use crate::app::texts::tr;
 use crate::app::widgets::Picture;
-use crate::figure::{self, Chart, PoleZero, PoleZeroTexts, ResponseTexts, Responses, RunColumns, ValvePlane, ValvePlaneTexts};
+use crate::figure::{
+    self, Chart, PoleZero, PoleZeroTexts, ResponseTexts, Responses, RunColumns, ValvePlane, ValvePlaneTexts,
+};
 use crate::linear::Complex;
-use crate::scenario::{Analysis, Run, Setup, ValveMap};
+use crate::scenario::{Analysis, Run, ValveMap};
 
 use leptos::prelude::*;
 
@@ -47,7 +49,7 @@ pub fn valve_plane(lab: Lab) -> Picture {
 pub fn pole_zero(lab: Lab) -> Picture {
     let csv = move || with_analysis(lab, Analysis::roots_to_csv).unwrap_or_default();
     let build = move |visit: &mut dyn FnMut(&[Chart])| {
-        let map = lab.scenario.with(|s| ValveMap::of(&s.setup));
+        let map = lab.computed.with_untracked(|setup| ValveMap::of(setup));
         let zero_paths = map.map(|m| m.zero_paths(PATH_POINTS)).unwrap_or_default();
         with_analysis(lab, |a| {
             let zeros: Vec<Complex> = a.zeros.iter().flatten().map(|z| z.value).collect();
@@ -74,7 +76,6 @@ pub fn pole_zero(lab: Lab) -> Picture {
 pub fn responses(lab: Lab) -> Picture {
     let window = Memo::new(move |_| lab.scenario.with(|s| s.view.zoom_s));
     let hide_linear = Memo::new(move |_| lab.scenario.with(|s| s.view.hide_linear));
-    let plant = lab.part(Setup::plant);
     let csv = move || lab.run.with(|run| run.as_ref().as_ref().map(Run::to_csv).unwrap_or_default());
     let build = move |visit: &mut dyn FnMut(&[Chart])| {
         let (run, pinned): (Outcome<Run>, _) = (lab.run.get(), lab.pinned.get());
@@ -85,8 +86,10 @@ pub fn responses(lab: Lab) -> Picture {
         let levels = number(&|k| tr!(lab, responses.level, number = k).to_string());
         let pumps = number(&|k| tr!(lab, responses.pump, number = k).to_string());
         let references = [1, 2].map(|k| format!("{} {k}", tr!(lab, responses.reference)));
-        let plant = plant.get();
-        let pinned = pinned.iter().filter_map(|p| p.as_ref().as_ref().ok()).map(|r| RunColumns::of(&r.nonlinear)).collect();
+        let plant = lab.computed.with_untracked(|setup| setup.plant());
+        let [pump_1, pump_2] = plant.pumps;
+        let pinned =
+            pinned.iter().filter_map(|p| p.as_ref().as_ref().ok()).map(|r| RunColumns::of(&r.nonlinear)).collect();
         visit(&figure::responses(&Responses {
             nonlinear: RunColumns::of(&run.nonlinear),
             references: [&run.nonlinear.references[0], &run.nonlinear.references[1]],
@@ -94,7 +97,7 @@ pub fn responses(lab: Lab) -> Picture {
             pinned,
             level_scale: per_metre(unit),
             walls: [plant.tanks[0].height, plant.tanks[1].height],
-            voltage_limits: (plant.pumps[0].voltage_min, plant.pumps[0].voltage_max),
+            voltage_limits: (pump_1.voltage_min.min(pump_2.voltage_min), pump_1.voltage_max.max(pump_2.voltage_max)),
             window_s: window.get().map(Into::into),
             texts: ResponseTexts {
                 time: tr!(lab, chart.time),

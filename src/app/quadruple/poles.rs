@@ -39,7 +39,11 @@ fn summary(lab: Lab) -> String {
         let texts: Vec<String> = numbers
             .map(|z| {
                 let real = style.significant(z.re, 3);
-                if z.im.abs() > 1e-3 * z.norm() { format!("{real} ± {}i", style.significant(z.im.abs(), 3)) } else { real }
+                if z.im.abs() > 1e-3 * z.norm() {
+                    format!("{real} ± {}i", style.significant(z.im.abs(), 3))
+                } else {
+                    real
+                }
             })
             .collect();
         if texts.is_empty() { "–".to_owned() } else { texts.join("; ") }

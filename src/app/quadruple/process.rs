@@ -25,8 +25,10 @@ pub fn ProcessCard() -> impl IntoView {
         Some(time) => tr!(lab, process.at_time, time = lab.number_style().fixed(time, 0)).to_string(),
         None => tr!(lab, process.at_rest).to_string(),
     };
+    let open = RwSignal::new(false);
     let sentence = move || sentences::of_zero(lab);
-    let warnings = move || sentences::of_equilibrium(lab).into_iter().map(|s| view! { <p>{rich(&s)}</p> }).collect_view();
+    let warnings =
+        move || sentences::of_equilibrium(lab).into_iter().map(|s| view! { <p>{rich(&s)}</p> }).collect_view();
     view! {
         <section class="card process" aria-labelledby="process-title">
             <header>
@@ -44,11 +46,11 @@ pub fn ProcessCard() -> impl IntoView {
                 <p>{move || rich(&sentence().0)}</p>
                 {warnings}
             </div>
-            <details class="more">
+            <details class="more" on:toggle=move |_| open.update(|o| *o = !*o)>
                 <summary>{say!(lab, process.operating_point)}</summary>
                 <PresetRemark />
                 <div class="fields">{(0..2).map(|pump| view! { <VoltageField pump /> }).collect_view()}</div>
-                <PublishedFigures />
+                {move || open.get().then(|| view! { <PublishedFigures /> })}
             </details>
         </section>
     }
@@ -90,7 +92,7 @@ fn VoltageField(pump: usize) -> impl IntoView {
         (pump.voltage_min, pump.voltage_max)
     });
     view! {
-        <div class="row wide">
+        <div class="field-row">
             <span>{format!("v{}", ["₁", "₂"][pump])}</span>
             <NumberField
                 id=VOLTAGE_IDS[pump]

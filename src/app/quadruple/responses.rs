@@ -253,7 +253,14 @@ fn Readout(frames: RwSignal<Vec<Frame>>) -> impl IntoView {
 fn readout_rows(lab: Lab, m: &Moment) -> impl IntoView + use<> {
     let style = lab.number_style();
     let unit = lab.unit().get();
-    let level = |k: usize| format!("h{} {} {}", ["₁", "₂"][k], style.fixed(to_shown(m.levels[k], unit), length_digits(unit)), unit_name(unit));
+    let level = |k: usize| {
+        format!(
+            "h{} {} {}",
+            ["₁", "₂"][k],
+            style.fixed(to_shown(m.levels[k], unit), length_digits(unit)),
+            unit_name(unit)
+        )
+    };
     let pump = |k: usize| format!("v{} {} V", ["₁", "₂"][k], style.fixed(m.pump_voltage[k], 2));
     view! {
         <div>{format!("t = {} s", style.fixed(m.time_s.unwrap_or(0.0), 0))}</div>
@@ -295,9 +302,13 @@ fn sentence(lab: Lab) -> String {
         parts.extend(run.nonlinear.events.iter().take(2).map(|event| {
             let time = lab.number_style().fixed(event.time_s, 0);
             match event.kind {
-                EventKind::Overflow { tank } => tr!(lab, responses.event_overflow, tank = tank + 1, time = time).to_string(),
+                EventKind::Overflow { tank } => {
+                    tr!(lab, responses.event_overflow, tank = tank + 1, time = time).to_string()
+                }
                 EventKind::Empty { tank } => tr!(lab, responses.event_empty, tank = tank + 1, time = time).to_string(),
-                EventKind::Saturated { pump } => tr!(lab, responses.event_saturated, pump = pump + 1, time = time).to_string(),
+                EventKind::Saturated { pump } => {
+                    tr!(lab, responses.event_saturated, pump = pump + 1, time = time).to_string()
+                }
             }
         }));
         parts.join(" ")
@@ -314,10 +325,21 @@ fn of_metrics(lab: Lab, index: usize, metrics: &LoopMetrics) -> Option<String> {
         Settling::After { time_s } => {
             let overshoot = format!("{} %", style.fixed(100.0 * metrics.overshoot.unwrap_or(0.0), 0));
             let time = style.significant(time_s, 3);
-            tr!(lab, responses.sentence_settles, level = level, time = time, overshoot = overshoot, other = other, cross = cross, unit = unit_name(unit)).to_string()
+            tr!(
+                lab,
+                responses.sentence_settles,
+                level = level,
+                time = time,
+                overshoot = overshoot,
+                other = other,
+                cross = cross,
+                unit = unit_name(unit)
+            )
+            .to_string()
         }
         Settling::Never => {
-            tr!(lab, responses.sentence_never, level = level, other = other, cross = cross, unit = unit_name(unit)).to_string()
+            tr!(lab, responses.sentence_never, level = level, other = other, cross = cross, unit = unit_name(unit))
+                .to_string()
         }
     })
 }
@@ -334,7 +356,8 @@ fn DataTable(picture: Picture) -> impl IntoView {
         let rows = rows
             .into_iter()
             .map(|row| {
-                let cells = row.into_iter().map(|value| view! { <td>{style.significant(value, 4)}</td> }).collect_view();
+                let cells =
+                    row.into_iter().map(|value| view! { <td>{style.significant(value, 4)}</td> }).collect_view();
                 view! { <tr>{cells}</tr> }
             })
             .collect_view();

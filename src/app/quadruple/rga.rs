@@ -21,7 +21,7 @@ pub fn RelativeGainCard() -> impl IntoView {
                 <span class="remark">{say!(lab, rga.remark)}</span>
             </header>
             <Gains />
-            <div class="formula" role="region" tabindex="0" aria-label=say!(lab, rga.title)><Formula /></div>
+            <div class="formula"><Formula /></div>
             <div class=move || if warm() { "verdict warm" } else { "verdict" } role="status" data-testid="rga-verdict">
                 <p>{move || rich(&verdict().map(|v| of_verdict(lab, v)).unwrap_or_else(|| tr!(lab, process.no_equilibrium).to_string()))}</p>
             </div>
@@ -47,7 +47,10 @@ fn Gains() -> impl IntoView {
             if chosen(row, column) { format!("{sign} chosen") } else { sign.to_owned() }
         };
         let text = move || gain().map_or_else(|| "∞".to_owned(), |g| lab.number_style().fixed(g, 2));
-        let note = move || chosen(row, column).then(|| view! { <span class="visually-hidden">{format!(" ({})", tr!(lab, rga.suggested))}</span> });
+        let note = move || {
+            chosen(row, column)
+                .then(|| view! { <span class="visually-hidden">{format!(" ({})", tr!(lab, rga.suggested))}</span> })
+        };
         view! { <td class=class><span data-testid=format!("lambda-{}{}", row + 1, column + 1)>{text}</span>{note}</td> }
     };
     let heading = move |column: usize| view! { <th scope="col">{say!(lab, rga.pump, number = column + 1)}</th> };
@@ -75,9 +78,7 @@ fn Formula() -> impl IntoView {
     let lab = use_lab();
     let valves = lab.part(|s| s.valves);
     let number = move |v: f64| lab.number_style().fixed(v, 2);
-    let value = move || {
-        with_analysis(lab, |a| a.rga_11.clone().ok()).flatten().map_or_else(|| "∞".to_owned(), number)
-    };
+    let value = move || with_analysis(lab, |a| a.rga_11.clone().ok()).flatten().map_or_else(|| "∞".to_owned(), number);
     view! {
         <math>
             <msub><mi>"λ"</mi><mn>"11"</mn></msub>
@@ -101,6 +102,9 @@ fn Formula() -> impl IntoView {
 
 fn of_verdict(lab: Lab, verdict: PairingVerdict) -> String {
     let style = lab.number_style();
+    if let PairingVerdict::None(PairingReason::EqualRelativeGains) = verdict {
+        return tr!(lab, rga.equal).to_owned();
+    }
     let (lead, reason) = match verdict {
         PairingVerdict::Diagonal(reason) => (tr!(lab, rga.diagonal), reason),
         PairingVerdict::Swapped(reason) => (tr!(lab, rga.swapped), reason),
@@ -113,7 +117,7 @@ fn of_verdict(lab: Lab, verdict: PairingVerdict) -> String {
         PairingReason::RelativeGainCloserToOne { relative_gain } => {
             tr!(lab, rga.closer, gain = style.fixed(relative_gain, 2)).to_string()
         }
-        PairingReason::EqualRelativeGains => tr!(lab, rga.equal).to_string(),
+        PairingReason::EqualRelativeGains => String::new(),
         PairingReason::SingularGain => tr!(lab, rga.singular).to_string(),
     };
     format!("{lead}{rest}")

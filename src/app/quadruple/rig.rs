@@ -83,9 +83,7 @@ fn TankView(tank: usize, plant: Signal<QuadrupleTank>) -> impl IntoView {
             TANK.0 * (1.0 - (bottom / brim).clamp(LEAST_BOTTOM, 1.0))
         })
     };
-    let walls = move || {
-        format!("M{left} {top} V{} H{} L{} {top}", top + TANK.1, left + TANK.0 - lean(), left + TANK.0)
-    };
+    let walls = move || format!("M{left} {top} V{} H{} L{} {top}", top + TANK.1, left + TANK.0 - lean(), left + TANK.0);
     let water = move || {
         let surface = top + TANK.1 * (1.0 - share());
         let brim = left + TANK.0 - lean() * (1.0 - share());
@@ -147,8 +145,7 @@ fn streams(plant: &QuadrupleTank, moment: &Moment) -> impl IntoView + use<> {
 fn PumpView(pump: usize) -> impl IntoView {
     let lab = use_lab();
     let moment = use_moment();
-    let (x, colour, anchor, at) =
-        if pump == 0 { (42.0, "one", "start", 60.0) } else { (234.0, "two", "end", 216.0) };
+    let (x, colour, anchor, at) = if pump == 0 { (42.0, "one", "start", 60.0) } else { (234.0, "two", "end", 216.0) };
     let voltage = move || {
         moment.get().map(|m| format!("v{} {} V", ["₁", "₂"][pump], lab.number_style().fixed(m.pump_voltage[pump], 2)))
     };

@@ -1,6 +1,6 @@
 //! The valve plane: γ1 across, γ2 upwards, shaded by the right-most zero, with a point to drag.
 
-use leptos::ev::{KeyboardEvent, PointerEvent};
+use leptos::ev::{KeyboardEvent, PointerEvent, TouchEvent};
 use leptos::prelude::*;
 
 use super::{pictures, sentences};
@@ -9,12 +9,16 @@ use crate::app::preset::{load, name_of};
 use crate::app::start::Control;
 use crate::app::texts::{say, tr};
 use crate::app::widgets::{ChartCanvas, ChartMenu, rich};
-use crate::figure::Frame;
+use crate::figure::{Frame, Rect};
 use crate::plant::PresetId;
 use crate::scenario::PlantSpec;
 
 /// Step of the arrow keys, and with Shift.
 const STEPS: (f64, f64) = (0.01, 0.05);
+
+const NO_PLACE: Rect = Rect { left: 0.0, top: 0.0, width: 1.0, height: 1.0 };
+/// The frame before the picture has been painted for the first time.
+const NOWHERE: Frame = Frame { outer: NO_PLACE, plot: NO_PLACE, x: (0.0, 1.0), y: (0.0, 1.0) };
 
 /// The valve plane.
 #[component]
@@ -48,24 +52,26 @@ pub fn ValvePlaneCard() -> impl IntoView {
 #[component]
 fn Overlay(frames: RwSignal<Vec<Frame>>) -> impl IntoView {
     let lab = use_lab();
-    let frame = Signal::derive(move || frames.with(|f| f.first().copied()));
+    // The overlay stands from the start and moves with the picture: rebuilding it would take the focus from the handle.
+    let frame = Signal::derive(move || frames.with(|f| f.first().copied()).unwrap_or(NOWHERE));
     view! {
         <svg class="over" aria-hidden="false">
-            {move || {
-                frame.get().map(|frame| view! { <Guides frame /> <PublishedPoints frame /> <Handle frame lab /> })
-            }}
+            <Guides frame />
+            <PublishedPoints frame />
+            <Handle frame lab />
         </svg>
     }
 }
 
 #[component]
-fn Guides(frame: Frame) -> impl IntoView {
+fn Guides(frame: Signal<Frame>) -> impl IntoView {
     let lab = use_lab();
     let at = move || {
         let [g1, g2] = lab.scenario.with(|s| s.setup.valves);
-        frame.to_px((g1, g2))
+        frame.get().to_px((g1, g2))
     };
-    let (left, bottom) = (frame.plot.left, frame.plot.bottom());
+    let left = move || frame.get().plot.left;
+    let bottom = move || frame.get().plot.bottom();
     view! {
         <line class="guide" x1=left y1=move || at().1 x2=move || at().0 y2=move || at().1 />
         <line class="guide" x1=move || at().0 y1=bottom x2=move || at().0 y2=move || at().1 />
@@ -74,7 +80,7 @@ fn Guides(frame: Frame) -> impl IntoView {
 
 /// Settings of the same source, to load with a click.
 #[component]
-fn PublishedPoints(frame: Frame) -> impl IntoView {
+fn PublishedPoints(frame: Signal<Frame>) -> impl IntoView {
     let lab = use_lab();
     let family = lab.part(|s| match s.plant {
         PlantSpec::Preset(id) => Some(id.preset().source),
@@ -91,10 +97,10 @@ fn PublishedPoints(frame: Frame) -> impl IntoView {
 }
 
 #[component]
-fn PublishedPoint(id: PresetId, frame: Frame) -> impl IntoView {
+fn PublishedPoint(id: PresetId, frame: Signal<Frame>) -> impl IntoView {
     let lab = use_lab();
     let valves = id.preset().plant.valves;
-    let (x, y) = frame.to_px((valves[0], valves[1]));
+    let at = move || frame.get().to_px(valves.into());
     let short = match id {
         PresetId::JohanssonMinimumPhase | PresetId::CocotaMinimumPhase => "P−",
         PresetId::JohanssonNonMinimumPhase | PresetId::CocotaNonMinimumPhase => "P+",
@@ -121,20 +127,20 @@ fn PublishedPoint(id: PresetId, frame: Frame) -> impl IntoView {
         <g class="published" role="button" tabindex="0" aria-label=label data-testid=format!("point-{}", id.name())
             on:click=move |_| choose() on:keydown=on_key>
             <title>{label}</title>
-            <circle class="hit" cx=x cy=y r="14" />
-            <circle class="mark" cx=x cy=y r="4.5" />
-            <text x=x + 9.0 y=y + 4.0>{short}</text>
+            <circle class="hit" cx=move || at().0 cy=move || at().1 r="14" />
+            <circle class="mark" cx=move || at().0 cy=move || at().1 r="4.5" />
+            <text x=move || at().0 + 9.0 y=move || at().1 + 4.0>{short}</text>
         </g>
     }
 }
 
 /// The point: dragged by mouse, pen or finger, moved by the arrow keys.
 #[component]
-fn Handle(frame: Frame, lab: Lab) -> impl IntoView {
+fn Handle(frame: Signal<Frame>, lab: Lab) -> impl IntoView {
     let dragging = RwSignal::new(false);
     let valves = lab.part(|s| s.valves);
     let locked = lab.locks(Control::Valves);
-    let at = move || frame.to_px(valves.get().into());
+    let at = move || frame.get().to_px(valves.get().into());
     let set = move |valves: [f64; 2]| {
         if !locked {
             lab.edit(|s| s.valves = valves.map(|g| (g.clamp(0.0, 1.0) * 100.0).round() / 100.0));
@@ -157,7 +163,7 @@ fn Handle(frame: Frame, lab: Lab) -> impl IntoView {
         if let Some(canvas) = target.closest("svg").ok().flatten() {
             let corner = canvas.get_bounding_client_rect();
             let (x, y) = (f64::from(event.client_x()) - corner.left(), f64::from(event.client_y()) - corner.top());
-            set(frame.to_data((x, y)).into());
+            set(frame.get_untracked().to_data((x, y)).into());
         }
     };
     let on_key = move |event: KeyboardEvent| {
@@ -196,6 +202,8 @@ fn Handle(frame: Frame, lab: Lab) -> impl IntoView {
             aria-disabled=locked.then_some("true")
             on:pointerdown=on_down
             on:pointermove=on_move
+            // A finger on the point drags it; anywhere else on the plane it scrolls the page.
+            on:touchstart=|event: TouchEvent| event.prevent_default()
             on:pointerup=move |_| dragging.set(false)
             on:pointercancel=move |_| dragging.set(false)
             on:keydown=on_key

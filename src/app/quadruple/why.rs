@@ -12,15 +12,17 @@ use crate::app::texts::{say, tr};
 pub fn WhyCard() -> impl IntoView {
     let lab = use_lab();
     let text = move || match situation(lab) {
-        Some(ZeroSituation::Right(z)) => {
-            tr!(lab, why.right, zero = lab.number_style().significant(z, 3)).to_string()
-        }
+        Some(ZeroSituation::Right(z)) => tr!(lab, why.right, zero = lab.number_style().significant(z, 3)).to_string(),
         Some(ZeroSituation::Left(_) | ZeroSituation::Uncoupled) => tr!(lab, why.left).to_string(),
         Some(ZeroSituation::Origin) => tr!(lab, why.origin).to_string(),
         Some(ZeroSituation::Degenerate) => tr!(lab, why.degenerate).to_string(),
         Some(ZeroSituation::NoFinite) | None => tr!(lab, why.none).to_string(),
     };
     let constraint = move || {
+        // At the origin rounding decides on which side the zero lies: there is nothing to divide by.
+        if !matches!(situation(lab), Some(ZeroSituation::Right(_))) {
+            return None;
+        }
         lab.scenario.with(|s| with_analysis(lab, |a| a.interpolation_integral(&s.setup.experiment))).flatten()
     };
     view! {
@@ -32,7 +34,7 @@ pub fn WhyCard() -> impl IntoView {
                 let style = lab.number_style();
                 let value = style.significant(to_shown(integral, unit), 3);
                 view! {
-                    <div class="formula" role="region" tabindex="0" aria-label=say!(lab, why.title)>
+                    <div class="formula">
                         <math>
                             <msubsup><mo>"∫"</mo><mn>"0"</mn><mi>"∞"</mi></msubsup>
                             <msup><mi>"η"</mi><mi>"T"</mi></msup><mi>"e"</mi><mo stretchy="false">"("</mo><mi>"t"</mi><mo stretchy="false">")"</mo>
@@ -44,7 +46,6 @@ pub fn WhyCard() -> impl IntoView {
                             <mn>{value}</mn><mtext>{format!("\u{a0}{}\u{a0}s", unit_name(unit))}</mtext>
                         </math>
                     </div>
-                    <p class="sentence">{tr!(lab, why.right_end)}</p>
                 }
             })}
         </section>

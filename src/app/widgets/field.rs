@@ -66,6 +66,9 @@ pub fn NumberField(
     scale: Scale,
     /// Decimals shown; `None` for three significant digits.
     digits: Option<usize>,
+    /// Smallest allowed magnitude, where the sign is free but zero is not allowed.
+    #[prop(default = 0.0)]
+    smallest: f64,
     /// Whether the field is locked.
     #[prop(into)]
     disabled: Signal<bool>,
@@ -80,7 +83,7 @@ pub fn NumberField(
     };
     let accept = move |v: f64| {
         let (min, max) = limits.get_untracked();
-        let fits = (min..=max).contains(&v);
+        let fits = (min..=max).contains(&v) && v.abs() >= smallest;
         refused.set(!fits);
         if fits {
             on_change.run(v);
@@ -119,7 +122,9 @@ pub fn NumberField(
     let problem = move || {
         refused.get().then(|| {
             let (min, max) = limits.get();
-            tr!(lab, field.allowed, min = show(min), max = show(max)).to_string()
+            let lowest = if smallest > 0.0 { smallest } else { min };
+            let text = tr!(lab, field.allowed, min = show(lowest), max = show(max));
+            if smallest > 0.0 { format!("± {text}") } else { text }
         })
     };
     view! {
@@ -168,6 +173,9 @@ pub fn SliderField(
     /// Smallest and largest value that the number field accepts; the travel where not given.
     #[prop(optional, into)]
     limits: Option<Signal<(f64, f64)>>,
+    /// Smallest magnitude that the number field accepts.
+    #[prop(default = 0.0)]
+    smallest: f64,
     /// Travel to value.
     scale: Scale,
     /// Decimals shown; `None` for three significant digits.
@@ -190,7 +198,8 @@ pub fn SliderField(
     let on_input = move |event| {
         let (min, max) = travel.get_untracked();
         if let Some(at) = NumberStyle::parse(&event_target_value(&event)) {
-            on_change.run(scale.value(at, min, max, value.get_untracked()));
+            let (lowest, highest) = limits.unwrap_or(travel).get_untracked();
+            on_change.run(scale.value(at, min, max, value.get_untracked()).clamp(lowest, highest));
         }
     };
     let range = move || match scale {
@@ -218,7 +227,7 @@ pub fn SliderField(
                 disabled=disabled
                 on:input=on_input
             />
-            <NumberField id=id.1 name value on_change limits=limits.unwrap_or(travel) scale digits disabled />
+            <NumberField id=id.1 name value on_change limits=limits.unwrap_or(travel) scale digits smallest disabled />
             <span class="unit">{unit}</span>
         </div>
     }

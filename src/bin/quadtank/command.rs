@@ -117,7 +117,7 @@ fn execute(command: Command) -> Result<(), Failure> {
         Command::Simulate { file, format } => {
             let run = compute(&file, run)?;
             match format {
-Format::Csv => print(&run.to_csv()),
+                Format::Csv => print(&run.to_csv()),
                 Format::Json => print_json(&run),
             }
         }
