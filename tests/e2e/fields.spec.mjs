@@ -18,12 +18,23 @@ test('a number out of range shows the limits and keeps the last valid value', as
   expect(await lab.text('lambda-11')).not.toBe(lambda);
 });
 
-test('a gain of zero is refused, a negative one is taken', async ({ lab }) => {
+test('a gain of zero is refused, a negative one is taken', async ({ lab, page }) => {
   await lab.open();
-  await lab.id('gain1-number').fill('0');
-  await expect(lab.id('gain1-number')).toHaveAttribute('aria-invalid', 'true');
+  for (const text of ['0', '0.0005', '-0.0005', '1001']) {
+    await lab.id('gain1-number').fill(text);
+    await expect(lab.id('gain1-number'), text).toHaveAttribute('aria-invalid', 'true');
+    await expect(page.locator('#gain1-number-problem')).toContainText('± 0.001 to 1000');
+  }
+  await lab.id('gain1-number').blur();
+  expect(await lab.value('gain1-number')).toBe(3);
+  const stable = await lab.text('stability');
   await lab.type('gain1-number', '−0.5');
-  expect(await lab.value('gain1-number')).toBeCloseTo(-0.5, 9);
+  expect(await lab.value('gain1-number')).toBe(-0.5);
+  expect(await lab.text('stability')).not.toBe(stable);
+  await lab.id('pi-more').click();
+  await lab.id('sign1').click();
+  await lab.settle();
+  expect(await lab.value('gain1-number')).toBe(0.5);
   await lab.clean();
 });
 
@@ -44,9 +55,61 @@ test('the sliders work by keyboard alone', async ({ lab, page }) => {
   const after = await lab.value('gain1-number');
   expect(after / before).toBeGreaterThan(1);
   expect(after / before).toBeLessThan(1.03);
+  // A logarithmic slider: equal steps are equal ratios, a tenth of the travel of 0.05 to 50 is a factor of two.
+  await page.keyboard.press('PageUp');
+  expect((await lab.value('gain1-number')) / after).toBeCloseTo(2, 1);
+  await page.keyboard.press('PageDown');
+  expect((await lab.value('gain1-number')) / after).toBeCloseTo(1, 1);
+  await page.keyboard.press('Home');
+  expect(await lab.value('gain1-number')).toBe(0.05);
+  await page.keyboard.press('End');
+  expect(await lab.value('gain1-number')).toBe(50);
+});
+
+test('the number fields work by keyboard alone', async ({ lab, page }) => {
+  await lab.open();
   await lab.id('integral1-number').focus();
   await page.keyboard.press('ArrowUp');
-  expect(await lab.value('integral1-number')).toBeGreaterThan(30);
+  const once = await lab.value('integral1-number');
+  expect(once).toBeGreaterThan(30);
+  await page.keyboard.press('PageUp');
+  expect(await lab.value('integral1-number')).toBeGreaterThan(once * 1.2);
+  await lab.id('gamma1-number').focus();
+  await page.keyboard.press('ArrowDown');
+  expect(await lab.value('gamma1-number')).toBe(0.69);
+  await page.keyboard.press('PageDown');
+  expect(await lab.value('gamma1-number')).toBe(0.59);
+  await lab.id('gamma1-number').fill('5');
+  await page.keyboard.press('Escape');
+  await expect(lab.id('gamma1-number')).toHaveValue('0.59');
+  await expect(page.locator('#gamma1-number-problem')).toHaveCount(0);
+});
+
+test('a slider and its number field always say the same', async ({ lab }) => {
+  await lab.open();
+  const slider = async (name) => Number(await lab.id(name).inputValue());
+  await lab.type('gamma1-number', '0.25');
+  expect(await slider('gamma1')).toBe(0.25);
+  // 600 positions over 0.05 to 50: the middle is the geometric mean.
+  await lab.type('gain1-number', String(Math.sqrt(0.05 * 50)));
+  expect(await slider('gain1')).toBe(300);
+  await lab.id('gain1').fill('600');
+  expect(await lab.value('gain1-number')).toBe(50);
+  // Beyond its travel the slider stands at its end, and the field keeps the number.
+  await lab.type('gain1-number', '400');
+  expect(await slider('gain1')).toBe(600);
+  expect(await lab.value('gain1-number')).toBe(400);
+});
+
+test('what is no number is never taken for one', async ({ lab }) => {
+  await lab.open();
+  for (const text of ['NaN', 'Infinity', 'inf', '1e999', '--3', '1.2.3', '', ' ', '0x1', '<b>']) {
+    await lab.id('gamma1-number').fill(text);
+    await expect(lab.id('gamma1-number'), text).toHaveAttribute('aria-invalid', 'true');
+  }
+  await lab.id('gamma1-number').blur();
+  await expect(lab.id('gamma1-number')).toHaveValue('0.70');
+  await lab.clean();
 });
 
 test('extreme gains are called unstable, the response is clipped and the page goes on', async ({ lab }) => {
@@ -59,7 +122,7 @@ test('extreme gains are called unstable, the response is clipped and the page go
   await lab.clean();
   expect((await lab.picture('responses')).ink).toBeGreaterThan(2000);
   await lab.preset('johansson-2000-minimum-phase');
-  expect(await lab.text('stability')).toContain('stable');
+  expect(await lab.text('stability')).toContain('Closed loop stable');
 });
 
 test('P+ with the diagonal pairing and integral action in both loops runs into a pump limit', async ({ lab }) => {

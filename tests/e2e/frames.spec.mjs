@@ -1,5 +1,5 @@
 // Where the laboratory has to run besides its own address: sub-paths, frames, one file, and pages that are not ready.
-import { existsSync } from 'node:fs';
+import { existsSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { Lab, expect, test } from './lab.mjs';
@@ -13,13 +13,15 @@ async function works(frame) {
   await expect(frame.getByTestId('lambda-11')).toContainText('−');
 }
 
-test('under any sub-path', async ({ lab, page }) => {
-  const site = await serve({ base: '/courses/ctrl/2026/' });
-  await page.goto(`${site.origin}/courses/ctrl/2026/`);
-  await works(page);
-  await lab.clean();
-  site.close();
-});
+for (const path of ['/a/b/', '/a/b/index.html']) {
+  test(`under a sub-path (${path})`, async ({ lab, page }) => {
+    const site = await serve({ base: '/a/b/' });
+    await page.goto(`${site.origin}${path}?lang=en`);
+    await works(page);
+    await lab.clean();
+    site.close();
+  });
+}
 
 test('in a frame of another origin', async ({ lab, page }) => {
   const course = await serve({ pages: { '/course': `<title>c</title><iframe title="lab" width="1200" height="800" src="${lab.origin}/?embed=1"></iframe>` }, base: '/none/' });
@@ -36,7 +38,7 @@ test('in a sandboxed frame, from a server that allows it, without storage', asyn
   await works(frame);
   await frame.getByTestId('theme').click();
   await frame.getByTestId('share').click();
-  await expect(frame.getByTestId('link')).toBeVisible();
+  await expect(frame.getByTestId('link')).toHaveValue(/#lab=/);
   expect(lab.complaints).toEqual([]);
   site.close();
   course.close();
@@ -54,6 +56,18 @@ test('the single file works in a sandboxed frame', async ({ page, lab }) => {
   const course = await serve({ pages: { '/course': '<title>c</title><iframe title="lab" sandbox="allow-scripts" width="1200" height="800" src="/quadtank.html"></iframe>' } });
   await page.goto(`${course.origin}/course`);
   await works(page.frameLocator('iframe'));
+  expect(lab.complaints).toEqual([]);
+  course.close();
+});
+
+test('the single file works where a page brings it along', async ({ page, lab }) => {
+  const text = readFileSync(SINGLE, 'utf8').replaceAll('&', '&amp;').replaceAll('"', '&quot;');
+  const course = await serve({ pages: { '/course': `<title>c</title><iframe title="lab" sandbox="allow-scripts" width="1200" height="800" srcdoc="${text}"></iframe>` } });
+  await page.goto(`${course.origin}/course`);
+  const frame = page.frameLocator('iframe');
+  await works(frame);
+  await frame.getByTestId('language').selectOption('pt-BR');
+  await expect(frame.getByTestId('lambda-11')).toContainText(',');
   expect(lab.complaints).toEqual([]);
   course.close();
 });

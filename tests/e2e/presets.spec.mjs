@@ -65,7 +65,7 @@ for (const [name, rig] of Object.entries(RIGS)) {
       rounded(await cell(lab, 'exact', `T${subscript[k]}`), exact.time_constants[k], 2);
       expect(await cell(lab, 'printed', `T${subscript[k]}`)).toBe(rig.times[k]);
     }
-    const zeros = exact.zeros.map(([real]) => real ?? exact.zeros).flat().sort((a, b) => a - b);
+    const zeros = [...exact.zeros].sort((a, b) => a - b);
     for (const k of [0, 1]) {
       const shown = await cell(lab, 'exact', `z${subscript[k]}`);
       expect(Math.abs(shown / zeros[k] - 1)).toBeLessThanOrEqual(0.5e-3);
@@ -73,7 +73,10 @@ for (const [name, rig] of Object.entries(RIGS)) {
     }
     rounded(await cell(lab, 'exact', 'λ'), exact.rga_11, 4);
     expect(await cell(lab, 'printed', 'λ')).toBeCloseTo(rig.lambda, 2);
-    for (const k of [0, 1]) expect(await lab.number(`rig-voltage-${k + 1}`)).toBeDefined();
+    for (const k of [0, 1]) {
+      const shown = numberIn((await lab.text(`rig-voltage-${k + 1}`)).slice(2));
+      rounded(shown, exact.pump_voltage[k], 2);
+    }
     await lab.clean();
   });
 }

@@ -54,6 +54,50 @@ test('dragging across the chart zooms into that stretch', async ({ lab, page }) 
   expect(await lab.picture('responses')).toEqual(whole);
 });
 
+test('the buttons zoom in and out, about the cursor, and show the whole run again', async ({ lab, page }) => {
+  await lab.open();
+  const whole = await lab.picture('responses');
+  const end = async () => {
+    await lab.id('responses-surface').focus();
+    await page.keyboard.press('End');
+    await lab.settle();
+    const time = Number((await lab.text('readout')).match(/t = (\d+)/)[1]);
+    await page.keyboard.press('Escape');
+    return time;
+  };
+  expect(await end()).toBe(3000);
+  await lab.id('zoom-in').click();
+  await lab.settle();
+  expect((await lab.picture('responses')).hash).not.toBe(whole.hash);
+  // 0.6 of 3000 s about the middle.
+  expect(await end()).toBe(2400);
+  await lab.id('zoom-out').click();
+  await lab.settle();
+  expect(await end()).toBe(3000);
+  await lab.settle();
+  expect(await lab.picture('responses')).toEqual(whole);
+  for (let k = 0; k < 20; k += 1) await lab.id('zoom-in').click();
+  await lab.settle();
+  expect((await lab.picture('responses')).ink).toBeGreaterThan(1000);
+  await lab.clean();
+  await lab.id('zoom-reset').click();
+  await lab.settle();
+  expect(await lab.picture('responses')).toEqual(whole);
+});
+
+test('the linear model can be left out', async ({ lab }) => {
+  await lab.open();
+  await lab.type('step1-number', '4');
+  const both = await lab.picture('responses');
+  await lab.id('linear').click();
+  await lab.settle();
+  const alone = await lab.picture('responses');
+  expect(alone.hash).not.toBe(both.hash);
+  await lab.id('linear').click();
+  await lab.settle();
+  expect(await lab.picture('responses')).toEqual(both);
+});
+
 test('a pinned run stays to compare with, and its metrics too', async ({ lab, page }) => {
   await lab.open('preset=johansson-2000-non-minimum-phase');
   const alone = await lab.picture('responses');

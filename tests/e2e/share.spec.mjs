@@ -12,15 +12,17 @@ async function change(lab, page) {
   await lab.type('gamma2-number', '0.27');
   await lab.id('responses-surface').focus();
   for (let k = 0; k < 5; k += 1) await page.keyboard.press('Shift+ArrowRight');
+  await page.keyboard.press('+');
+  await lab.id('linear').click();
   await lab.settle();
 }
 
 async function state(lab) {
   const fields = ['gamma1-number', 'gamma2-number', 'gain1-number', 'gain2-number', 'integral1-number', 'integral2-number', 'step1-number', 'step1-time', 'duration-number'];
   const values = await Promise.all(fields.map((name) => lab.id(name).inputValue()));
-  const swapped = await lab.id('pairing-swapped').getAttribute('aria-pressed');
+  const pressed = await Promise.all(['pairing-swapped', 'linear'].map((name) => lab.id(name).getAttribute('aria-pressed')));
   const table = await lab.id('metrics').innerText();
-  return [...values, swapped, table, await lab.text('readout'), await lab.id('preset').inputValue()];
+  return [...values, ...pressed, table, await lab.text('readout'), await lab.id('preset').inputValue()];
 }
 
 test('a shared link restores everything in a new page and after a reload', async ({ lab, page, context }) => {
@@ -28,6 +30,7 @@ test('a shared link restores everything in a new page and after a reload', async
   await lab.open();
   await change(lab, page);
   const before = await state(lab);
+  const picture = await lab.picture('responses');
   await lab.id('share').click();
   await expect(lab.id('notice')).toContainText('Link copied');
   const link = await page.evaluate(() => navigator.clipboard.readText());
@@ -39,7 +42,7 @@ test('a shared link restores everything in a new page and after a reload', async
   await other.goto(link);
   await second.ready();
   expect(await state(second)).toEqual(before);
-  expect(await second.picture('responses')).toEqual(await lab.picture('responses'));
+  expect(await second.picture('responses')).toEqual(picture);
 
   await page.reload();
   await lab.ready();
@@ -60,6 +63,36 @@ test('opening a link leaves the remembered choices alone', async ({ lab, page, c
   await lab.ready();
   await expect(page.locator('html')).toHaveAttribute('lang', 'en');
   expect(await page.evaluate(() => JSON.stringify({ ...localStorage }))).toBe(kept);
+});
+
+test('a link that is opened on a page that runs already is followed as well', async ({ lab, page, context }) => {
+  await context.grantPermissions(['clipboard-read', 'clipboard-write']);
+  await lab.open();
+  await change(lab, page);
+  const before = await state(lab);
+  await lab.id('share').click();
+  await expect(lab.id('notice')).toBeVisible();
+  const [, fragment] = (await page.evaluate(() => navigator.clipboard.readText())).split('#');
+  await lab.open('preset=cocota-2009-minimum-phase');
+  await page.evaluate((f) => (location.hash = f), fragment);
+  await expect(lab.id('gamma2-number')).toHaveValue('0.27');
+  await lab.settle();
+  expect(await state(lab)).toEqual(before);
+  await page.evaluate(() => (location.hash = 'lab=nonsense'));
+  await expect(lab.id('notice')).toContainText('could not be used');
+  expect(await state(lab)).toEqual(before);
+});
+
+test('the share link can be taken by hand where there is no clipboard', async ({ lab, page }) => {
+  await page.addInitScript(() => Object.defineProperty(navigator, 'clipboard', { value: undefined }));
+  await lab.open();
+  await lab.type('gamma1-number', '0.35');
+  await lab.id('share').click();
+  const link = await lab.id('link').inputValue();
+  await page.goto('about:blank');
+  await page.goto(link);
+  await lab.ready();
+  expect(await lab.value('gamma1-number')).toBe(0.35);
 });
 
 const BAD = ['lab=', 'lab=q1.AAAA', 'lab=%00%ff', `lab=q1.${'A'.repeat(5000)}`, 'lab=q9.eJw', 'lab=<script>alert(1)</script>', 'lab=q1.-_-_-_-_-_'];

@@ -47,6 +47,7 @@ test('dragging the point across the line flips zero, relative gain, pairing and 
 test('the arrow keys do the same as the mouse', async ({ lab, page }) => {
   await lab.open();
   await minimumPhase(lab);
+  const before = await lab.picture('responses');
   await lab.id('valve-handle').focus();
   for (let k = 0; k < 5; k += 1) await page.keyboard.press('Shift+ArrowLeft');
   for (let k = 0; k < 4; k += 1) await page.keyboard.press('Shift+ArrowDown');
@@ -55,24 +56,53 @@ test('the arrow keys do the same as the mouse', async ({ lab, page }) => {
   expect(await lab.value('gamma1-number')).toBeCloseTo(0.44, 9);
   expect(await lab.value('gamma2-number')).toBeCloseTo(0.4, 9);
   await rightHalfPlane(lab);
+  expect((await lab.picture('responses')).hash).not.toBe(before.hash);
+  await expect(lab.id('valve-handle')).toBeFocused();
+  await expect(lab.id('valve-handle')).toHaveAttribute('aria-valuetext', 'γ₁ 0.44, γ₂ 0.40');
   await page.keyboard.press('End');
   await lab.settle();
   expect(await lab.value('gamma1-number')).toBe(1);
 });
 
+test('the point cannot be dragged off the plane', async ({ lab, page }) => {
+  await lab.open();
+  const from = await lab.middle('valve-handle');
+  await page.mouse.move(from.x, from.y);
+  await page.mouse.down();
+  await page.mouse.move(from.x + 400, from.y + 500, { steps: 6 });
+  await lab.settle();
+  expect([await lab.value('gamma1-number'), await lab.value('gamma2-number')]).toEqual([1, 0]);
+  await page.mouse.move(from.x - 500, from.y - 200, { steps: 6 });
+  await page.mouse.up();
+  await lab.settle();
+  expect([await lab.value('gamma1-number'), await lab.value('gamma2-number')]).toEqual([0, 1]);
+  await page.mouse.move(from.x, from.y);
+  await lab.settle();
+  expect(await lab.value('gamma1-number')).toBe(0);
+  await lab.clean();
+});
+
 test.describe('by touch', () => {
   test.use({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
-  test('a finger drags the point', async ({ lab, page }) => {
+  test('a finger drags the point, the page stays where it is, and the point stays under the finger', async ({ lab, page }) => {
     await lab.open();
     await lab.id('valve-handle').scrollIntoViewIfNeeded();
     const from = await lab.middle('valve-handle');
+    const scrolled = await page.evaluate(() => scrollY);
     const client = await page.context().newCDPSession(page);
     const touch = (type, x, y) => client.send('Input.dispatchTouchEvent', { type, touchPoints: type === 'touchEnd' ? [] : [{ x, y }] });
     await touch('touchStart', from.x, from.y);
-    for (let k = 1; k <= 10; k += 1) await touch('touchMove', from.x - 8 * k, from.y + 8 * k);
+    for (let k = 1; k <= 10; k += 1) {
+      await touch('touchMove', from.x - 8 * k, from.y + 8 * k);
+      await lab.settle();
+    }
+    const reached = await lab.middle('valve-handle');
     await touch('touchEnd');
     await lab.settle();
     await rightHalfPlane(lab);
+    expect(await page.evaluate(() => scrollY)).toBe(scrolled);
+    expect(Math.abs(reached.x - (from.x - 80))).toBeLessThan(4);
+    expect(Math.abs(reached.y - (from.y + 80))).toBeLessThan(4);
   });
 });
 
