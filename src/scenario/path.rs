@@ -47,7 +47,7 @@ pub fn path_at(text: &str, line: usize, column: usize) -> String {
             Step::Key(key) if key.is_empty() => {}
             Step::Key(key) if path.is_empty() => path.push_str(key),
             Step::Key(key) => path.extend([".", key]),
-            Step::Index(index) => path.push_str(&format!("[{index}]")),
+            Step::Index(index) => path.extend(["[", &index.to_string(), "]"]),
         }
     }
     path
