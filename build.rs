@@ -61,8 +61,11 @@ fn values(text: &str) -> BTreeSet<&str> {
 
 fn write_text(code: &mut String, key: &str, texts: [&str; 2]) -> std::fmt::Result {
     let names = values(texts[0]);
-    let fields: String = names.iter().map(|name| format!("pub {name}: &'a dyn std::fmt::Display, ")).collect();
-    let pairs: String = names.iter().map(|name| format!("({name:?}, self.{name}), ")).collect();
+    let (mut fields, mut pairs) = (String::new(), String::new());
+    for name in &names {
+        write!(fields, "pub {name}: &'a dyn std::fmt::Display, ")?;
+        write!(pairs, "({name:?}, self.{name}), ")?;
+    }
     if names.is_empty() {
         writeln!(code, "pub struct {key};\nimpl {key} {{")?;
         writeln!(code, "pub fn text(self, in_language: crate::app::texts::Language) -> &'static str {{")?;

@@ -361,7 +361,7 @@ fn unknown_missing_and_double_fields_are_refused_by_name() {
 
     let double = to_json(&Scenario::default()).unwrap().replacen("\"valves\"", "\"valves\": [0, 0], \"valves\"", 1);
     let error = from_json(&double).unwrap_err().to_string();
-    assert!(error.starts_with("setup: duplicate field `valves`"), "{error}");
+    assert!(error.starts_with("setup.valves: duplicate field `valves`"), "{error}");
 
     let more = format!("{} {{}}", full());
     let error = from_json(&more).unwrap_err().to_string();

@@ -8,6 +8,12 @@ enum Step {
     Index(usize),
 }
 
+impl Step {
+    fn lacks_key(&self) -> bool {
+        matches!(self, Self::Key(key) if key.is_empty())
+    }
+}
+
 /// The path of the value that ends at or contains a place in a JSON text (line and column from 1, as parsers count them),
 /// such as `setup.controller.loops[0].gain`. Empty for the whole document. Never fails: where the text is no JSON, the path
 /// leads as far as it made sense.
@@ -16,7 +22,6 @@ pub fn path_at(text: &str, line: usize, column: usize) -> String {
     let end = before.saturating_add(column).min(text.len());
     let mut steps: Vec<Step> = Vec::new();
     let mut string: Option<Vec<u8>> = None;
-    let mut last_string = String::new();
     let mut escaped = false;
     for &byte in &text.as_bytes()[..end] {
         if let Some(content) = &mut string {
@@ -26,7 +31,13 @@ pub fn path_at(text: &str, line: usize, column: usize) -> String {
                     escaped = false;
                 }
                 b'\\' => escaped = true,
-                b'"' => last_string = String::from_utf8_lossy(&string.take().unwrap_or_default()).into_owned(),
+                b'"' => {
+                    let content = string.take().unwrap_or_default();
+                    // The first string after `{` or `,` is the key; the next one is a value.
+                    if let Some(Step::Key(key)) = steps.last_mut().filter(|step| step.lacks_key()) {
+                        *key = String::from_utf8_lossy(&content).into_owned();
+                    }
+                }
                 _ => content.push(byte),
             }
             continue;
@@ -36,7 +47,7 @@ pub fn path_at(text: &str, line: usize, column: usize) -> String {
             (b'{', _) => steps.push(Step::Key(String::new())),
             (b'[', _) => steps.push(Step::Index(0)),
             (b'}' | b']', _) => drop(steps.pop()),
-            (b':', Some(Step::Key(key))) => key.clone_from(&last_string),
+            (b',', Some(Step::Key(key))) => key.clear(),
             (b',', Some(Step::Index(index))) => *index += 1,
             _ => {}
         }
@@ -47,7 +58,7 @@ pub fn path_at(text: &str, line: usize, column: usize) -> String {
             Step::Key(key) if key.is_empty() => {}
             Step::Key(key) if path.is_empty() => path.push_str(key),
             Step::Key(key) => path.extend([".", key]),
-            Step::Index(index) => path.push_str(&format!("[{index}]")),
+            Step::Index(index) => path.extend(["[", &index.to_string(), "]"]),
         }
     }
     path
@@ -68,6 +79,12 @@ mod tests {
     fn keys_and_indices_lead_to_the_value() {
         let text = "{\"a\": 1, \"setup\": {\"loops\": [{\"gain\": 2},\n {\"gain\": #}]}}";
         assert_eq!(at(text, '#'), "setup.loops[1].gain");
+    }
+
+    #[test]
+    fn a_key_without_a_value_yet_counts() {
+        assert_eq!(at("{\"a\": 1, \"b\"#", '#'), "b");
+        assert_eq!(at("{\"a\": \"text\"#", '#'), "a");
     }
 
     #[test]

@@ -6,7 +6,7 @@ use super::sentences::with_analysis;
 use crate::app::lab::use_lab;
 use crate::app::shown::{length_digits, to_shown, unit_name};
 use crate::app::texts::{say, tr};
-use crate::plant::Preset;
+use crate::plant::{Preset, PresetId};
 use crate::scenario::PlantSpec;
 
 /// A row: what, computed, printed.
@@ -20,7 +20,7 @@ pub fn PublishedFigures() -> impl IntoView {
         PlantSpec::Preset(id) => Some(id),
         PlantSpec::Parameters { .. } => None,
     });
-    let preset = move || preset.get().map(|id| id.preset());
+    let preset = move || preset.get().map(PresetId::preset);
     let rows = move || {
         rows(lab, preset().as_ref())
             .into_iter()

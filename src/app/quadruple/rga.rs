@@ -7,6 +7,7 @@ use crate::app::lab::{Lab, use_lab};
 use crate::app::texts::{say, tr};
 use crate::app::widgets::rich;
 use crate::interaction::{PairingReason, PairingVerdict};
+use crate::scenario::Analysis;
 
 /// The relative gain array.
 #[component]
@@ -23,7 +24,7 @@ pub fn RelativeGainCard() -> impl IntoView {
             <Gains />
             <div class="formula"><Formula /></div>
             <div class=move || if warm() { "verdict warm" } else { "verdict" } role="status" data-testid="rga-verdict">
-                <p>{move || rich(&verdict().map(|v| of_verdict(lab, v)).unwrap_or_else(|| tr!(lab, process.no_equilibrium).to_string()))}</p>
+                <p>{move || rich(&verdict().map_or_else(|| tr!(lab, process.no_equilibrium).to_string(), |v| of_verdict(lab, v)))}</p>
             </div>
             <p class="remark" data-testid="niederlinski">{move || of_niederlinski(lab)}</p>
         </section>
@@ -34,7 +35,7 @@ pub fn RelativeGainCard() -> impl IntoView {
 #[component]
 fn Gains() -> impl IntoView {
     let lab = use_lab();
-    let rga = move || with_analysis(lab, |a| a.rga()).flatten();
+    let rga = move || with_analysis(lab, Analysis::rga).flatten();
     let chosen = move |row: usize, column: usize| match with_analysis(lab, |a| a.verdict) {
         Some(PairingVerdict::Diagonal(_)) => row == column,
         Some(PairingVerdict::Swapped(_)) => row != column,
@@ -78,7 +79,7 @@ fn Formula() -> impl IntoView {
     let lab = use_lab();
     let valves = lab.part(|s| s.valves);
     let number = move |v: f64| lab.number_style().fixed(v, 2);
-    let value = move || with_analysis(lab, |a| a.rga_11.clone().ok()).flatten().map_or_else(|| "∞".to_owned(), number);
+    let value = move || with_analysis(lab, |a| a.rga_11.ok()).flatten().map_or_else(|| "∞".to_owned(), number);
     view! {
         <math>
             <msub><mi>"λ"</mi><mn>"11"</mn></msub>

@@ -12,11 +12,14 @@ use crate::app::lab::use_lab;
 use crate::app::texts::tr;
 use crate::figure::{Chart, Frame, Size, Style, layout, to_svg};
 
+/// Builds charts in place and hands them to a visitor.
+type Build = dyn Fn(&mut dyn FnMut(&[Chart])) + Send + Sync;
+
 /// How the charts of a picture are had: a function that builds them, in place, for whoever paints or exports them, and
 /// one for the numbers behind them as CSV. Building reads signals, so whoever calls it inside an effect follows them.
 #[derive(Clone)]
 pub struct Picture {
-    build: Arc<dyn Fn(&mut dyn FnMut(&[Chart])) + Send + Sync>,
+    build: Arc<Build>,
     csv: Arc<dyn Fn() -> String + Send + Sync>,
 }
 
