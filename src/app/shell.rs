@@ -43,7 +43,7 @@ pub fn Laboratory() -> impl IntoView {
     view! {
         <div class=if embed { "embed" } else { "page" }>
             {if embed {
-                view! { <h1 class="visually-hidden">{say!(lab, app.title)}</h1> }.into_any()
+                view! { <header class="visually-hidden"><h1>{say!(lab, app.title)}</h1></header> }.into_any()
             } else {
                 view! { <Header /> }.into_any()
             }}

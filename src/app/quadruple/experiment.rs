@@ -111,10 +111,14 @@ fn ReferenceStep(level: usize) -> impl IntoView {
     let step = lab.part(move |s| first_step(&s.experiment, level));
     let reach = lab.part(|s| {
         let plant = s.plant();
-        plant.tanks[0].height.min(plant.tanks[1].height) * REFERENCE_TRAVEL
+        plant.tanks[0].height.min(plant.tanks[1].height)
     });
     let locked = lab.locks(Control::Experiment);
     let travel = Signal::derive(move || {
+        let reach = to_shown(reach.get(), unit.get()) * REFERENCE_TRAVEL;
+        (-reach, reach)
+    });
+    let limits = Signal::derive(move || {
         let reach = to_shown(reach.get(), unit.get());
         (-reach, reach)
     });
@@ -127,6 +131,7 @@ fn ReferenceStep(level: usize) -> impl IntoView {
                 value=Signal::derive(move || step.get().map_or(0.0, |s| to_shown(s.size, unit.get())))
                 on_change=move |v| { let size = to_metres(v, unit.get_untracked()); edit_step(lab, level, move |s| s.size = size) }
                 travel
+                limits
                 scale=Scale::Linear(0.01)
                 digits=Some(2)
                 unit=Signal::derive(move || unit_name(unit.get()).to_owned())

@@ -42,6 +42,8 @@ pub fn WhyCard() -> impl IntoView {
                             <mi>"d"</mi><mi>"t"</mi>
                             <mo>"="</mo>
                             <mfrac><mrow><msup><mi>"η"</mi><mi>"T"</mi></msup><mi>"r"</mi></mrow><mi>"z"</mi></mfrac>
+                        </math>
+                        <math>
                             <mo>"="</mo>
                             <mn>{value}</mn><mtext>{format!("\u{a0}{}\u{a0}s", unit_name(unit))}</mtext>
                         </math>

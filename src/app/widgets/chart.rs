@@ -2,7 +2,6 @@ use std::sync::Arc;
 
 use leptos::html::Canvas;
 use leptos::prelude::*;
-use leptos_use_device_pixel_ratio::use_device_pixel_ratio;
 use leptos_use_element_size::{UseElementSizeReturn, use_element_size};
 use web_sys::HtmlCanvasElement;
 
@@ -56,10 +55,14 @@ pub fn ChartCanvas(
     let lab = use_lab();
     let canvas = NodeRef::<Canvas>::new();
     let UseElementSizeReturn { width, height } = use_element_size(canvas);
-    let ratio = use_device_pixel_ratio();
+    // A window that moves to another screen is resized or zoomed in the eyes of the browser.
+    let moved = Trigger::new();
+    let on_resize = window_event_listener(leptos::ev::resize, move |_| moved.notify());
+    on_cleanup(move || on_resize.remove());
     Effect::new(move || {
         let size = Size { width: width.get(), height: height.get() };
-        let ratio = ratio.get();
+        moved.track();
+        let ratio = window().device_pixel_ratio();
         let Some(canvas) = canvas.get() else { return };
         if size.width < 1.0 || size.height < 1.0 {
             return;
