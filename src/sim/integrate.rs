@@ -42,6 +42,9 @@ const TOLERANCE: f64 = 5e-9;
 /// `x⁵/120`, is about 1e-8.
 const EXPLICIT_SHARE: f64 = 1.0 / 15.0;
 
+/// With more explicit steps than this the implicit method is cheaper.
+const MOST_EXPLICIT_STEPS: f64 = 8.0;
+
 /// Most sub-steps between two rows of a trajectory. The method is stable with any.
 const MAX_STEPS: u32 = 8;
 
@@ -218,8 +221,17 @@ impl Hydraulics {
 
     /// Lets `duration` seconds pass from `time` on.
     pub(super) fn advance(&mut self, time: f64, duration: f64, watch: &mut impl Watch) {
-        if self.is_slow(duration) {
-            return self.explicit_step(time, duration, watch);
+        // In units of the longest explicit step.
+        let length = duration * self.fastest_rate() / EXPLICIT_SHARE;
+        if length <= MOST_EXPLICIT_STEPS {
+            let steps = length.ceil().max(1.0);
+            let step = duration / steps;
+            let mut done = 0.0;
+            while done < steps {
+                self.explicit_step(time + done * step, step, watch);
+                done += 1.0;
+            }
+            return;
         }
         let steps = self.steps(duration);
         if steps == 1 {
@@ -231,14 +243,14 @@ impl Hydraulics {
         }
     }
 
-    /// Whether the step is so short against every time constant that an explicit method is as good, and cheaper.
+    /// The largest 1/T of the tanks (1/s), `T = 2 A √h/drain`; unbounded where one is dry.
     #[inline]
-    fn is_slow(&self, step: f64) -> bool {
-        let slow = |i: usize| {
+    fn fastest_rate(&self) -> f64 {
+        let rate = |i: usize| {
             let root = self.root_level[i];
-            step * self.drain[i] <= EXPLICIT_SHARE * 2.0 * self.sections[i].area(root * root) * root
+            self.drain[i] / (2.0 * self.sections[i].area(root * root) * root)
         };
-        slow(2) && slow(3) && slow(0) && slow(1)
+        rate(0).max(rate(1)).max(rate(2)).max(rate(3))
     }
 
     /// Slopes of the levels (m/s) at given levels (m).
