@@ -6,6 +6,7 @@
 
 use std::sync::Arc;
 
+use gloo_timers::callback::Timeout;
 use leptos::prelude::*;
 
 use super::canvas;
@@ -54,6 +55,7 @@ pub struct Lab {
     pub flags: StoredValue<StartFlags>,
     computed_pinned: StoredValue<Vec<Setup>>,
     stopwatch: StoredValue<Stopwatch>,
+    after_frame: StoredValue<Option<Timeout>, LocalStorage>,
 }
 
 /// The laboratory of this page.
@@ -76,6 +78,7 @@ impl Lab {
             notice: RwSignal::new(None),
             flags: StoredValue::new(flags),
             stopwatch: StoredValue::new(Stopwatch::default()),
+            after_frame: StoredValue::new_local(None),
         };
         Effect::new(move || {
             lab.scenario.track();
@@ -168,10 +171,11 @@ impl Lab {
         }
         let stopwatch = self.stopwatch;
         // A task after this frame: by then the panels have repainted.
-        gloo_timers::callback::Timeout::new(0, move || {
+        let after = Timeout::new(0, move || {
             stopwatch.try_update_value(Stopwatch::end);
-        })
-        .forget();
+        });
+        // Kept, not forgotten: a forgotten timer is never freed.
+        self.after_frame.set_value(Some(after));
     }
 }
 

@@ -194,7 +194,8 @@ fn range<'a>(
     let all = beside
         .flat_map(|(time_s, columns)| columns.map(|column| extent(part(time_s, column, window))))
         .flatten()
-        .map(|(low, high)| (low.clamp(floor, ceiling), high.clamp(floor, ceiling)))
+        // Not `clamp`, which panics where a main column is so large that the stretch is not finite.
+        .map(|(low, high)| (low.max(floor).min(ceiling), high.max(floor).min(ceiling)))
         .fold(main, join);
     let room = ROOM * (all.1 - all.0);
     (all.0 - room, all.1 + room)
