@@ -72,12 +72,18 @@ async function reset(lab, page) {
   await lab.preset('johansson-2000-minimum-phase');
 }
 
-/** What the page holds after a collection of garbage. */
-async function memory(client) {
+/** Bytes of JavaScript and of the wasm, after a collection of garbage. */
+async function memory(page, client) {
   await client.send('HeapProfiler.collectGarbage');
   const { metrics } = await client.send('Performance.getMetrics');
   const read = (name) => metrics.find((m) => m.name === name).value;
-  return { bytes: read('JSHeapUsedSize'), nodes: read('Nodes'), listeners: read('JSEventListeners') };
+  const wasm = await page.evaluate(async () => {
+    const { js } = document.querySelector('script[data-wasm]').dataset;
+    // The module that runs already: asking it again hands out the same instance.
+    const { memory } = await (await import(new URL(js, document.baseURI))).default();
+    return memory.buffer.byteLength;
+  });
+  return { js: read('JSHeapUsedSize'), nodes: read('Nodes'), listeners: read('JSEventListeners'), wasm };
 }
 
 test('2,000 random events leave no error, no NaN and a flat heap', async ({ lab, page }, info) => {
@@ -94,13 +100,16 @@ test('2,000 random events leave no error, no NaN and a flat heap', async ({ lab,
       expect(lab.complaints).toEqual([]);
     }
     await reset(lab, page);
-    return memory(client);
+    return memory(page, client);
   };
   const [first, second] = [await half(), await half()];
   info.annotations.push({ type: 'memory', description: JSON.stringify({ first, second }) });
-  expect(second.bytes).toBeLessThan(first.bytes * 1.05 + 200_000);
+  expect(second.js).toBeLessThan(first.js * 1.05 + 200_000);
   expect(second.nodes).toBeLessThan(first.nodes * 1.05 + 100);
   expect(second.listeners).toBeLessThan(first.listeners * 1.05 + 20);
+  // The bar is no growth at all and is not reached yet: the memory of the module still creeps (see docs/benchmarks.md).
+  // Until it is, this share only goes down.
+  expect(second.wasm).toBeLessThanOrEqual(first.wasm * 1.2);
   // And the bench still works.
   expect(await lab.number('lambda-11')).toBe(1.4);
   expect(await lab.text('stability')).toContain('Closed loop stable');
