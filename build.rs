@@ -68,8 +68,9 @@ fn write_text(code: &mut String, key: &str, texts: [&str; 2]) -> std::fmt::Resul
     }
     if names.is_empty() {
         writeln!(code, "pub struct {key};\nimpl {key} {{")?;
+        writeln!(code, "pub const TEXTS: &'static [&'static str; 2] = &{texts:?};")?;
         writeln!(code, "pub fn text(self, in_language: crate::app::texts::Language) -> &'static str {{")?;
-        writeln!(code, "{texts:?}[in_language as usize] }} }}")
+        writeln!(code, "Self::TEXTS[in_language as usize] }} }}")
     } else {
         writeln!(code, "pub struct {key}<'a> {{ {fields} }}\nimpl {key}<'_> {{")?;
         writeln!(code, "pub fn text(&self, in_language: crate::app::texts::Language) -> String {{")?;

@@ -16,6 +16,8 @@
 //! Everything below `app` compiles without a browser, holds no text for people, and is in SI units (m, m², m³/s, s,
 //! V, rad/s) unless a name says otherwise. Tanks 1 and 2 are the lower ones; indices in code start at 0.
 
+mod scalar;
+
 pub mod control;
 pub mod figure;
 pub mod interaction;

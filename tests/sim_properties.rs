@@ -2,6 +2,8 @@
 //! seed decides a run, the linear model is the limit of small steps, and poles foretell growth.
 #![cfg(not(target_arch = "wasm32"))]
 
+mod seeded;
+
 use proptest::prelude::*;
 use quadtank::control::{AntiWindup, DecentralisedPi, LoopMode, Pairing, PiSettings};
 use quadtank::plant::{Disturbance, OperatingPoint, PresetId, QuadrupleTank};
@@ -338,4 +340,10 @@ fn nonsense_gives_short_runs_and_not_panics() {
         }
         let _ = closed_loop(&setup.plant.linearise(&setup.op), &setup.law, setup.plant.power_gain);
     }
+}
+
+#[test]
+fn a_seed_gives_the_same_run_as_in_the_browser() {
+    let found = seeded::total_variation();
+    assert!((found - seeded::TOTAL_VARIATION).abs() <= seeded::TOLERANCE, "{found}");
 }

@@ -1,13 +1,15 @@
 //! The core in the browser that it is made for: the same figures as on the host, compiled to wasm.
 #![cfg(target_arch = "wasm32")]
 
+mod seeded;
+
 use quadtank::plant::PresetId;
 use quadtank::scenario::{Scenario, analyse, from_link, run, setup_of, to_link};
 use wasm_bindgen_test::{wasm_bindgen_test, wasm_bindgen_test_configure};
 
 wasm_bindgen_test_configure!(run_in_browser);
 
-/// λ11 = γ1 γ2 / (γ1 + γ2 − 1), Johansson (2000), eq. 10.
+/// λ11 = γ1 γ2 / (γ1 + γ2 − 1), Cocota (2009), eq. 4.10.
 fn relative_gain([one, two]: [f64; 2]) -> f64 {
     one * two / (one + two - 1.0)
 }
@@ -51,4 +53,10 @@ fn a_damaged_link_is_an_error() {
     let link = to_link(&Scenario::default()).expect("the default fits into a link");
     assert!(from_link(&link[..link.len() - 3]).is_err());
     assert!(from_link("no link at all").is_err());
+}
+
+#[wasm_bindgen_test]
+fn a_seed_gives_the_same_run_as_on_the_host() {
+    let found = seeded::total_variation();
+    assert!((found - seeded::TOTAL_VARIATION).abs() <= seeded::TOLERANCE, "{found}");
 }

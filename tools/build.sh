@@ -7,3 +7,4 @@ cd "$(dirname "$0")/.."
 trunk --quiet build --release --offline
 node tools/release.mjs
 node tools/single.mjs
+node tools/minify.mjs

@@ -45,6 +45,8 @@ pub struct Lab {
     pub run: RwSignal<Outcome<Run>>,
     /// The pinned runs, in the order of the scenario.
     pub pinned: RwSignal<Arc<Vec<Outcome<Run>>>>,
+    /// The unit in which levels are shown.
+    pub unit: Signal<DisplayUnit>,
     /// The language of the texts.
     pub language: RwSignal<Language>,
     /// Whether the theme is dark.
@@ -66,13 +68,17 @@ pub fn use_lab() -> Lab {
 impl Lab {
     /// A laboratory that shows `scenario`, computed at once.
     pub fn new(scenario: Scenario, language: Language, dark: bool, flags: StartFlags) -> Self {
+        let (analysis, run) = (scenario::analyse(&scenario.setup), scenario::run(&scenario.setup));
+        let (computed, pinned) = (scenario.setup.clone(), scenario.pinned.clone());
+        let scenario = RwSignal::new(scenario);
         let lab = Self {
-            analysis: RwSignal::new(Arc::new(scenario::analyse(&scenario.setup))),
-            run: RwSignal::new(Arc::new(scenario::run(&scenario.setup))),
-            pinned: RwSignal::new(run_all(&scenario.pinned)),
-            computed: RwSignal::new(Arc::new(scenario.setup.clone())),
-            computed_pinned: StoredValue::new(scenario.pinned.clone()),
-            scenario: RwSignal::new(scenario),
+            analysis: RwSignal::new(Arc::new(analysis)),
+            run: RwSignal::new(Arc::new(run)),
+            pinned: RwSignal::new(run_all(&pinned)),
+            computed: RwSignal::new(Arc::new(computed)),
+            computed_pinned: StoredValue::new(pinned),
+            unit: Memo::new(move |_| scenario.with(|s| s.setup.display_unit())).into(),
+            scenario,
             language: RwSignal::new(language),
             dark: RwSignal::new(dark),
             notice: RwSignal::new(None),
@@ -134,11 +140,6 @@ impl Lab {
     pub fn chart_style(self) -> Style {
         let palette = if self.dark.get() { Palette::DARK } else { Palette::LIGHT };
         Style { palette, decimal: self.number_style().decimal, scale: canvas::FINE }
-    }
-
-    /// The unit in which levels are shown.
-    pub fn unit(self) -> Signal<DisplayUnit> {
-        self.part(Setup::display_unit)
     }
 
     fn request_frame(self) {

@@ -50,7 +50,7 @@ pub fn load(lab: Lab, id: PresetId) {
 }
 
 /// The rig in force, if it is a published one.
-fn chosen(lab: Lab) -> Signal<Option<PresetId>> {
+pub fn chosen(lab: Lab) -> Signal<Option<PresetId>> {
     lab.part(|s| match s.plant {
         PlantSpec::Preset(id) => Some(id),
         PlantSpec::Parameters { .. } => None,

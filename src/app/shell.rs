@@ -33,6 +33,7 @@ pub fn Laboratory() -> impl IntoView {
     provide_context(lab);
     Effect::new(move || show_on_root("data-theme", if lab.dark.get() { "dark" } else { "light" }));
     Effect::new(move || show_on_root("lang", lab.language.get().tag()));
+    Effect::new(move || document().set_title(tr!(lab, app.page_title)));
     let on_hash = window_event_listener(ev::hashchange, move |_| {
         if let Some(outcome) = share::from_address() {
             lab.open(outcome);

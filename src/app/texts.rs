@@ -2,6 +2,8 @@
 
 use std::fmt::{Display, Write as _};
 
+use leptos::prelude::*;
+
 use super::format::NumberStyle;
 
 #[allow(missing_docs, non_camel_case_types, clippy::pedantic, dead_code, reason = "generated")]
@@ -71,8 +73,16 @@ macro_rules! tr {
 }
 pub(crate) use tr;
 
+/// A text without values, following the language.
+pub fn follow(language: RwSignal<Language>, texts: &'static [&'static str; 2]) -> Signal<String> {
+    Signal::derive(move || texts[language.get() as usize].to_owned())
+}
+
 /// The same as a signal. Views take this rather than a closure: they are then compiled once, not once for each text.
 macro_rules! say {
+    ($lab:expr, $group:ident . $key:ident) => {
+        $crate::app::texts::follow($lab.language, $crate::app::texts::generated::$group::$key::TEXTS)
+    };
     ($lab:expr, $($key_and_values:tt)+) => {
         leptos::prelude::Signal::derive(move || $crate::app::texts::tr!($lab, $($key_and_values)+).to_string())
     };

@@ -1,9 +1,11 @@
 use serde::{Deserialize, Serialize};
 
+use crate::scalar::{larger, smaller};
+
 /// What keeps the integral from winding up while the output is limited.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
-#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum AntiWindup {
     /// Nothing: the integral runs on.
     Off,
@@ -17,7 +19,7 @@ pub enum AntiWindup {
 /// Who moves the output of a loop.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
-#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum LoopMode {
     /// The controller.
     Automatic,
@@ -149,7 +151,7 @@ impl Pi {
 /// Limits in the wrong order: the upper one wins. A value that is not a number becomes the lower limit.
 #[inline]
 fn limited(value: f64, (min, max): (f64, f64)) -> f64 {
-    value.max(min).min(max)
+    smaller(larger(value, min), max)
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! From a series to what the eye can tell of it: polylines in CSS px inside the plot, with as few corners as will do.
 
 use super::{Course, Frame, Rect, Series};
+use crate::scalar::{larger, smaller};
 
 /// A point of the figure in CSS px.
 pub(super) type Px = (f64, f64);
@@ -120,7 +121,7 @@ fn narrowed((low, high): (f64, f64), corner: Px, point: Px) -> (f64, f64) {
     let width = point.0 - corner.0;
     if width > 0.0 {
         let (slope, slack) = ((point.1 - corner.1) / width, TOLERANCE / width);
-        (low.max(slope - slack), high.min(slope + slack))
+        (larger(low, slope - slack), smaller(high, slope + slack))
     } else {
         NO_SLOPE
     }
@@ -216,9 +217,9 @@ pub(super) fn clipped(plot: &Rect, from: Px, to: Px) -> Option<(Px, Px)> {
             return None;
         }
         if speed < 0.0 {
-            enter = enter.max(room / speed);
+            enter = larger(enter, room / speed);
         } else if speed > 0.0 {
-            leave = leave.min(room / speed);
+            leave = smaller(leave, room / speed);
         }
     }
     let at = |share: f64| {

@@ -3,6 +3,7 @@ use nalgebra::{DMatrix, DVector};
 use super::exponential::exponential;
 use super::state_space::expect_shape;
 use super::{Complex, LinearError, StateSpace, eigenvalues};
+use crate::scalar::nearest_power_of_two;
 
 /// A sampled linear model `x[k+1] = A x[k] + B u[k]`, `y[k] = C x[k] + D u[k]`.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,7 +38,7 @@ impl StateSpace {
         let (n, m) = (self.order(), self.inputs());
         // Γ is linear in B: with B no larger than A, the squarings of the exponential are those that A alone needs.
         let (size_a, size_b) = (self.a.amax(), self.b.amax());
-        let unit = if size_a > 0.0 && size_b > 0.0 { (size_b / size_a).log2().round().exp2() } else { 1.0 };
+        let unit = if size_a > 0.0 && size_b > 0.0 { nearest_power_of_two(size_b / size_a) } else { 1.0 };
         let unit = if unit.is_normal() { unit } else { 1.0 };
         let mut augmented = DMatrix::zeros(n + m, n + m);
         augmented.view_mut((0, 0), (n, n)).copy_from(&(&self.a * sampling_time_s));

@@ -33,7 +33,7 @@ pub fn eigenvalues(matrix: &DMatrix<f64>) -> Result<Vec<Complex>, LinearError> {
     if !values.iter().all(|value| value.is_finite()) {
         return Err(failure);
     }
-    values.sort_by(|x, y| x.re.total_cmp(&y.re).then(x.im.total_cmp(&y.im)));
+    values.sort_unstable_by(|x, y| x.re.total_cmp(&y.re).then(x.im.total_cmp(&y.im)));
     Ok(values)
 }
 

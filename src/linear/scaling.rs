@@ -3,6 +3,7 @@
 use nalgebra::linalg::balancing::balance_parlett_reinsch;
 
 use super::{LinearError, StateSpace};
+use crate::scalar::nearest_power_of_two;
 
 /// Sweeps over all rows and columns; two or three settle an ordinary model.
 const SWEEPS: usize = 8;
@@ -115,7 +116,7 @@ fn largest<'a>(entries: impl Iterator<Item = &'a f64>) -> f64 {
 
 /// The power of two nearest to `size`; 1 for zero, so that an empty row is left alone.
 fn power_of_two(size: f64) -> f64 {
-    if size == 0.0 { 1.0 } else { size.log2().round().exp2() }
+    if size == 0.0 { 1.0 } else { nearest_power_of_two(size) }
 }
 
 #[cfg(test)]

@@ -35,7 +35,7 @@ where
         }
     }
     let mut values: Vec<f64> = columns.column_iter().map(|column| column.norm() * largest).collect();
-    values.sort_by(|x, y| y.total_cmp(x));
+    values.sort_unstable_by(|x, y| y.total_cmp(x));
     if values.iter().all(ComplexField::is_finite) { Ok(values) } else { Err(failure) }
 }
 

@@ -67,7 +67,7 @@ pub fn transmission_zeros(model: &StateSpace) -> Result<Vec<TransmissionZero>, L
         }
         zeros.push(zero);
     }
-    zeros.sort_by(|x, y| x.value.re.total_cmp(&y.value.re).then(x.value.im.total_cmp(&y.value.im)));
+    zeros.sort_unstable_by(|x, y| x.value.re.total_cmp(&y.value.re).then(x.value.im.total_cmp(&y.value.im)));
     Ok(zeros)
 }
 

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Tank;
 use super::tank::torricelli_speed;
+use crate::scalar::{larger, smaller};
 
 /// A pump with its voltage limits; its flow is `gain × voltage` (Cocota 2009, eq. 2.25).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -41,7 +42,7 @@ impl Sensor {
     /// What the real sensor makes of the ideal `signal` (V): limited to its range, then rounded to its resolution.
     #[inline]
     pub fn quantise(&self, signal: f64) -> f64 {
-        let limited = signal.max(0.0).min(self.gain * self.range);
+        let limited = smaller(larger(signal, 0.0), self.gain * self.range);
         if self.resolution > 0.0 { (limited / self.resolution).round() * self.resolution } else { limited }
     }
 }
@@ -116,7 +117,7 @@ impl QuadrupleTank {
     pub fn valve_flows(&self, pump_voltage: &[f64; 2], disturbance: &Disturbance) -> [f64; 4] {
         let [gamma_1, gamma_2] = self.valves;
         let [q1, q2]: [f64; 2] =
-            from_fn(|i| (self.pumps[i].gain * pump_voltage[i] + disturbance.pump_flow[i]).max(0.0));
+            from_fn(|i| larger(self.pumps[i].gain * pump_voltage[i] + disturbance.pump_flow[i], 0.0));
         [gamma_1 * q1, gamma_2 * q2, (1.0 - gamma_2) * q2, (1.0 - gamma_1) * q1]
     }
 

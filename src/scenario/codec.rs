@@ -52,6 +52,6 @@ fn parse<T: DeserializeOwned>(text: &str) -> Result<T, ScenarioError> {
     })
 }
 
-pub(super) fn malformed(path: &str, reason: &serde_json::Error) -> ScenarioError {
+fn malformed(path: &str, reason: &serde_json::Error) -> ScenarioError {
     ScenarioError::Malformed { path: path.to_owned(), reason: reason.to_string() }
 }

@@ -97,7 +97,8 @@ pub struct View {
 
 /// A run of the quadruple-tank laboratory, and what is shown of it.
 ///
-/// In JSON every key is in snake case and every choice in kebab case; units are SI.
+/// In JSON every key is in snake case, also the name of a choice that holds fields, and every name of a rig in kebab
+/// case; units are SI.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]

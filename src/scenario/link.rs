@@ -1,6 +1,6 @@
 //! Links: a scenario as text for the fragment of a URL.
 //!
-//! `q1.` and then, in base64url without padding, what a zlib stream of *dictionary + compact JSON* has after the
+//! `q1.` and then, in base64url without padding, what a zlib stream of *dictionary + JSON on one line* has after the
 //! dictionary: deflate data that may refer back to the dictionary, and the checksum of both. A reader rebuilds the
 //! beginning of the stream. The dictionary holds field names and published settings, so a link to a published rig takes
 //! some fifty characters and one with every number changed stays under the limit.
@@ -16,7 +16,7 @@ use miniz_oxide::deflate::core::{
 use miniz_oxide::inflate::TINFLStatus;
 use miniz_oxide::inflate::core::{DecompressorOxide, decompress, inflate_flags};
 
-use super::codec::{DOCUMENT_LIMIT, from_json, malformed};
+use super::codec::{DOCUMENT_LIMIT, from_json, to_json};
 use super::{Scenario, ScenarioError};
 
 /// Longest link that is written or read (characters), the prefix included.
@@ -33,12 +33,12 @@ const DICTIONARY_1: &[u8] = include_bytes!("dictionary-1.jsonl");
 /// # Errors
 /// [`ScenarioError::TooLong`] beyond [`LINK_LIMIT`], or what [`Scenario::validate`] finds.
 pub fn to_link(scenario: &Scenario) -> Result<String, ScenarioError> {
-    scenario.validate()?;
-    let json = serde_json::to_vec(scenario).map_err(|error| malformed("document", &error))?;
+    // Without the indentation: a string of a document has no line breaks, so every line starts with it.
+    let json: String = to_json(scenario)?.lines().map(str::trim_start).collect();
     // The default strategy spends a table on good codes; short documents do better with the fixed ones.
     let packed = [CompressionStrategy::Default, CompressionStrategy::Fixed]
         .into_iter()
-        .filter_map(|strategy| pack(DICTIONARY_1, &json, strategy))
+        .filter_map(|strategy| pack(DICTIONARY_1, json.as_bytes(), strategy))
         .min_by_key(Vec::len)
         .ok_or(ScenarioError::DamagedLink)?;
     let link = format!("{MARK}{FORMAT}.{}", URL_SAFE_NO_PAD.encode(packed));

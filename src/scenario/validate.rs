@@ -88,14 +88,18 @@ fn check_loop(settings: &PiSettings, path: &str) -> Checked {
     match settings.anti_windup {
         AntiWindup::Off => {}
         AntiWindup::BackCalculation { tracking_ratio } => {
-            within(tracking_ratio, limits::TRACKING_RATIO, format_args!("{path}.anti_windup.tracking_ratio"))?;
+            within(
+                tracking_ratio,
+                limits::TRACKING_RATIO,
+                format_args!("{path}.anti_windup.back_calculation.tracking_ratio"),
+            )?;
         }
     }
     match settings.mode {
         LoopMode::Automatic => Ok(()),
         LoopMode::Manual { output, until_s } => {
-            within(output, limits::MANUAL_OUTPUT, format_args!("{path}.mode.output"))?;
-            within(until_s, limits::TIME_S, format_args!("{path}.mode.until_s"))
+            within(output, limits::MANUAL_OUTPUT, format_args!("{path}.mode.manual.output"))?;
+            within(until_s, limits::TIME_S, format_args!("{path}.mode.manual.until_s"))
         }
     }
 }
@@ -123,12 +127,12 @@ fn check_load_step(step: &LoadStep, path: &str) -> Checked {
     within(step.time_s, limits::TIME_S, format_args!("{path}.time_s"))?;
     match step.load {
         Load::PumpFlow { pump, flow } => {
-            index_below(2, pump, format_args!("{path}.load.pump"))?;
-            within(flow, limits::LOAD_FLOW, format_args!("{path}.load.flow"))
+            index_below(2, pump, format_args!("{path}.load.pump_flow.pump"))?;
+            within(flow, limits::LOAD_FLOW, format_args!("{path}.load.pump_flow.flow"))
         }
         Load::Leak { tank, area } => {
-            index_below(4, tank, format_args!("{path}.load.tank"))?;
-            within(area, limits::LEAK_AREA, format_args!("{path}.load.area"))
+            index_below(4, tank, format_args!("{path}.load.leak.tank"))?;
+            within(area, limits::LEAK_AREA, format_args!("{path}.load.leak.area"))
         }
     }
 }

@@ -18,20 +18,16 @@ pub(super) trait Process {
     fn advance(&mut self, time: f64, duration: f64, events: &mut Events);
 }
 
-/// Events of a run, each kind once.
+/// Events of a run, each kind once, in order of time.
 #[derive(Debug, Default)]
 pub(super) struct Events(Vec<Event>);
 
 impl Events {
     fn note(&mut self, time_s: f64, kind: EventKind) {
         if self.0.iter().all(|event| event.kind != kind) {
-            self.0.push(Event { time_s, kind });
+            let place = self.0.partition_point(|earlier| earlier.time_s <= time_s);
+            self.0.insert(place, Event { time_s, kind });
         }
-    }
-
-    fn in_order(mut self) -> Vec<Event> {
-        self.0.sort_by(|x, y| x.time_s.total_cmp(&y.time_s));
-        self.0
     }
 }
 
@@ -85,6 +81,16 @@ pub(super) fn row_spacing(experiment: &Experiment, controller: &DecentralisedPi)
     TimeAxis::new(experiment.duration_s, controller.sampling_time_s).time(1)
 }
 
+/// The few steps of an experiment, the next one last.
+fn latest_first<'a, T>(steps: impl Iterator<Item = &'a T>, time_s: impl Fn(&T) -> f64) -> Vec<&'a T> {
+    let mut pending: Vec<&T> = Vec::new();
+    for step in steps {
+        let place = pending.partition_point(|later| time_s(later) > time_s(step));
+        pending.insert(place, step);
+    }
+    pending
+}
+
 /// References that step at the first sample at or after the given times.
 struct References<'a> {
     value: [f64; 2],
@@ -93,9 +99,8 @@ struct References<'a> {
 
 impl<'a> References<'a> {
     fn new(start: [f64; 2], steps: &'a [SetPointStep]) -> Self {
-        let mut pending: Vec<_> = steps.iter().filter(|step| step.level < 2).collect();
-        pending.sort_by(|x, y| y.time_s.total_cmp(&x.time_s));
-        Self { value: start, pending }
+        let steps = steps.iter().filter(|step| step.level < 2);
+        Self { value: start, pending: latest_first(steps, |step| step.time_s) }
     }
 
     fn at(&mut self, time: f64) -> [f64; 2] {
@@ -114,9 +119,7 @@ struct Loads<'a> {
 
 impl<'a> Loads<'a> {
     fn new(steps: &'a [LoadStep]) -> Self {
-        let mut pending: Vec<_> = steps.iter().collect();
-        pending.sort_by(|x, y| y.time_s.total_cmp(&x.time_s));
-        Self { acting: Disturbance::default(), pending }
+        Self { acting: Disturbance::default(), pending: latest_first(steps.iter(), |step| step.time_s) }
     }
 
     fn next_before(&self, time: f64) -> Option<f64> {
@@ -168,7 +171,8 @@ impl Loops {
     }
 
     fn pump_voltage(&self, output: [f64; 2]) -> [f64; 2] {
-        self.pairing.by_pump(output).map(|output| self.power_gain * output)
+        let [first, second] = self.pairing.by_pump(output);
+        [self.power_gain * first, self.power_gain * second]
     }
 }
 
@@ -187,20 +191,21 @@ pub(super) fn run(
     let mut loops = Loops::new(plant, op, controller);
     let mut noise = Noise::new(&experiment.measurement);
     let mut events = Events::default();
-    let mut trajectory = Trajectory::with_capacity(axis.rows);
+    let mut trajectory = Trajectory::with_rows(axis.rows);
     let (mut output, mut voltage) = ([0.0; 2], [0.0; 2]);
     for row in 0..axis.rows {
         let time = axis.time(row);
         loads.at(time + slack);
         if axis.is_sample(row) {
             let levels = process.levels();
-            let reference = references.at(time + slack).map(|level| plant.sensor.measure(level));
+            let [r1, r2] = references.at(time + slack);
+            let reference = [plant.sensor.measure(r1), plant.sensor.measure(r2)];
             let measured = noise.measure(&plant.sensor, [levels[0], levels[1]]);
             output = loops.step(time, reference, measured, &mut events);
             voltage = loops.pump_voltage(output);
         }
         process.set_inputs(&voltage, &loads.acting);
-        trajectory.push(time, process.levels(), references.value, output, voltage);
+        trajectory.set(row, time, process.levels(), references.value, output, voltage);
         if row + 1 == axis.rows {
             break;
         }
@@ -213,6 +218,6 @@ pub(super) fn run(
         }
         process.advance(now, end - now, &mut events);
     }
-    trajectory.events = events.in_order();
+    trajectory.events = events.0;
     trajectory
 }

@@ -16,7 +16,7 @@ pub struct SetPointStep {
 /// What a load step changes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
-#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Load {
     /// Flow added to that of a pump, ahead of its valve.
     PumpFlow {

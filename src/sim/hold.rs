@@ -1,6 +1,8 @@
 //! Exact sampling of the four-tank linear model under inputs that are held.
 
-use nalgebra::Matrix4;
+use nalgebra::{Matrix4, Vector4};
+
+use crate::scalar::{larger, power_of_two};
 
 /// Terms of the power series; with the norm scaled below 1/2 the next one is below rounding.
 const TERMS: u32 = 14;
@@ -16,23 +18,45 @@ pub(super) struct Hold {
 
 impl Hold {
     /// By the power series of Ψ on a short stretch of time, doubled until it is `duration` long.
+    #[expect(clippy::cast_possible_truncation, reason = "a logarithm of a float is small, and the cast saturates")]
     pub(super) fn new(a: &Matrix4<f64>, duration: f64) -> Self {
         let norm = a.abs().row_sum().max() * duration;
-        let doublings = (2.0 * norm).max(1.0).log2().ceil().min(f64::from(f64::MAX_EXP));
-        let short = duration * (-doublings).exp2();
+        let doublings = larger(2.0 * norm, 1.0).log2().ceil() as i32;
+        let doublings = doublings.min(f64::MAX_EXP - 1);
+        let short = duration * power_of_two(-doublings);
         let step = a * short;
         let mut series = Matrix4::identity();
         for k in (2..=TERMS + 1).rev() {
             series = Matrix4::identity() + step * series / f64::from(k);
         }
         let mut response = series * short;
-        let mut done = 0.0;
-        while done < doublings {
+        for _ in 0..doublings {
             response += (Matrix4::identity() + a * response) * response;
-            done += 1.0;
         }
         Self { transition: Matrix4::identity() + a * response, response }
     }
+
+    /// `Φ x + push`.
+    pub(super) fn pass(&self, x: &Vector4<f64>, push: &Vector4<f64>) -> Vector4<f64> {
+        let passed = product(&self.transition, x);
+        Vector4::new(passed.x + push.x, passed.y + push.y, passed.z + push.z, passed.w + push.w)
+    }
+
+    /// `Ψ f`.
+    pub(super) fn push(&self, f: &Vector4<f64>) -> Vector4<f64> {
+        product(&self.response, f)
+    }
+}
+
+/// `M x` written out, because it is done at every sample: the general product is a loop in a build for size.
+#[rustfmt::skip]
+fn product(m: &Matrix4<f64>, x: &Vector4<f64>) -> Vector4<f64> {
+    Vector4::new(
+        m.m11 * x.x + m.m12 * x.y + m.m13 * x.z + m.m14 * x.w,
+        m.m21 * x.x + m.m22 * x.y + m.m23 * x.z + m.m24 * x.w,
+        m.m31 * x.x + m.m32 * x.y + m.m33 * x.z + m.m34 * x.w,
+        m.m41 * x.x + m.m42 * x.y + m.m43 * x.z + m.m44 * x.w,
+    )
 }
 
 #[cfg(test)]

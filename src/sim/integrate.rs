@@ -11,6 +11,7 @@
 use std::array::from_fn;
 
 use crate::plant::{CrossSection, Disturbance, QuadrupleTank};
+use crate::scalar::{larger, smaller};
 
 /// Stages of the method.
 const STAGES: usize = 5;
@@ -92,7 +93,7 @@ impl Tier {
         let level = root_level.map(|root| root * root);
         let passed = drain.map(|drain| DIAGONAL * step * drain);
         let passed_squared = passed.map(|passed| passed * passed);
-        let four_areas = from_fn(|i| 4.0 * section[i].area(level[i]).max(f64::MIN_POSITIVE));
+        let four_areas = from_fn(|i| 4.0 * larger(section[i].area(level[i]), f64::MIN_POSITIVE));
         let offset = from_fn(|i| section[i].area_slope / 2.0 * level[i] * level[i]);
         let start = from_fn(|i| passed_squared[i] + four_areas[i] * (section[i].volume(level[i]) + offset[i]));
         let scale = four_areas.map(|area| area * step);
@@ -142,7 +143,7 @@ impl Tier {
         if correction.abs() <= NEWTON_TOLERANCE * root {
             return root;
         }
-        self.solve(i, root.max(0.0), slope * slope)
+        self.solve(i, larger(root, 0.0), slope * slope)
     }
 
     /// Newton's iteration on V itself; it falls monotonically when the start is to the right of the solution.
@@ -153,7 +154,7 @@ impl Tier {
             let level = root * root;
             let excess = self.section[i].volume(level) + self.passed[i] * root - available;
             let correction = excess / (2.0 * self.section[i].area(level) * root + self.passed[i]);
-            root = (root - correction).max(0.0);
+            root = larger(root - correction, 0.0);
             if correction.abs() <= NEWTON_TOLERANCE * root {
                 break;
             }
@@ -170,8 +171,8 @@ pub(super) trait Watch {
     fn empty(&mut self, tank: usize, time: f64);
 }
 
-/// Level at which a tank that held water has run dry (m).
-pub(super) const EMPTY_LEVEL: f64 = 1e-6;
+/// √h at which a tank that held water has run dry: h = 1e-6 m.
+pub(super) const EMPTY_ROOT_LEVEL: f64 = 1e-3;
 
 /// The water in the plant, and the inputs that hold for the time being.
 #[derive(Clone, Copy, Debug)]
@@ -216,7 +217,8 @@ impl Hydraulics {
 
     /// Levels (m).
     pub(super) fn levels(&self) -> [f64; 4] {
-        self.root_level.map(|root| root * root)
+        let [root_1, root_2, root_3, root_4] = self.root_level;
+        [root_1 * root_1, root_2 * root_2, root_3 * root_3, root_4 * root_4]
     }
 
     /// Lets `duration` seconds pass from `time` on.
@@ -224,7 +226,7 @@ impl Hydraulics {
         // In units of the longest explicit step.
         let length = duration * self.fastest_rate() / EXPLICIT_SHARE;
         if length <= MOST_EXPLICIT_STEPS {
-            let steps = length.ceil().max(1.0);
+            let steps = larger(length.ceil(), 1.0);
             let step = duration / steps;
             let mut done = 0.0;
             while done < steps {
@@ -243,22 +245,25 @@ impl Hydraulics {
         }
     }
 
-    /// The largest 1/T of the tanks (1/s), `T = 2 A √h/drain`; unbounded where one is dry.
-    #[inline]
+    /// The largest 1/T of the tanks (1/s); unbounded where one is dry.
     fn fastest_rate(&self) -> f64 {
-        let rate = |i: usize| {
-            let root = self.root_level[i];
-            self.drain[i] / (2.0 * self.sections[i].area(root * root) * root)
-        };
-        rate(0).max(rate(1)).max(rate(2)).max(rate(3))
+        larger(larger(self.rate(0), self.rate(1)), larger(self.rate(2), self.rate(3)))
+    }
+
+    /// 1/T of a tank (1/s), `T = 2 A √h/drain`.
+    #[expect(clippy::inline_always, reason = "as above")]
+    #[inline(always)]
+    fn rate(&self, i: usize) -> f64 {
+        let root = self.root_level[i];
+        self.drain[i] / (2.0 * self.sections[i].area(root * root) * root)
     }
 
     /// Slopes of the levels (m/s) at given levels (m).
     #[expect(clippy::inline_always, reason = "measured: written out like this it is fast at any optimisation level")]
     #[inline(always)]
     fn slopes(&self, [h1, h2, h3, h4]: [f64; 4]) -> [f64; 4] {
-        let (root_1, root_2) = (h1.max(0.0).sqrt(), h2.max(0.0).sqrt());
-        let (root_3, root_4) = (h3.max(0.0).sqrt(), h4.max(0.0).sqrt());
+        let root = |level: f64| larger(level, 0.0).sqrt();
+        let (root_1, root_2, root_3, root_4) = (root(h1), root(h2), root(h3), root(h4));
         let [drain_1, drain_2, drain_3, drain_4] = self.drain;
         let [pumped_1, pumped_2, pumped_3, pumped_4] = self.pumped;
         [
@@ -279,7 +284,7 @@ impl Hydraulics {
         let k4 = self.slopes(from_here(k3, step));
         for tank in 0..4 {
             let end = h[tank] + step / 6.0 * (k1[tank] + 2.0 * (k2[tank] + k3[tank]) + k4[tank]);
-            self.settle(tank, end.max(0.0).sqrt(), time, step, watch);
+            self.settle(tank, larger(end, 0.0).sqrt(), time, step, watch);
         }
     }
 
@@ -328,17 +333,28 @@ impl Hydraulics {
     }
 
     /// Takes over the result of a step, kept within the walls, and tells when it met them.
+    #[expect(clippy::inline_always, reason = "measured, as above; what is rare is apart")]
+    #[inline(always)]
     fn settle(&mut self, tank: usize, end: f64, time: f64, step: f64, watch: &mut impl Watch) {
+        let top = self.root_height[tank];
+        if end > top || end <= EMPTY_ROOT_LEVEL {
+            self.tell(tank, end, time, step, watch);
+        }
+        self.root_level[tank] = smaller(end, top);
+    }
+
+    /// Tells when, on the way to `end`, the level met wall or bottom.
+    #[inline(never)]
+    fn tell(&self, tank: usize, end: f64, time: f64, step: f64, watch: &mut impl Watch) {
         let start = self.root_level[tank];
         let reached = |root: f64| time + step * ((root - start) / (end - start)).clamp(0.0, 1.0);
-        let (top, bottom) = (self.root_height[tank], EMPTY_LEVEL.sqrt());
+        let (top, bottom) = (self.root_height[tank], EMPTY_ROOT_LEVEL);
         if end > top {
             watch.overflow(tank, reached(top));
         }
         if end <= bottom && start > bottom {
             watch.empty(tank, reached(bottom));
         }
-        self.root_level[tank] = end.min(top);
     }
 }
 

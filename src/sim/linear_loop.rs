@@ -19,6 +19,8 @@ struct LinearModel<'a> {
     op: &'a OperatingPoint,
     jacobian: &'a Jacobian,
     deviation: Vector4<f64>,
+    /// What a leak takes at the level of the operating point, for its area (1/(m s)); a dry tank has nothing to lose.
+    leak_rate: [f64; 4],
     /// `B u` plus the loads (m/s).
     forcing: Vector4<f64>,
     hold: Hold,
@@ -29,11 +31,17 @@ struct LinearModel<'a> {
 
 impl<'a> LinearModel<'a> {
     fn new(plant: &'a QuadrupleTank, op: &'a OperatingPoint, jacobian: &'a Jacobian, duration: f64) -> Self {
+        let leak_rate = std::array::from_fn(|tank| {
+            let level = op.levels[tank];
+            let speed = (2.0 * plant.gravity * level).sqrt();
+            if jacobian.dry[tank] { 0.0 } else { speed / plant.tanks[tank].section.area(level) }
+        });
         Self {
             plant,
             op,
             jacobian,
             deviation: Vector4::zeros(),
+            leak_rate,
             forcing: Vector4::zeros(),
             hold: Hold::new(&jacobian.a, duration),
             hold_duration: duration,
@@ -45,36 +53,34 @@ impl<'a> LinearModel<'a> {
     fn voltage_of(&self, pump: usize, flow: f64) -> f64 {
         if flow == 0.0 { 0.0 } else { flow / self.plant.pumps[pump].gain }
     }
-
-    /// What a leak takes at the level of the operating point (m/s); a dry tank has nothing to lose.
-    fn leak_rate(&self, tank: usize, area: f64) -> f64 {
-        let level = self.op.levels[tank];
-        if area == 0.0 || self.jacobian.dry[tank] {
-            return 0.0;
-        }
-        -area * (2.0 * self.plant.gravity * level).sqrt() / self.plant.tanks[tank].section.area(level)
-    }
 }
 
 impl Process for LinearModel<'_> {
     fn levels(&self) -> [f64; 4] {
-        std::array::from_fn(|i| self.op.levels[i] + self.deviation[i])
+        let ([h1, h2, h3, h4], x) = (self.op.levels, &self.deviation);
+        [h1 + x.x, h2 + x.y, h3 + x.z, h4 + x.w]
     }
 
     fn set_inputs(&mut self, pump_voltage: &[f64; 2], disturbance: &Disturbance) {
-        let [u1, u2] =
-            [0, 1].map(|j| pump_voltage[j] - self.op.pump_voltage[j] + self.voltage_of(j, disturbance.pump_flow[j]));
-        let leaks = Vector4::from_fn(|i, _| self.leak_rate(i, disturbance.leak_area[i]));
-        self.forcing = self.jacobian.b.column(0) * u1 + self.jacobian.b.column(1) * u2 + leaks;
-        self.push = self.hold.response * self.forcing;
+        let u1 = pump_voltage[0] - self.op.pump_voltage[0] + self.voltage_of(0, disturbance.pump_flow[0]);
+        let u2 = pump_voltage[1] - self.op.pump_voltage[1] + self.voltage_of(1, disturbance.pump_flow[1]);
+        let ([a1, a2, a3, a4], [l1, l2, l3, l4]) = (disturbance.leak_area, self.leak_rate);
+        let b = &self.jacobian.b;
+        self.forcing = Vector4::new(
+            b.m11 * u1 + b.m12 * u2 - l1 * a1,
+            b.m21 * u1 + b.m22 * u2 - l2 * a2,
+            b.m31 * u1 + b.m32 * u2 - l3 * a3,
+            b.m41 * u1 + b.m42 * u2 - l4 * a4,
+        );
+        self.push = self.hold.push(&self.forcing);
     }
 
     fn advance(&mut self, _time: f64, duration: f64, _events: &mut Events) {
         if (duration - self.hold_duration).abs() <= SAME_DURATION * self.hold_duration {
-            self.deviation = self.hold.transition * self.deviation + self.push;
+            self.deviation = self.hold.pass(&self.deviation, &self.push);
         } else {
             let hold = Hold::new(&self.jacobian.a, duration);
-            self.deviation = hold.transition * self.deviation + hold.response * self.forcing;
+            self.deviation = hold.pass(&self.deviation, &hold.push(&self.forcing));
         }
     }
 }

@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use crate::control::DecentralisedPi;
 use crate::plant::QuadrupleTank;
+use crate::scalar::larger;
 
 use super::experiment::Experiment;
 use super::response::Response;
@@ -11,7 +12,7 @@ use super::trajectory::Trajectory;
 
 /// When a response stays within its band.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-#[serde(tag = "kind", rename_all = "kebab-case")]
+#[serde(rename_all = "snake_case")]
 pub enum Settling {
     /// It settled this long after the step (s).
     After {
@@ -100,7 +101,7 @@ impl LoopMetrics {
             let elapsed = time[1] - time[0];
             self.iae += error * elapsed;
             self.ise += error * error * elapsed;
-            self.itae += (time[0] - start).max(0.0) * error * elapsed;
+            self.itae += larger(time[0] - start, 0.0) * error * elapsed;
             self.total_variation += (output[1] - output[0]).abs();
             if output[0] <= min || output[0] >= max {
                 self.saturated_s += elapsed;
@@ -142,16 +143,16 @@ mod tests {
 
     /// A run whose level 1 answers its step at `step_time` (s) by `progress` of the time since; level 2 stands still.
     fn run(steps: &[(usize, f64)], progress: impl Fn(f64) -> f64) -> Trajectory {
-        let mut trajectory = Trajectory::with_capacity(101);
+        let mut trajectory = Trajectory::with_rows(101);
         let reference =
             |level: usize, t: f64| 0.1 + steps.iter().filter(|s| s.0 == level && s.1 <= t).map(|_| STEP).sum::<f64>();
         let begin = steps.iter().find(|s| s.0 == 0).map_or(f64::INFINITY, |s| s.1);
-        for k in 0..=100 {
+        for (row, k) in (0..=100).enumerate() {
             let t = f64::from(k);
             let level = if t > begin { 0.1 + STEP * progress(t - begin) } else { 0.1 };
             let output = if (20..30).contains(&k) { 10.0 } else { 5.0 };
             let references = [reference(0, t), reference(1, t)];
-            trajectory.push(t, [level, 0.1, 0.0, 0.0], references, [output, 5.0], [output, 5.0]);
+            trajectory.set(row, t, [level, 0.1, 0.0, 0.0], references, [output, 5.0], [output, 5.0]);
         }
         trajectory
     }

@@ -5,6 +5,7 @@ use nalgebra::{DMatrix, Matrix2, Matrix4, Matrix4x2};
 use crate::control::{DecentralisedPi, PiSettings};
 use crate::linear::Complex;
 use crate::plant::Jacobian;
+use crate::scalar::larger;
 
 use super::hold::Hold;
 
@@ -97,7 +98,7 @@ impl<'a> OpenLoop<'a> {
         for _ in 0..REFINEMENTS {
             let (left, right) = (high - golden * (high - low), low + golden * (high - low));
             let (at_left, at_right) = (self.sensitivity(left.exp()), self.sensitivity(right.exp()));
-            peak = peak.max(at_left).max(at_right);
+            peak = larger(peak, larger(at_left, at_right));
             if at_left > at_right { high = right } else { low = left }
         }
         peak
@@ -114,6 +115,6 @@ fn tustin_pi(settings: &PiSettings, sampling_time_s: f64, z: Complex) -> Complex
 fn largest_singular_value_of_inverse(m: &Matrix2<Complex>) -> f64 {
     let sum = m.iter().map(Complex::norm_sqr).sum::<f64>();
     let product = (m[(0, 0)] * m[(1, 1)] - m[(0, 1)] * m[(1, 0)]).norm();
-    let difference = ((sum - 2.0 * product) * (sum + 2.0 * product)).max(0.0).sqrt();
+    let difference = larger((sum - 2.0 * product) * (sum + 2.0 * product), 0.0).sqrt();
     f64::midpoint(sum, difference).sqrt() / product
 }

@@ -72,7 +72,7 @@ pub fn closed_loop(
 ) -> Result<ClosedLoop, LinearError> {
     let open = OpenLoop::new(jacobian, controller, power_gain);
     let mut poles_z = eigenvalues(&open.closed(jacobian.dry))?;
-    poles_z.sort_by(|x, y| y.norm().total_cmp(&x.norm()).then(y.im.total_cmp(&x.im)));
+    poles_z.sort_unstable_by(|x, y| y.norm().total_cmp(&x.norm()).then(y.im.total_cmp(&x.im)));
     let stability = Stability::of(&poles_z);
     let images = poles_z.iter().filter(|&&z| z != Complex::ZERO);
     let poles_s: Vec<Complex> = images.map(|z| z.ln() / controller.sampling_time_s).collect();

@@ -1,5 +1,7 @@
 //! The answer of one level to the first step of its reference, cut out of a run.
 
+use crate::scalar::larger;
+
 use super::experiment::Experiment;
 use super::metrics::Settling;
 use super::trajectory::Trajectory;
@@ -75,17 +77,17 @@ impl<'a> Response<'a> {
 
     /// Furthest beyond the new reference, as a fraction of the step.
     pub(super) fn overshoot(&self) -> f64 {
-        (0..self.level.len()).map(|row| self.progress(row) - 1.0).fold(0.0, f64::max)
+        (0..self.level.len()).map(|row| self.progress(row) - 1.0).fold(0.0, larger)
     }
 
     /// Furthest in the wrong direction, as a fraction of the step.
     pub(super) fn undershoot(&self) -> f64 {
-        (0..self.level.len()).map(|row| -self.progress(row)).fold(0.0, f64::max)
+        (0..self.level.len()).map(|row| -self.progress(row)).fold(0.0, larger)
     }
 
     /// Furthest that the other level moves from where it was (m).
     pub(super) fn other_peak(&self) -> f64 {
-        self.other_level.iter().map(|h| (h - self.other_level[0]).abs()).fold(0.0, f64::max)
+        self.other_level.iter().map(|h| (h - self.other_level[0]).abs()).fold(0.0, larger)
     }
 }
 

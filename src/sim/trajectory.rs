@@ -2,7 +2,7 @@ use serde::Serialize;
 
 /// Something that happened to a tank or a pump.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(tag = "kind", rename_all = "kebab-case")]
+#[serde(rename_all = "snake_case")]
 pub enum EventKind {
     /// The level reached the top of the walls: water is lost.
     Overflow {
@@ -48,9 +48,9 @@ pub struct Trajectory {
 }
 
 impl Trajectory {
-    /// No rows yet, with room for `rows`.
-    pub(super) fn with_capacity(rows: usize) -> Self {
-        let column = || Vec::with_capacity(rows);
+    /// `rows` rows of zeros, to be [`set`](Self::set).
+    pub(super) fn with_rows(rows: usize) -> Self {
+        let column = || vec![0.0; rows];
         let pair = || [column(), column()];
         Self {
             time_s: column(),
@@ -68,23 +68,24 @@ impl Trajectory {
         (!self.time_s.is_empty()).then(|| after.saturating_sub(1))
     }
 
-    /// Adds a row.
-    pub(super) fn push(
+    /// Fills a row, which must be there.
+    pub(super) fn set(
         &mut self,
+        row: usize,
         time_s: f64,
         levels: [f64; 4],
         references: [f64; 2],
         controller_output: [f64; 2],
         pump_voltage: [f64; 2],
     ) {
-        self.time_s.push(time_s);
-        for (column, level) in self.levels.iter_mut().zip(levels) {
-            column.push(level);
+        self.time_s[row] = time_s;
+        for tank in 0..4 {
+            self.levels[tank][row] = levels[tank];
         }
         for i in 0..2 {
-            self.references[i].push(references[i]);
-            self.controller_output[i].push(controller_output[i]);
-            self.pump_voltage[i].push(pump_voltage[i]);
+            self.references[i][row] = references[i];
+            self.controller_output[i][row] = controller_output[i];
+            self.pump_voltage[i][row] = pump_voltage[i];
         }
     }
 }

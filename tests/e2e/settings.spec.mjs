@@ -37,6 +37,13 @@ test('every text is there in both languages, with the numbers as they are writte
   await lab.clean();
 });
 
+test('the title of the page follows the language', async ({ lab, page }) => {
+  await lab.open('lang=en');
+  await expect(page).toHaveTitle(/laboratory/);
+  await lab.id('language').selectOption('pt-BR');
+  await expect(page).toHaveTitle(/laboratório/);
+});
+
 test('the language of the browser is spoken where none was chosen', async ({ browser, lab }) => {
   const context = await browser.newContext({ locale: 'pt-BR', colorScheme: 'dark' });
   const page = await context.newPage();

@@ -9,7 +9,7 @@ use crate::app::texts::{say, tr};
 use crate::app::widgets::{NumberField, Scale, Segmented, SliderField, rich};
 use crate::control::{AntiWindup, LoopMode, Pairing, PiSettings};
 use crate::interaction::PairingVerdict;
-use crate::scenario::limits;
+use crate::scenario::{Setup, limits};
 
 /// Travel of the gain sliders (V/V); the number field takes more.
 const GAIN_TRAVEL: (f64, f64) = (0.05, 50.0);
@@ -60,34 +60,36 @@ pub fn ControllerCard() -> impl IntoView {
 #[component]
 fn PairingSwitch() -> impl IntoView {
     let lab = use_lab();
-    let pairing = lab.part(|s| s.controller.pairing);
-    let suggested = Memo::new(move |_| {
+    let swapped = lab.part(|s| s.controller.pairing == Pairing::Swapped);
+    let suggested = move || {
         with_analysis(lab, |a| match a.verdict {
             PairingVerdict::Diagonal(_) => Some(Pairing::Diagonal),
             PairingVerdict::Swapped(_) => Some(Pairing::Swapped),
             PairingVerdict::None(_) => None,
         })
         .flatten()
-    });
+    };
     let text = move |choice: Pairing| {
         Signal::derive(move || {
             let name = match choice {
                 Pairing::Diagonal => tr!(lab, pi.diagonal),
                 Pairing::Swapped => tr!(lab, pi.swapped),
             };
-            if suggested.get() == Some(choice) { format!("{name} ✓") } else { name.to_owned() }
+            if suggested() == Some(choice) { format!("{name} ✓") } else { name.to_owned() }
         })
     };
-    let against = move || suggested.get().is_some_and(|s| s != pairing.get());
+    let against = move || suggested().is_some_and(|s| (s == Pairing::Swapped) != swapped.get());
     view! {
         <Segmented
             label=say!(lab, pi.pairing)
             choices=vec![
-                (Pairing::Diagonal, "pairing-diagonal", text(Pairing::Diagonal)),
-                (Pairing::Swapped, "pairing-swapped", text(Pairing::Swapped)),
+                (false, "pairing-diagonal", text(Pairing::Diagonal)),
+                (true, "pairing-swapped", text(Pairing::Swapped)),
             ]
-            value=pairing
-            on_choose=move |choice| lab.edit(|s| s.controller.pairing = choice)
+            value=swapped
+            on_choose=move |swapped| {
+                lab.edit(|s| s.controller.pairing = if swapped { Pairing::Swapped } else { Pairing::Diagonal });
+            }
             disabled=lab.locks(Control::Pairing)
         />
         {move || against().then(|| view! { <p class="remark warm">{tr!(lab, pi.against)}</p> })}
@@ -146,8 +148,8 @@ fn FinePrint() -> impl IntoView {
     let lab = use_lab();
     let locked = lab.locks(Control::Sampling);
     let both = move |change: &dyn Fn(&mut PiSettings)| lab.edit(|s| s.controller.loops.iter_mut().for_each(change));
-    let windup = lab.part(|s| s.controller.loops[0].anti_windup);
-    let tracking = Signal::derive(move || match windup.get() {
+    let guarded = lab.part(|s| s.controller.loops[0].anti_windup != AntiWindup::Off);
+    let tracking = lab.part(|s| match s.controller.loops[0].anti_windup {
         AntiWindup::BackCalculation { tracking_ratio } => tracking_ratio,
         AntiWindup::Off => TRACKING_RATIO,
     });
@@ -187,7 +189,7 @@ fn FinePrint() -> impl IntoView {
             <input
                 type="checkbox"
                 data-testid="antiwindup"
-                prop:checked=move || windup.get() != AntiWindup::Off
+                prop:checked=guarded
                 disabled=locked
                 on:change=switch_windup
             />
@@ -204,7 +206,7 @@ fn FinePrint() -> impl IntoView {
             digits=None
             unit=String::new()
             class="wide"
-            disabled=Signal::derive(move || locked || windup.get() == AntiWindup::Off)
+            disabled=Signal::derive(move || locked || !guarded.get())
         />
         {(0..2).map(|index| view! { <ManualMode index /> }).collect_view()}
     }
@@ -216,17 +218,19 @@ fn ManualMode(index: usize) -> impl IntoView {
     let lab = use_lab();
     let locked = lab.locks(Control::Sampling);
     let (check_id, until_id, output_id) = MANUAL_IDS[index];
-    let mode = lab.part(move |s| s.controller.loops[index].mode);
+    let manual = move |s: &Setup| match s.controller.loops[index].mode {
+        LoopMode::Automatic => None,
+        LoopMode::Manual { output, until_s } => Some((output, until_s)),
+    };
+    let by_hand = lab.part(move |s| manual(s).is_some());
+    let output = lab.part(move |s| manual(s).map_or(0.0, |m| m.0));
+    let until_s = lab.part(move |s| manual(s).map_or(0.0, |m| m.1));
     let set = move |mode: LoopMode| lab.edit(|s| s.controller.loops[index].mode = mode);
     let rest = move || {
         let pump = lab.scenario.with(|s| s.setup.controller.pairing.pump_of(index));
         let power = lab.scenario.with(|s| s.setup.plant().power_gain);
         with_analysis(lab, |a| a.operating_point.pump_voltage[pump] / power).unwrap_or_default()
     };
-    let parts = Signal::derive(move || match mode.get() {
-        LoopMode::Automatic => None,
-        LoopMode::Manual { output, until_s } => Some((output, until_s)),
-    });
     let range = lab.part(move |s| s.plant().controller_limits()[s.controller.pairing.pump_of(index)]);
     let switch = move |event| {
         set(if event_target_checked(&event) {
@@ -238,7 +242,7 @@ fn ManualMode(index: usize) -> impl IntoView {
     view! {
         <div class="toolbar">
             <label class="check">
-                <input type="checkbox" data-testid=check_id prop:checked=move || parts.get().is_some() disabled=locked on:change=switch />
+                <input type="checkbox" data-testid=check_id prop:checked=by_hand disabled=locked on:change=switch />
                 {say!(lab, pi.manual, level = index + 1)}
             </label>
             <button
@@ -252,14 +256,14 @@ fn ManualMode(index: usize) -> impl IntoView {
                 "±K"{["₁", "₂"][index]}
             </button>
         </div>
-        {move || parts.get().is_some().then(|| view! {
+        {move || by_hand.get().then(|| view! {
             <div class="fields">
                 <div class="field-row">
                     <NumberField
                         id=until_id
                         name=say!(lab, pi.manual_until, level = index + 1)
-                        value=Signal::derive(move || parts.get().map_or(0.0, |p| p.1))
-                        on_change=move |until_s| if let Some((output, _)) = parts.get_untracked() { set(LoopMode::Manual { output, until_s }) }
+                        value=until_s
+                        on_change=move |until_s| set(LoopMode::Manual { output: output.get_untracked(), until_s })
                         limits=(limits::TIME_S.min, limits::TIME_S.max)
                         scale=Scale::Linear(10.0)
                         digits=Some(0)
@@ -271,8 +275,8 @@ fn ManualMode(index: usize) -> impl IntoView {
                     <NumberField
                         id=output_id
                         name=say!(lab, pi.manual_output, level = index + 1)
-                        value=Signal::derive(move || parts.get().map_or(0.0, |p| p.0))
-                        on_change=move |output| if let Some((_, until_s)) = parts.get_untracked() { set(LoopMode::Manual { output, until_s }) }
+                        value=output
+                        on_change=move |output| set(LoopMode::Manual { output, until_s: until_s.get_untracked() })
                         limits=range
                         scale=Scale::Linear(0.1)
                         digits=Some(2)

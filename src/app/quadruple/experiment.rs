@@ -28,9 +28,9 @@ const TIME_IDS: [&str; 2] = ["step1-time", "step2-time"];
 pub fn ExperimentCard() -> impl IntoView {
     let lab = use_lab();
     let locked = lab.locks(Control::Experiment);
-    let unit = lab.unit();
+    let unit = lab.unit;
     let noise = lab.part(|s| s.experiment.measurement.noise_std);
-    let further = lab.part(|s| further_steps(&s.experiment));
+    let further = move || lab.scenario.with(|s| further_steps(&s.setup.experiment));
     view! {
         <section class="card experiment" aria-labelledby="experiment-title">
             <header>
@@ -76,7 +76,7 @@ pub fn ExperimentCard() -> impl IntoView {
                 />
                 {say!(lab, experiment.quantised)}
             </label>
-            {move || (further.get() > 0).then(|| view! { <p class="remark">{tr!(lab, experiment.further, count = further.get()).to_string()}</p> })}
+            {move || Some(further()).filter(|&count| count > 0).map(|count| view! { <p class="remark">{tr!(lab, experiment.further, count = count)}</p> })}
             <PlayControls />
         </section>
     }
@@ -90,6 +90,10 @@ fn further_steps(experiment: &Experiment) -> usize {
 
 fn first_step(experiment: &Experiment, level: usize) -> Option<SetPointStep> {
     experiment.set_point_steps.iter().copied().find(|s| s.level == level)
+}
+
+fn first_load(experiment: &Experiment) -> Option<Load> {
+    experiment.load_steps.first().map(|step| step.load)
 }
 
 fn edit_step(lab: Lab, level: usize, change: impl Fn(&mut SetPointStep)) {
@@ -107,8 +111,9 @@ fn edit_step(lab: Lab, level: usize, change: impl Fn(&mut SetPointStep)) {
 #[component]
 fn ReferenceStep(level: usize) -> impl IntoView {
     let lab = use_lab();
-    let unit = lab.unit();
-    let step = lab.part(move |s| first_step(&s.experiment, level));
+    let unit = lab.unit;
+    let size = lab.part(move |s| first_step(&s.experiment, level).map_or(0.0, |s| s.size));
+    let time = lab.part(move |s| first_step(&s.experiment, level).map_or(FIRST_STEP_AT_S, |s| s.time_s));
     let reach = lab.part(|s| {
         let plant = s.plant();
         plant.tanks[0].height.min(plant.tanks[1].height)
@@ -128,7 +133,7 @@ fn ReferenceStep(level: usize) -> impl IntoView {
                 id=REFERENCE_IDS[level]
                 label=format!("r{}", ["₁", "₂"][level])
                 name=say!(lab, experiment.reference, level = level + 1)
-                value=Signal::derive(move || step.get().map_or(0.0, |s| to_shown(s.size, unit.get())))
+                value=Signal::derive(move || to_shown(size.get(), unit.get()))
                 on_change=move |v| { let size = to_metres(v, unit.get_untracked()); edit_step(lab, level, move |s| s.size = size) }
                 travel
                 limits
@@ -141,7 +146,7 @@ fn ReferenceStep(level: usize) -> impl IntoView {
             <TimeField
                 id=TIME_IDS[level]
                 name=say!(lab, experiment.reference_time, level = level + 1)
-                value=Signal::derive(move || step.get().map_or(FIRST_STEP_AT_S, |s| s.time_s))
+                value=time
                 on_change=move |t| edit_step(lab, level, move |s| s.time_s = t)
             />
         </div>
@@ -180,12 +185,19 @@ fn TimeField(
 fn LoadControls() -> impl IntoView {
     let lab = use_lab();
     let locked = lab.locks(Control::Experiment);
-    let step = lab.part(|s| s.experiment.load_steps.first().copied());
-    let kind = move || match step.get().map(|s| s.load) {
+    let present = lab.part(|s| !s.experiment.load_steps.is_empty());
+    let time = lab.part(|s| s.experiment.load_steps.first().map_or(0.0, |step| step.time_s));
+    let is_leak = lab.part(|s| matches!(first_load(&s.experiment), Some(Load::Leak { .. })));
+    let size = lab.part(|s| match first_load(&s.experiment) {
+        Some(Load::PumpFlow { flow, .. }) => flow * CM3_PER_M3,
+        Some(Load::Leak { area, .. }) => area * MM2_PER_M2,
+        None => 0.0,
+    });
+    let kind = lab.part(|s| match first_load(&s.experiment) {
         None => "none".to_owned(),
         Some(Load::PumpFlow { pump, .. }) => format!("pump{pump}"),
         Some(Load::Leak { tank, .. }) => format!("leak{tank}"),
-    };
+    });
     let choose = move |event| {
         let load = load_named(&event_target_value(&event));
         lab.edit(|s| {
@@ -205,18 +217,12 @@ fn LoadControls() -> impl IntoView {
             }
         });
     };
-    let size = Signal::derive(move || match step.get().map(|s| s.load) {
-        Some(Load::PumpFlow { flow, .. }) => flow * CM3_PER_M3,
-        Some(Load::Leak { area, .. }) => area * MM2_PER_M2,
-        None => 0.0,
-    });
     let set_size = move |v: f64| {
         edit(&move |s| match &mut s.load {
             Load::PumpFlow { flow, .. } => *flow = v / CM3_PER_M3,
             Load::Leak { area, .. } => *area = v / MM2_PER_M2,
         });
     };
-    let is_leak = move || matches!(step.get().map(|s| s.load), Some(Load::Leak { .. }));
     let options = move || {
         let pumps = (0..2).map(|k| (format!("pump{k}"), tr!(lab, experiment.load_pump, pump = k + 1).to_string()));
         let leaks = (0..4).map(|k| (format!("leak{k}"), tr!(lab, experiment.load_leak, tank = k + 1).to_string()));
@@ -224,7 +230,7 @@ fn LoadControls() -> impl IntoView {
             .chain(pumps)
             .chain(leaks)
             .map(|(value, text)| {
-                let chosen = value == kind();
+                let chosen = value == kind.get();
                 view! { <option value=value selected=chosen>{text}</option> }
             })
             .collect_view()
@@ -234,28 +240,28 @@ fn LoadControls() -> impl IntoView {
             <label for="load-kind">{say!(lab, experiment.load)}</label>
             <select id="load-kind" data-testid="load-kind" disabled=locked on:change=choose>{options}</select>
         </div>
-        {move || step.get().is_some().then(|| view! { <div class="timed">
+        {move || present.get().then(|| view! { <div class="timed">
             <SliderField
                 id=("load-size", "load-size-number")
                 label=String::new()
                 name=say!(lab, experiment.load_size)
                 value=size
                 on_change=set_size
-                travel=Signal::derive(move || if is_leak() { (0.0, 10.0) } else { (-5.0, 5.0) })
-                limits=Signal::derive(move || if is_leak() {
+                travel=Signal::derive(move || if is_leak.get() { (0.0, 10.0) } else { (-5.0, 5.0) })
+                limits=Signal::derive(move || if is_leak.get() {
                     (0.0, limits::LEAK_AREA.max * MM2_PER_M2)
                 } else {
                     (limits::LOAD_FLOW.min * CM3_PER_M3, limits::LOAD_FLOW.max * CM3_PER_M3)
                 })
                 scale=Scale::Linear(0.1)
                 digits=Some(2)
-                unit=Signal::derive(move || if is_leak() { "mm²" } else { "cm³/s" }.to_owned())
+                unit=Signal::derive(move || if is_leak.get() { "mm²" } else { "cm³/s" }.to_owned())
                 disabled=locked
             />
             <TimeField
                 id="load-time"
                 name=say!(lab, experiment.load_time)
-                value=Signal::derive(move || step.get().map_or(0.0, |s| s.time_s))
+                value=time
                 on_change=move |t| edit(&move |s| s.time_s = t)
             />
         </div> })}

@@ -19,7 +19,7 @@ struct Row {
 pub fn MetricsTable() -> impl IntoView {
     let lab = use_lab();
     let rows = move || rows(lab).iter().map(|row| row_view(lab, row)).collect_view();
-    let unit = move || unit_name(lab.unit().get());
+    let unit = move || unit_name(lab.unit.get());
     let column = |text: Signal<String>| view! { <th scope="col">{text}</th> };
     let plain = move |read: fn(Lab) -> String| column(Signal::derive(move || read(lab)));
     view! {
@@ -71,7 +71,7 @@ fn rows(lab: Lab) -> Vec<Row> {
 
 fn row_view(lab: Lab, row: &Row) -> impl IntoView + use<> {
     let style = lab.number_style();
-    let unit = lab.unit().get();
+    let unit = lab.unit.get();
     let m = row.metrics;
     let none = || "–".to_owned();
     let time = |t: Option<f64>| t.map_or_else(none, |t| style.significant(t, 3));

@@ -80,7 +80,7 @@ pub fn responses(lab: Lab) -> Picture {
     let build = move |visit: &mut dyn FnMut(&[Chart])| {
         let (run, pinned): (Outcome<Run>, _) = (lab.run.get(), lab.pinned.get());
         let Ok(run) = run.as_ref() else { return };
-        let unit = lab.unit().get();
+        let unit = lab.unit.get();
         let level = tr!(lab, responses.level_axis, unit = unit_name(unit)).to_string();
         let number = |text: &dyn Fn(usize) -> String| [text(1), text(2)];
         let levels = number(&|k| tr!(lab, responses.level, number = k).to_string());

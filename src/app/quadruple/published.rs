@@ -4,10 +4,10 @@ use leptos::prelude::*;
 
 use super::sentences::with_analysis;
 use crate::app::lab::use_lab;
+use crate::app::preset::chosen;
 use crate::app::shown::{length_digits, to_shown, unit_name};
 use crate::app::texts::{say, tr};
 use crate::plant::{Preset, PresetId};
-use crate::scenario::PlantSpec;
 
 /// A row: what, computed, printed.
 type Row = (String, String, Option<String>);
@@ -16,11 +16,8 @@ type Row = (String, String, Option<String>);
 #[component]
 pub fn PublishedFigures() -> impl IntoView {
     let lab = use_lab();
-    let preset = lab.part(|s| match s.plant {
-        PlantSpec::Preset(id) => Some(id),
-        PlantSpec::Parameters { .. } => None,
-    });
-    let preset = move || preset.get().map(PresetId::preset);
+    let rig = chosen(lab);
+    let preset = move || rig.get().map(PresetId::preset);
     let rows = move || {
         rows(lab, preset().as_ref())
             .into_iter()
@@ -63,7 +60,7 @@ pub fn PublishedFigures() -> impl IntoView {
 
 fn rows(lab: crate::app::lab::Lab, preset: Option<&Preset>) -> Vec<Row> {
     let style = lab.number_style();
-    let unit = lab.unit().get();
+    let unit = lab.unit.get();
     let printed = preset.and_then(|p| p.printed);
     let length = |m: f64| style.fixed(to_shown(m, unit), length_digits(unit));
     with_analysis(lab, |a| {

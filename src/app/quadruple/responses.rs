@@ -227,32 +227,27 @@ fn Surface(frames: RwSignal<Vec<Frame>>) -> impl IntoView {
 fn Readout(frames: RwSignal<Vec<Frame>>) -> impl IntoView {
     let lab = use_lab();
     let moment = use_moment();
-    let place = move || {
+    let content = move || {
         let frame = frames.with(|f| f.first().copied())?;
-        let time = moment.get()?.time_s?;
-        let share = (frame.x_px(time) - frame.outer.left) / frame.outer.width;
-        let left = if share < 0.5 { 100.0 * share + 1.5 } else { 100.0 * share - 1.5 };
-        Some((left, share < 0.5))
-    };
-    let style = move |name: &'static str| {
-        place().map(|(left, to_the_right)| match (name, to_the_right) {
-            ("left", true) => format!("{left:.1}%"),
-            ("right", false) => format!("{:.1}%", 100.0 - left),
-            _ => "auto".to_owned(),
-        })
-    };
-    view! {
-        {move || moment.get().filter(|m| m.time_s.is_some() && place().is_some()).map(|m| view! {
-            <div class="readout" data-testid="readout" aria-hidden="true" style:left=move || style("left") style:right=move || style("right")>
+        let m = moment.get()?;
+        let share = (frame.x_px(m.time_s?) - frame.outer.left) / frame.outer.width;
+        let (left, right) = if share < 0.5 {
+            (format!("{:.1}%", 100.0 * share + 1.5), "auto".to_owned())
+        } else {
+            ("auto".to_owned(), format!("{:.1}%", 101.5 - 100.0 * share))
+        };
+        Some(view! {
+            <div class="readout" data-testid="readout" aria-hidden="true" style:left=left style:right=right>
                 {readout_rows(lab, &m)}
             </div>
-        })}
-    }
+        })
+    };
+    view! { {content} }
 }
 
 fn readout_rows(lab: Lab, m: &Moment) -> impl IntoView + use<> {
     let style = lab.number_style();
-    let unit = lab.unit().get();
+    let unit = lab.unit.get();
     let level = |k: usize| {
         format!(
             "h{} {} {}",
@@ -272,7 +267,7 @@ fn readout_rows(lab: Lab, m: &Moment) -> impl IntoView + use<> {
 fn readout_text(lab: Lab) -> Option<String> {
     let m = use_context::<Memo<Option<Moment>>>()?.get()?;
     let style = lab.number_style();
-    let unit = lab.unit().get();
+    let unit = lab.unit.get();
     let level = |k: usize| style.fixed(to_shown(m.levels[k], unit), length_digits(unit));
     m.time_s.map(|t| {
         format!(
@@ -317,7 +312,7 @@ fn sentence(lab: Lab) -> String {
 
 fn of_metrics(lab: Lab, index: usize, metrics: &LoopMetrics) -> Option<String> {
     let style = lab.number_style();
-    let unit = lab.unit().get();
+    let unit = lab.unit.get();
     metrics.step_time_s?;
     let cross = style.fixed(to_shown(metrics.other_peak, unit), length_digits(unit));
     let (level, other) = (index + 1, 2 - index);

@@ -22,7 +22,7 @@ pub fn RelativeGainCard() -> impl IntoView {
                 <span class="remark">{say!(lab, rga.remark)}</span>
             </header>
             <Gains />
-            <div class="formula"><Formula /></div>
+            <Formula />
             <div class=move || if warm() { "verdict warm" } else { "verdict" } role="status" data-testid="rga-verdict">
                 <p>{move || rich(&verdict().map_or_else(|| tr!(lab, process.no_equilibrium).to_string(), |v| of_verdict(lab, v)))}</p>
             </div>
@@ -77,28 +77,22 @@ fn Gains() -> impl IntoView {
 #[component]
 fn Formula() -> impl IntoView {
     let lab = use_lab();
-    let valves = lab.part(|s| s.valves);
+    let [gamma_1, gamma_2] = [0, 1].map(|valve| lab.part(move |s| s.valves[valve]));
     let number = move |v: f64| lab.number_style().fixed(v, 2);
     let value = move || with_analysis(lab, |a| a.rga_11.ok()).flatten().map_or_else(|| "∞".to_owned(), number);
-    view! {
-        <math>
-            <msub><mi>"λ"</mi><mn>"11"</mn></msub>
-            <mo>"="</mo>
-            <mfrac>
-                <mrow><msub><mi>"γ"</mi><mn>"1"</mn></msub><msub><mi>"γ"</mi><mn>"2"</mn></msub></mrow>
-                <mrow>
-                    <msub><mi>"γ"</mi><mn>"1"</mn></msub><mo>"+"</mo><msub><mi>"γ"</mi><mn>"2"</mn></msub><mo>"−"</mo><mn>"1"</mn>
-                </mrow>
-            </mfrac>
-            <mo>"="</mo>
-            <mfrac>
-                <mrow><mn>{move || number(valves.get()[0])}</mn><mo>"·"</mo><mn>{move || number(valves.get()[1])}</mn></mrow>
-                <mn>{move || number(valves.get()[0] + valves.get()[1] - 1.0)}</mn>
-            </mfrac>
-            <mo>"="</mo>
-            <mn data-testid="lambda">{value}</mn>
-        </math>
-    }
+    let formula = move || {
+        let (g1, g2) = (gamma_1.get(), gamma_2.get());
+        let (first, second, below, value) = (number(g1), number(g2), number(g1 + g2 - 1.0), value());
+        let gamma = |k: u8| format!("<msub><mi>γ</mi><mn>{k}</mn></msub>");
+        let (one, two) = (gamma(1), gamma(2));
+        format!(
+            "<math><msub><mi>λ</mi><mn>11</mn></msub><mo>=</mo>\
+             <mfrac><mrow>{one}{two}</mrow><mrow>{one}<mo>+</mo>{two}<mo>−</mo><mn>1</mn></mrow></mfrac><mo>=</mo>\
+             <mfrac><mrow><mn>{first}</mn><mo>·</mo><mn>{second}</mn></mrow><mn>{below}</mn></mfrac><mo>=</mo>\
+             <mn data-testid=\"lambda\">{value}</mn></math>"
+        )
+    };
+    view! { <div class="formula" inner_html=formula></div> }
 }
 
 fn of_verdict(lab: Lab, verdict: PairingVerdict) -> String {

@@ -6,8 +6,7 @@ use super::moment::{Moment, use_moment};
 use crate::app::lab::use_lab;
 use crate::app::shown::{length_digits, to_shown, unit_name};
 use crate::app::texts::{say, tr};
-use crate::plant::{Disturbance, QuadrupleTank};
-use crate::scenario::Setup;
+use crate::plant::{Disturbance, QuadrupleTank, Tank};
 
 /// Where the tanks stand in the drawing (left, top), tank 1 first.
 const TANKS: [(f64, f64); 4] = [(62.0, 158.0), (150.0, 158.0), (62.0, 40.0), (150.0, 40.0)];
@@ -24,9 +23,8 @@ const VALVES: [(f64, f64); 2] = [(42.0, 148.0), (234.0, 148.0)];
 pub fn Rig() -> impl IntoView {
     let lab = use_lab();
     let moment = use_moment();
-    let plant = lab.part(Setup::plant);
     let summary = move || {
-        let unit = lab.unit().get();
+        let unit = lab.unit.get();
         let number = |v: f64| lab.number_style().fixed(to_shown(v, unit), length_digits(unit));
         moment.get().map(|m| {
             let v = |k: usize| lab.number_style().fixed(m.pump_voltage[k], 2);
@@ -47,8 +45,8 @@ pub fn Rig() -> impl IntoView {
     view! {
         <svg class="rig" viewBox="0 0 276 296" role="img" aria-label=summary data-testid="rig">
             <Pipes />
-            {(0..4).map(|tank| view! { <TankView tank plant /> }).collect_view()}
-            {move || moment.get().map(|m| streams(&plant.get(), &m))}
+            {(0..4).map(|tank| view! { <TankView tank /> }).collect_view()}
+            {move || moment.get().map(|m| streams(&lab.computed.with(|s| s.plant()), &m))}
             <rect class="basin" x="24" y="262" width="228" height="30" rx="3" />
             {(0..2).map(|pump| view! { <PumpView pump /> }).collect_view()}
             {(0..2).map(|valve| view! { <ValveView valve /> }).collect_view()}
@@ -68,34 +66,32 @@ fn Pipes() -> impl IntoView {
 
 /// One tank: walls, water, name, level, and a word where it overflows or is dry.
 #[component]
-fn TankView(tank: usize, plant: Signal<QuadrupleTank>) -> impl IntoView {
+fn TankView(tank: usize) -> impl IntoView {
     let lab = use_lab();
     let moment = use_moment();
     let (left, top) = TANKS[tank];
     let level = move || moment.get().map_or(0.0, |m| m.levels[tank]);
-    let height = move || plant.with(|p| p.tanks[tank].height);
-    let share = move || (level() / height()).clamp(0.0, 1.0);
+    let height = lab.part(move |s| s.plant().tanks[tank].height);
+    let share = move || (level() / height.get()).clamp(0.0, 1.0);
     // How far the far wall leans outwards over the height of the tank, for a trapezoidal tank.
-    let lean = move || {
-        plant.with(|p| {
-            let section = p.tanks[tank].section;
-            let (bottom, brim) = (section.area(0.0), section.area(p.tanks[tank].height));
-            TANK.0 * (1.0 - (bottom / brim).clamp(LEAST_BOTTOM, 1.0))
-        })
-    };
-    let walls = move || format!("M{left} {top} V{} H{} L{} {top}", top + TANK.1, left + TANK.0 - lean(), left + TANK.0);
+    let lean = lab.part(move |s| {
+        let Tank { section, height, .. } = s.plant().tanks[tank];
+        TANK.0 * (1.0 - (section.area(0.0) / section.area(height)).clamp(LEAST_BOTTOM, 1.0))
+    });
+    let walls =
+        move || format!("M{left} {top} V{} H{} L{} {top}", top + TANK.1, left + TANK.0 - lean.get(), left + TANK.0);
     let water = move || {
         let surface = top + TANK.1 * (1.0 - share());
-        let brim = left + TANK.0 - lean() * (1.0 - share());
-        format!("M{left} {surface} V{} H{} L{brim} {surface} Z", top + TANK.1, left + TANK.0 - lean())
+        let brim = left + TANK.0 - lean.get() * (1.0 - share());
+        format!("M{left} {surface} V{} H{} L{brim} {surface} Z", top + TANK.1, left + TANK.0 - lean.get())
     };
     let shown = move || {
-        let unit = lab.unit().get();
+        let unit = lab.unit.get();
         let number = lab.number_style().fixed(to_shown(level(), unit), length_digits(unit));
         format!("{number} {}", unit_name(unit))
     };
     let alarm = move || {
-        let (level, height) = (level(), height());
+        let (level, height) = (level(), height.get());
         if level >= height {
             Some(tr!(lab, process.full).to_string())
         } else if level <= 0.0 {
@@ -110,7 +106,7 @@ fn TankView(tank: usize, plant: Signal<QuadrupleTank>) -> impl IntoView {
         <path class=colour d=water stroke-width="0" />
         <path class="wall" d=walls />
         <text class="name" x=middle y=top + 12.0 text-anchor="middle">{say!(lab, process.tank, number = tank + 1)}</text>
-        <text class="value" x=move || middle - lean() / 2.0 y=top + TANK.1 - 8.0 text-anchor="middle" data-testid=format!("rig-level-{}", tank + 1)>
+        <text class="value" x=move || middle - lean.get() / 2.0 y=top + TANK.1 - 8.0 text-anchor="middle" data-testid=format!("rig-level-{}", tank + 1)>
             {shown}
         </text>
         <text class="alarm" x=middle y=top + 26.0 text-anchor="middle">{alarm}</text>

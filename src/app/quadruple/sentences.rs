@@ -98,7 +98,7 @@ pub fn of_equilibrium(lab: Lab) -> Vec<String> {
 
 fn of_plant_error(lab: Lab, error: &PlantError) -> String {
     let style = lab.number_style();
-    let unit = lab.unit().get();
+    let unit = lab.unit.get();
     let length = |m: f64| style.fixed(to_shown(m, unit), length_digits(unit) - 1);
     match *error {
         PlantError::SingularPlant { .. } => tr!(lab, process.no_equilibrium).to_string(),

@@ -4,14 +4,13 @@ use leptos::ev::{KeyboardEvent, PointerEvent, TouchEvent};
 use leptos::prelude::*;
 
 use super::{pictures, sentences};
-use crate::app::lab::{Lab, use_lab};
-use crate::app::preset::{load, name_of};
+use crate::app::lab::use_lab;
+use crate::app::preset::{chosen, load, name_of};
 use crate::app::start::Control;
 use crate::app::texts::{say, tr};
 use crate::app::widgets::{ChartCanvas, ChartMenu, rich};
 use crate::figure::{Frame, Rect};
 use crate::plant::PresetId;
-use crate::scenario::PlantSpec;
 
 /// Step of the arrow keys, and with Shift.
 const STEPS: (f64, f64) = (0.01, 0.05);
@@ -51,27 +50,29 @@ pub fn ValvePlaneCard() -> impl IntoView {
 /// What lies over the picture: guides, published points and the point to drag.
 #[component]
 fn Overlay(frames: RwSignal<Vec<Frame>>) -> impl IntoView {
-    let lab = use_lab();
     // The overlay stands from the start and moves with the picture: rebuilding it would take the focus from the handle.
-    let frame = Signal::derive(move || frames.with(|f| f.first().copied()).unwrap_or(NOWHERE));
     view! {
         <svg class="over" aria-hidden="false">
-            <Guides frame />
-            <PublishedPoints frame />
-            <Handle frame lab />
+            <Guides frames />
+            <PublishedPoints frames />
+            <Handle frames />
         </svg>
     }
 }
 
+fn frame_of(frames: RwSignal<Vec<Frame>>) -> Frame {
+    frames.with(|f| f.first().copied()).unwrap_or(NOWHERE)
+}
+
 #[component]
-fn Guides(frame: Signal<Frame>) -> impl IntoView {
+fn Guides(frames: RwSignal<Vec<Frame>>) -> impl IntoView {
     let lab = use_lab();
     let at = move || {
         let [g1, g2] = lab.scenario.with(|s| s.setup.valves);
-        frame.get().to_px((g1, g2))
+        frame_of(frames).to_px((g1, g2))
     };
-    let left = move || frame.get().plot.left;
-    let bottom = move || frame.get().plot.bottom();
+    let left = move || frame_of(frames).plot.left;
+    let bottom = move || frame_of(frames).plot.bottom();
     view! {
         <line class="guide" x1=left y1=move || at().1 x2=move || at().0 y2=move || at().1 />
         <line class="guide" x1=move || at().0 y1=bottom x2=move || at().0 y2=move || at().1 />
@@ -80,27 +81,25 @@ fn Guides(frame: Signal<Frame>) -> impl IntoView {
 
 /// Settings of the same source, to load with a click.
 #[component]
-fn PublishedPoints(frame: Signal<Frame>) -> impl IntoView {
+fn PublishedPoints(frames: RwSignal<Vec<Frame>>) -> impl IntoView {
     let lab = use_lab();
-    let family = lab.part(|s| match s.plant {
-        PlantSpec::Preset(id) => Some(id.preset().source),
-        PlantSpec::Parameters { .. } => None,
-    });
+    let rig = chosen(lab);
     let points = move || {
+        let source = rig.get().map(|id| id.preset().source);
         PresetId::ALL
             .into_iter()
-            .filter(|id| family.get().is_some_and(|source| id.preset().source == source))
-            .map(|id| view! { <PublishedPoint id frame /> })
+            .filter(|id| Some(id.preset().source) == source)
+            .map(|id| view! { <PublishedPoint id frames /> })
             .collect_view()
     };
     view! { {points} }
 }
 
 #[component]
-fn PublishedPoint(id: PresetId, frame: Signal<Frame>) -> impl IntoView {
+fn PublishedPoint(id: PresetId, frames: RwSignal<Vec<Frame>>) -> impl IntoView {
     let lab = use_lab();
     let valves = id.preset().plant.valves;
-    let at = move || frame.get().to_px(valves.into());
+    let at = move || frame_of(frames).to_px(valves.into());
     let short = match id {
         PresetId::JohanssonMinimumPhase | PresetId::CocotaMinimumPhase => "P−",
         PresetId::JohanssonNonMinimumPhase | PresetId::CocotaNonMinimumPhase => "P+",
@@ -136,11 +135,12 @@ fn PublishedPoint(id: PresetId, frame: Signal<Frame>) -> impl IntoView {
 
 /// The point: dragged by mouse, pen or finger, moved by the arrow keys.
 #[component]
-fn Handle(frame: Signal<Frame>, lab: Lab) -> impl IntoView {
+fn Handle(frames: RwSignal<Vec<Frame>>) -> impl IntoView {
+    let lab = use_lab();
     let dragging = RwSignal::new(false);
-    let valves = lab.part(|s| s.valves);
+    let [gamma_1, gamma_2] = [0, 1].map(|valve| lab.part(move |s| s.valves[valve]));
     let locked = lab.locks(Control::Valves);
-    let at = move || frame.get().to_px(valves.get().into());
+    let at = move || frame_of(frames).to_px((gamma_1.get(), gamma_2.get()));
     let set = move |valves: [f64; 2]| {
         if !locked {
             lab.edit(|s| s.valves = valves.map(|g| (g.clamp(0.0, 1.0) * 100.0).round() / 100.0));
@@ -163,12 +163,12 @@ fn Handle(frame: Signal<Frame>, lab: Lab) -> impl IntoView {
         if let Some(canvas) = target.closest("svg").ok().flatten() {
             let corner = canvas.get_bounding_client_rect();
             let (x, y) = (f64::from(event.client_x()) - corner.left(), f64::from(event.client_y()) - corner.top());
-            set(frame.get_untracked().to_data((x, y)).into());
+            set(untrack(|| frame_of(frames)).to_data((x, y)).into());
         }
     };
     let on_key = move |event: KeyboardEvent| {
         let step = if event.shift_key() { STEPS.1 } else { STEPS.0 };
-        let [g1, g2] = valves.get_untracked();
+        let (g1, g2) = (gamma_1.get_untracked(), gamma_2.get_untracked());
         let moved = match event.key().as_str() {
             "ArrowLeft" => [g1 - step, g2],
             "ArrowRight" => [g1 + step, g2],
@@ -185,8 +185,7 @@ fn Handle(frame: Signal<Frame>, lab: Lab) -> impl IntoView {
     };
     let spoken = move || {
         let style = lab.number_style();
-        let [g1, g2] = valves.get();
-        format!("γ₁ {}, γ₂ {}", style.fixed(g1, 2), style.fixed(g2, 2))
+        format!("γ₁ {}, γ₂ {}", style.fixed(gamma_1.get(), 2), style.fixed(gamma_2.get(), 2))
     };
     view! {
         <g
@@ -197,7 +196,7 @@ fn Handle(frame: Signal<Frame>, lab: Lab) -> impl IntoView {
             aria-label=say!(lab, valves.handle)
             aria-valuemin="0"
             aria-valuemax="1"
-            aria-valuenow=move || format!("{:.2}", valves.get()[0])
+            aria-valuenow=move || format!("{:.2}", gamma_1.get())
             aria-valuetext=spoken
             aria-disabled=locked.then_some("true")
             on:pointerdown=on_down

@@ -30,25 +30,18 @@ pub fn WhyCard() -> impl IntoView {
             <header><h2 id="why-title">{say!(lab, why.title)}</h2></header>
             <p class="sentence" data-testid="why">{text}</p>
             {move || constraint().map(|integral| {
-                let unit = lab.unit().get();
+                let unit = lab.unit.get();
                 let style = lab.number_style();
                 let value = style.significant(to_shown(integral, unit), 3);
-                view! {
-                    <div class="formula">
-                        <math>
-                            <msubsup><mo>"∫"</mo><mn>"0"</mn><mi>"∞"</mi></msubsup>
-                            <msup><mi>"η"</mi><mi>"T"</mi></msup><mi>"e"</mi><mo stretchy="false">"("</mo><mi>"t"</mi><mo stretchy="false">")"</mo>
-                            <msup><mi>"e"</mi><mrow><mo>"−"</mo><mi>"z"</mi><mi>"t"</mi></mrow></msup>
-                            <mi>"d"</mi><mi>"t"</mi>
-                            <mo>"="</mo>
-                            <mfrac><mrow><msup><mi>"η"</mi><mi>"T"</mi></msup><mi>"r"</mi></mrow><mi>"z"</mi></mfrac>
-                        </math>
-                        <math>
-                            <mo>"="</mo>
-                            <mn>{value}</mn><mtext>{format!("\u{a0}{}\u{a0}s", unit_name(unit))}</mtext>
-                        </math>
-                    </div>
-                }
+                let unit = unit_name(unit);
+                let formula = format!(
+                    "<math><msubsup><mo>∫</mo><mn>0</mn><mi>∞</mi></msubsup><msup><mi>η</mi><mi>T</mi></msup><mi>e</mi>\
+                     <mo stretchy=\"false\">(</mo><mi>t</mi><mo stretchy=\"false\">)</mo>\
+                     <msup><mi>e</mi><mrow><mo>−</mo><mi>z</mi><mi>t</mi></mrow></msup><mi>d</mi><mi>t</mi><mo>=</mo>\
+                     <mfrac><mrow><msup><mi>η</mi><mi>T</mi></msup><mi>r</mi></mrow><mi>z</mi></mfrac></math>\
+                     <math><mo>=</mo><mn>{value}</mn><mtext>\u{a0}{unit}\u{a0}s</mtext></math>"
+                );
+                view! { <div class="formula" inner_html=formula></div> }
             })}
         </section>
     }

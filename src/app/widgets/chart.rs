@@ -2,9 +2,9 @@ use std::sync::Arc;
 
 use leptos::html::Canvas;
 use leptos::prelude::*;
-use leptos_use_element_size::{UseElementSizeReturn, use_element_size};
 use web_sys::HtmlCanvasElement;
 
+use super::element_size::follow_size;
 use crate::app::canvas;
 use crate::app::download::{download_canvas, download_text};
 use crate::app::lab::use_lab;
@@ -54,19 +54,20 @@ pub fn ChartCanvas(
 ) -> impl IntoView {
     let lab = use_lab();
     let canvas = NodeRef::<Canvas>::new();
-    let UseElementSizeReturn { width, height } = use_element_size(canvas);
+    let size = RwSignal::new(Size { width: 0.0, height: 0.0 });
+    canvas.on_load(move |canvas| follow_size(&canvas, size));
     // A window that moves to another screen is resized or zoomed in the eyes of the browser.
     let moved = Trigger::new();
     let on_resize = window_event_listener(leptos::ev::resize, move |_| moved.notify());
     on_cleanup(move || on_resize.remove());
     Effect::new(move || {
-        let size = Size { width: width.get(), height: height.get() };
+        let size = size.get();
         moved.track();
         let ratio = window().device_pixel_ratio();
-        let Some(canvas) = canvas.get() else { return };
         if size.width < 1.0 || size.height < 1.0 {
             return;
         }
+        let Some(canvas) = canvas.get_untracked() else { return };
         let style = lab.chart_style();
         let placed = picture.visit(|charts| {
             canvas::paint(&canvas, charts, size, ratio, &style);

@@ -1,6 +1,7 @@
 //! Parts that every bench is made of. None of them knows what it shows.
 
 mod chart;
+mod element_size;
 mod field;
 mod rich;
 mod segmented;

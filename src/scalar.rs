@@ -1,0 +1,47 @@
+//! Small operations on numbers, written so that WebAssembly does them well.
+//!
+//! On wasm32 `f64::max` and `f64::min` are calls into the mathematics library; a comparison is one instruction. Where the
+//! first number is NaN, so is the comparison false and the second number the result.
+
+/// The larger of two numbers.
+#[inline]
+pub fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+/// The smaller of two numbers.
+#[inline]
+pub fn smaller(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+/// `2^exponent`, exact. A general power of two brings a table of 4 KB along.
+pub fn power_of_two(exponent: i32) -> f64 {
+    2.0_f64.powi(exponent)
+}
+
+/// The power of two nearest to a positive number on a logarithmic scale.
+#[expect(clippy::cast_possible_truncation, reason = "the exponent of a float is small, and the cast saturates")]
+pub fn nearest_power_of_two(size: f64) -> f64 {
+    power_of_two(size.log2().round() as i32)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn not_a_number_gives_way_to_the_second() {
+        assert_eq!((larger(1.0, 2.0), larger(2.0, 1.0), larger(f64::NAN, 0.0)), (2.0, 2.0, 0.0));
+        assert_eq!((smaller(1.0, 2.0), smaller(2.0, 1.0), smaller(f64::NAN, 0.0)), (1.0, 1.0, 0.0));
+    }
+
+    #[test]
+    fn powers_of_two_are_exact() {
+        assert_eq!((power_of_two(10), power_of_two(-3), power_of_two(1023)), (1024.0, 0.125, 2.0_f64.powi(1023)));
+        assert_eq!(
+            (nearest_power_of_two(3.0), nearest_power_of_two(0.7), nearest_power_of_two(1e-3)),
+            (4.0, 0.5, 1.0 / 1024.0)
+        );
+    }
+}
