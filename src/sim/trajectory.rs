@@ -79,8 +79,8 @@ impl Trajectory {
         pump_voltage: [f64; 2],
     ) {
         self.time_s[row] = time_s;
-        for tank in 0..4 {
-            self.levels[tank][row] = levels[tank];
+        for (column, level) in self.levels.iter_mut().zip(levels) {
+            column[row] = level;
         }
         for i in 0..2 {
             self.references[i][row] = references[i];
