@@ -13,26 +13,9 @@ use std::array::from_fn;
 use crate::plant::{CrossSection, Disturbance, QuadrupleTank};
 use crate::scalar::{larger, smaller};
 
-/// Stages of the method.
-const STAGES: usize = 5;
+use super::implicit::{ImplicitStep, STAGES};
 
-/// Diagonal of the tableau.
-const DIAGONAL: f64 = 0.25;
-
-/// Singly diagonally implicit method of order 4, L-stable and stiffly accurate: the last stage is the result
-/// (Hairer and Wanner 1996, *Solving Ordinary Differential Equations II*, Table IV.6.5).
-const BELOW_DIAGONAL: [[f64; STAGES - 1]; STAGES] = [
-    [0.0, 0.0, 0.0, 0.0],
-    [1.0 / 2.0, 0.0, 0.0, 0.0],
-    [17.0 / 50.0, -1.0 / 25.0, 0.0, 0.0],
-    [371.0 / 1360.0, -137.0 / 2720.0, 15.0 / 544.0, 0.0],
-    [25.0 / 24.0, -49.0 / 48.0, 125.0 / 16.0, -85.0 / 12.0],
-];
-
-/// Where in the step each stage is: the sums of the rows of the tableau.
-const NODES: [f64; STAGES] = [1.0 / 4.0, 3.0 / 4.0, 11.0 / 20.0, 1.0 / 2.0, 1.0];
-
-/// Error constant of the method: a step of length x T leaves about `x⁴/1200` of a transient that decays with T.
+/// Error constant of the implicit method: a step of length x T leaves about `x⁴/1200` of a transient that decays with T.
 const ERROR_CONSTANT: f64 = 1.0 / 1200.0;
 
 /// Error allowed to a transient of one tank, as a fraction of the water in the plant; this keeps trajectories within
@@ -48,120 +31,6 @@ const MOST_EXPLICIT_STEPS: f64 = 8.0;
 
 /// Most sub-steps between two rows of a trajectory. The method is stable with any.
 const MAX_STEPS: u32 = 8;
-
-/// A correction of √h this small, as a fraction, leaves an error below rounding.
-const NEWTON_TOLERANCE: f64 = 1e-8;
-
-/// Newton's iteration needs three or four; this only bounds it when numbers are not sane.
-const MOST_ITERATIONS: u32 = 30;
-
-/// One number for each of the two upper or the two lower tanks.
-type Pair = [f64; 2];
-
-/// The two upper or the two lower tanks during a step of the integration.
-///
-/// Stage i asks for the √h that solves `V(h) + passed √h = available`. With V replaced by its tangent of slope A that
-/// is a quadratic equation, `(2 A √h + passed)² = passed² + 4 A available`: a prismatic tank is solved at once. Tanks
-/// side by side do not feed each other and are computed in lockstep, which is what processors are good at.
-#[derive(Clone, Copy, Debug)]
-struct Tier {
-    section: [CrossSection; 2],
-    /// Level at the start of the step (m).
-    level: Pair,
-    /// Diagonal × step × drain (m^2.5).
-    passed: Pair,
-    passed_squared: Pair,
-    /// 4 A with the area of the surface at the start of the step (m²).
-    four_areas: Pair,
-    /// What the tangent of V lacks at level 0 (m³).
-    offset: Pair,
-    /// `passed² + 4 A available` of the water that is there at the start (m^5).
-    start: Pair,
-    /// 4 A × step: makes of a flow its share of `passed² + 4 A available`.
-    scale: Pair,
-    /// Scaled flow per √level that leaves the tank.
-    drain: Pair,
-}
-
-impl Tier {
-    #[expect(
-        clippy::inline_always,
-        reason = "measured: the compiler does not do it, and it saves a quarter of the time"
-    )]
-    #[inline(always)]
-    fn new(section: [CrossSection; 2], root_level: Pair, drain: Pair, step: f64) -> Self {
-        let level = root_level.map(|root| root * root);
-        let passed = drain.map(|drain| DIAGONAL * step * drain);
-        let passed_squared = passed.map(|passed| passed * passed);
-        let four_areas = from_fn(|i| 4.0 * larger(section[i].area(level[i]), f64::MIN_POSITIVE));
-        let offset = from_fn(|i| section[i].area_slope / 2.0 * level[i] * level[i]);
-        let start = from_fn(|i| passed_squared[i] + four_areas[i] * (section[i].volume(level[i]) + offset[i]));
-        let scale = four_areas.map(|area| area * step);
-        let drain = from_fn(|i| scale[i] * drain[i]);
-        Self { section, level, passed, passed_squared, four_areas, offset, start, scale, drain }
-    }
-
-    /// √h at the stages, the last of which is the end of the step. The tanks receive the flows `pumped`, and `above` at
-    /// the stages (m³/s). A result beyond the wall is an overflow.
-    #[expect(clippy::inline_always, reason = "as above")]
-    #[inline(always)]
-    fn root_levels(&self, pumped: Pair, above: &[Pair; STAGES]) -> [Pair; STAGES] {
-        let prismatic = self.section.iter().all(|section| section.area_slope == 0.0);
-        let pumped: Pair = from_fn(|i| self.scale[i] * pumped[i]);
-        let half_over_area = self.four_areas.map(|area| 2.0 / area);
-        let mut root = [[0.0; 2]; STAGES];
-        let mut net = [[0.0; 2]; STAGES];
-        for stage in 0..STAGES {
-            let above: Pair = from_fn(|i| self.scale[i] * above[stage][i]);
-            let mut square: Pair = from_fn(|i| self.start[i] + NODES[stage] * pumped[i] + DIAGONAL * above[i]);
-            for past in 0..stage {
-                square = from_fn(|i| square[i] + BELOW_DIAGONAL[stage][past] * net[past][i]);
-            }
-            let wet: Pair =
-                from_fn(|i| if square[i] > self.passed_squared[i] { square[i] } else { self.passed_squared[i] });
-            let slope = wet.map(f64::sqrt);
-            root[stage] = from_fn(|i| (slope[i] - self.passed[i]) * half_over_area[i]);
-            if !prismatic {
-                root[stage] = from_fn(|i| self.leave_tangent(i, root[stage][i], slope[i]));
-            }
-            net[stage] = from_fn(|i| above[i] - self.drain[i] * root[stage][i]);
-        }
-        root
-    }
-
-    /// From the solution on the tangent, where the left-hand side rises by `slope` per √h, to that on V, which is
-    /// `A′/2` times the squared distance from the start of the step above its tangent: by one step of Newton, or more
-    /// when the level moves far.
-    fn leave_tangent(&self, i: usize, on_tangent: f64, slope: f64) -> f64 {
-        let half_slope = self.section[i].area_slope / 2.0;
-        if half_slope == 0.0 {
-            return on_tangent;
-        }
-        let moved = on_tangent * on_tangent - self.level[i];
-        let correction = half_slope * moved * moved / (slope + 4.0 * half_slope * moved * on_tangent);
-        let root = on_tangent - correction;
-        if correction.abs() <= NEWTON_TOLERANCE * root {
-            return root;
-        }
-        self.solve(i, larger(root, 0.0), slope * slope)
-    }
-
-    /// Newton's iteration on V itself; it falls monotonically when the start is to the right of the solution.
-    fn solve(&self, i: usize, start: f64, square: f64) -> f64 {
-        let available = (square - self.passed_squared[i]) / self.four_areas[i] - self.offset[i];
-        let mut root = start;
-        for _ in 0..MOST_ITERATIONS {
-            let level = root * root;
-            let excess = self.section[i].volume(level) + self.passed[i] * root - available;
-            let correction = excess / (2.0 * self.section[i].area(level) * root + self.passed[i]);
-            root = larger(root - correction, 0.0);
-            if correction.abs() <= NEWTON_TOLERANCE * root {
-                break;
-            }
-        }
-        root
-    }
-}
 
 /// What touched a wall or the bottom, and when, as seen by [`Hydraulics::advance`].
 pub(super) trait Watch {
@@ -289,45 +158,39 @@ impl Hydraulics {
     }
 
     /// Number of sub-steps for a stretch of time: as many as the transients need that are large enough to matter.
+    ///
+    /// The error of a step to be expected in a tank is, of its distance from the level at which its outflow would equal
+    /// its inflow, the share `c x⁴/(1 + c x⁴)` with `x = step/T`, `T = 2 A √h/drain`, which is right for small x and for
+    /// large. So neither an almost dry tank that follows its inflow nor a plant at rest asks for short steps.
     fn steps(&self, duration: f64) -> u32 {
         let [root_1, root_2, root_3, root_4] = self.root_level;
         let allowed = TOLERANCE * (root_1 * root_1 + root_2 * root_2 + root_3 * root_3 + root_4 * root_4);
         let above = [self.outlet[2] * root_3, self.outlet[3] * root_4, 0.0, 0.0];
-        let enough = |steps: &u32| {
-            let step = duration / f64::from(*steps);
-            (0..4).all(|i| self.error(i, self.pumped[i] + above[i], step) <= allowed)
-        };
-        (1..MAX_STEPS).find(enough).unwrap_or(MAX_STEPS)
-    }
-
-    /// Error of a step to be expected in a tank (m): of its distance from the level at which its outflow would equal
-    /// its inflow, the share `c x⁴/(1 + c x⁴)` with `x = step/T`, `T = 2 A √h/drain`, which is right for small x and
-    /// for large. So neither an almost dry tank that follows its inflow nor a plant at rest asks for short steps.
-    fn error(&self, i: usize, inflow: f64, step: f64) -> f64 {
-        let (root, drain) = (self.root_level[i], self.drain[i]);
-        let root_at_rest = inflow / drain;
-        let distance = (root_at_rest - root).abs() * (root_at_rest + root);
-        let x_root = step * drain / (2.0 * self.sections[i].area(root * root));
-        let fourth = |x: f64| (x * x) * (x * x);
-        let slow = ERROR_CONSTANT * fourth(x_root);
-        distance * slow / (fourth(root) + slow)
-    }
-
-    /// The two tanks from index `first` on.
-    #[inline]
-    fn tier(&self, first: usize, step: f64) -> Tier {
-        let pair = |all: &[f64; 4]| from_fn(|i| all[first + i]);
-        Tier::new(from_fn(|i| self.sections[first + i]), pair(&self.root_level), pair(&self.drain), step)
+        let mut steps = 1.0;
+        for i in 0..4 {
+            let root_at_rest = (self.pumped[i] + above[i]) / self.drain[i];
+            let distance = (root_at_rest - self.root_level[i]).abs() * (root_at_rest + self.root_level[i]);
+            if distance > allowed {
+                let x = duration * self.rate(i);
+                let needed = (ERROR_CONSTANT * (distance - allowed) / allowed).sqrt().sqrt() * x;
+                steps = larger(steps, needed.ceil());
+            }
+        }
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 1 and MAX_STEPS")]
+        let steps = smaller(steps, f64::from(MAX_STEPS)) as u32;
+        steps
     }
 
     fn step(&mut self, time: f64, step: f64, watch: &mut impl Watch) {
-        let [pumped_1, pumped_2, pumped_3, pumped_4] = self.pumped;
-        let upper = self.tier(2, step).root_levels([pumped_3, pumped_4], &[[0.0; 2]; STAGES]);
-        let above = upper.map(|[root_3, root_4]| [self.outlet[2] * root_3, self.outlet[3] * root_4]);
-        let lower = self.tier(0, step).root_levels([pumped_1, pumped_2], &above);
-        let [end_1, end_2] = lower[STAGES - 1];
-        let [end_3, end_4] = upper[STAGES - 1];
-        for (tank, end) in [end_1, end_2, end_3, end_4].into_iter().enumerate() {
+        let start = |i: usize| ImplicitStep::new(self.sections[i], self.root_level[i], self.drain[i], step);
+        let upper = |i: usize| start(i).root_levels(self.pumped[i], &[0.0; STAGES]);
+        let lower = |i: usize, above: &[f64; STAGES]| {
+            let flow = above.map(|root| self.outlet[i + 2] * root);
+            start(i).root_levels(self.pumped[i], &flow)[STAGES - 1]
+        };
+        let (third, fourth) = (upper(2), upper(3));
+        let ends = [lower(0, &third), lower(1, &fourth), third[STAGES - 1], fourth[STAGES - 1]];
+        for (tank, end) in ends.into_iter().enumerate() {
             self.settle(tank, end, time, step, watch);
         }
     }

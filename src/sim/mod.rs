@@ -4,6 +4,7 @@ mod closed_loop;
 mod course;
 mod experiment;
 mod hold;
+mod implicit;
 mod integrate;
 mod linear_loop;
 mod metrics;

@@ -57,14 +57,14 @@ pub fn with_analysis<T>(lab: Lab, read: impl FnOnce(&Analysis) -> T) -> Option<T
 
 /// The situation of the plant in force.
 pub fn situation(lab: Lab) -> Option<ZeroSituation> {
-    let valves = lab.scenario.with(|s| s.setup.valves);
+    let valves = lab.computed.with(|s| s.valves);
     with_analysis(lab, |a| ZeroSituation::of(a, valves))
 }
 
 /// The sentence under the drawing, and whether it is a warning.
 pub fn of_zero(lab: Lab) -> (String, bool) {
     let style = lab.number_style();
-    let valves = lab.scenario.with(|s| s.setup.valves);
+    let valves = lab.computed.with(|s| s.valves);
     let sum = style.fixed(valves[0] + valves[1], 2);
     let Some(situation) = situation(lab) else {
         return (tr!(lab, process.no_equilibrium).to_string(), true);

@@ -27,7 +27,7 @@ pub fn ValvePlaneCard() -> impl IntoView {
     let picture = pictures::valve_plane(lab);
     let title = say!(lab, valves.title);
     let summary = move || {
-        let [g1, g2] = lab.scenario.with(|s| s.setup.valves);
+        let [g1, g2] = lab.computed.with(|s| s.valves);
         let style = lab.number_style();
         tr!(lab, valves.summary, gamma1 = style.fixed(g1, 2), gamma2 = style.fixed(g2, 2)).to_string()
     };
@@ -67,10 +67,8 @@ fn frame_of(frames: RwSignal<Vec<Frame>>) -> Frame {
 #[component]
 fn Guides(frames: RwSignal<Vec<Frame>>) -> impl IntoView {
     let lab = use_lab();
-    let at = move || {
-        let [g1, g2] = lab.scenario.with(|s| s.setup.valves);
-        frame_of(frames).to_px((g1, g2))
-    };
+    let [gamma_1, gamma_2] = [0, 1].map(|valve| lab.part(move |s| s.valves[valve]));
+    let at = move || frame_of(frames).to_px((gamma_1.get(), gamma_2.get()));
     let left = move || frame_of(frames).plot.left;
     let bottom = move || frame_of(frames).plot.bottom();
     view! {

@@ -1,0 +1,120 @@
+//! One step of the implicit method for one tank.
+
+use crate::plant::CrossSection;
+use crate::scalar::larger;
+
+/// Stages of the method.
+pub(super) const STAGES: usize = 5;
+
+/// Diagonal of the tableau.
+const DIAGONAL: f64 = 0.25;
+
+/// Singly diagonally implicit method of order 4, L-stable and stiffly accurate: the last stage is the result
+/// (Hairer and Wanner 1996, *Solving Ordinary Differential Equations II*, Table IV.6.5).
+const BELOW_DIAGONAL: [[f64; STAGES - 1]; STAGES] = [
+    [0.0, 0.0, 0.0, 0.0],
+    [1.0 / 2.0, 0.0, 0.0, 0.0],
+    [17.0 / 50.0, -1.0 / 25.0, 0.0, 0.0],
+    [371.0 / 1360.0, -137.0 / 2720.0, 15.0 / 544.0, 0.0],
+    [25.0 / 24.0, -49.0 / 48.0, 125.0 / 16.0, -85.0 / 12.0],
+];
+
+/// Where in the step each stage is: the sums of the rows of the tableau.
+const NODES: [f64; STAGES] = [1.0 / 4.0, 3.0 / 4.0, 11.0 / 20.0, 1.0 / 2.0, 1.0];
+
+/// A correction of √h this small, as a fraction, leaves an error below rounding.
+const NEWTON_TOLERANCE: f64 = 1e-8;
+
+/// Newton's iteration needs three or four; this only bounds it when numbers are not sane.
+const MOST_ITERATIONS: u32 = 30;
+
+/// A tank during a step of the integration.
+///
+/// Stage i asks for the √h that solves `V(h) + passed √h = available`. With V replaced by its tangent of slope A that
+/// is a quadratic equation, `(2 A √h + passed)² = passed² + 4 A available`: a prismatic tank is solved at once.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ImplicitStep {
+    section: CrossSection,
+    /// Level at the start of the step (m).
+    level: f64,
+    /// Diagonal × step × drain (m^2.5).
+    passed: f64,
+    passed_squared: f64,
+    /// 4 A with the area of the surface at the start of the step (m²).
+    four_areas: f64,
+    /// What the tangent of V lacks at level 0 (m³).
+    offset: f64,
+    /// `passed² + 4 A available` of the water that is there at the start (m^5).
+    start: f64,
+    /// 4 A × step: makes of a flow its share of `passed² + 4 A available`.
+    scale: f64,
+    /// Scaled flow per √level that leaves the tank.
+    drain: f64,
+}
+
+impl ImplicitStep {
+    /// A tank with its √h and its drain (flow per √level, m^2.5/s) at the start of a step (s).
+    pub(super) fn new(section: CrossSection, root_level: f64, drain: f64, step: f64) -> Self {
+        let level = root_level * root_level;
+        let passed = DIAGONAL * step * drain;
+        let passed_squared = passed * passed;
+        let four_areas = 4.0 * larger(section.area(level), f64::MIN_POSITIVE);
+        let offset = section.area_slope / 2.0 * level * level;
+        let start = passed_squared + four_areas * (section.volume(level) + offset);
+        let scale = four_areas * step;
+        Self { section, level, passed, passed_squared, four_areas, offset, start, scale, drain: scale * drain }
+    }
+
+    /// √h at the stages, the last of which is the end of the step. The tank receives the flow `pumped`, and `above` at
+    /// the stages (m³/s). A result beyond the wall is an overflow.
+    pub(super) fn root_levels(&self, pumped: f64, above: &[f64; STAGES]) -> [f64; STAGES] {
+        let pumped = self.scale * pumped;
+        let half_over_area = 2.0 / self.four_areas;
+        let mut root = [0.0; STAGES];
+        let mut net = [0.0; STAGES];
+        for stage in 0..STAGES {
+            let above = self.scale * above[stage];
+            let mut square = self.start + NODES[stage] * pumped + DIAGONAL * above;
+            for past in 0..stage {
+                square += BELOW_DIAGONAL[stage][past] * net[past];
+            }
+            let slope = larger(square, self.passed_squared).sqrt();
+            root[stage] = self.leave_tangent((slope - self.passed) * half_over_area, slope);
+            net[stage] = above - self.drain * root[stage];
+        }
+        root
+    }
+
+    /// From the solution on the tangent, where the left-hand side rises by `slope` per √h, to that on V, which is
+    /// `A′/2` times the squared distance from the start of the step above its tangent: by one step of Newton, or more
+    /// when the level moves far.
+    fn leave_tangent(&self, on_tangent: f64, slope: f64) -> f64 {
+        let half_slope = self.section.area_slope / 2.0;
+        if half_slope == 0.0 {
+            return on_tangent;
+        }
+        let moved = on_tangent * on_tangent - self.level;
+        let correction = half_slope * moved * moved / (slope + 4.0 * half_slope * moved * on_tangent);
+        let root = on_tangent - correction;
+        if correction.abs() <= NEWTON_TOLERANCE * root {
+            return root;
+        }
+        self.solve(larger(root, 0.0), slope * slope)
+    }
+
+    /// Newton's iteration on V itself; it falls monotonically when the start is to the right of the solution.
+    fn solve(&self, start: f64, square: f64) -> f64 {
+        let available = (square - self.passed_squared) / self.four_areas - self.offset;
+        let mut root = start;
+        for _ in 0..MOST_ITERATIONS {
+            let level = root * root;
+            let excess = self.section.volume(level) + self.passed * root - available;
+            let correction = excess / (2.0 * self.section.area(level) * root + self.passed);
+            root = larger(root - correction, 0.0);
+            if correction.abs() <= NEWTON_TOLERANCE * root {
+                break;
+            }
+        }
+        root
+    }
+}
