@@ -26,7 +26,7 @@ single: build ## the whole laboratory as one file: dist/quadtank.html
 
 # What a step says on stderr goes to stdout, so that the total stays in the right place.
 test: ## run everything: format, lints, native, browser and end-to-end tests
-	@tools/setup.sh 2>&1
+	@tools/setup.sh 2>&1 || { echo '0 passed, 1 failed'; exit 1; }
 	@tools/run.sh node tools/test.mjs 2>&1
 
 bench: ## measure speed and size (BENCH=--write puts the table into docs/benchmarks.md)

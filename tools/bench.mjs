@@ -76,7 +76,21 @@ async function inLaboratory(url, flags, work) {
   }
 }
 
-/** Moves the slider of γ1 to and fro, once in each animation frame, as a student would. */
+/** Drags the thumb of a slider to and fro with the mouse. */
+const dragSlider = (name) => async (page, moves) => {
+  const slider = page.getByTestId(name);
+  await slider.scrollIntoViewIfNeeded();
+  const { x, y, width, height } = await slider.boundingBox();
+  // Away from the ends, where a tank runs dry and there is less to compute.
+  const to = (move) => page.mouse.move(x + width * (0.5 + 0.35 * Math.sin(move / 17)), y + height / 2);
+  await to(0);
+  await page.mouse.down();
+  for (let move = 0; move < moves; move += 1) await to(move);
+  await page.mouse.up();
+  await page.waitForTimeout(300);
+};
+
+/** Sets the slider of γ1 by script, once in each animation frame: quick, but an event of a script waits for the next frame. */
 const moveSlider = (page, moves) =>
   page.getByTestId('gamma1').evaluate(async (slider, count) => {
     const [min, max] = [Number(slider.min), Number(slider.max)];
@@ -120,13 +134,20 @@ const readMeasures = (page) =>
     MEASURES,
   );
 
-/** Compute and event-to-paint (ms) of both ways to move a valve, at a speed of the processor. */
+/** What is dragged. */
+const WAYS = [
+  ['slider of γ1', dragSlider('gamma1')],
+  ['slider of K1', dragSlider('gain1')],
+  ['point of the valve plane', dragPoint],
+];
+
+/** Compute and event-to-paint (ms) of each way, at a speed of the processor. */
 async function frameFigures(url, slowdown) {
   return inLaboratory(url, [], async (page, session, version) => {
     await moveSlider(page, WARM_UP);
     await session.send('Emulation.setCPUThrottlingRate', { rate: slowdown });
     const rows = [];
-    for (const [way, move] of [['slider of γ1', moveSlider], ['point of the valve plane', dragPoint]]) {
+    for (const [way, move] of WAYS) {
       progress(`${MOVES} moves of the ${way}, processor slowed ${slowdown}×`);
       await clearMeasures(page);
       await move(page, MOVES);

@@ -4,7 +4,8 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 . tools/env.sh
 
-trunk --quiet build --release --offline
+# A failure is told by its message; a stack of Trunk itself helps nobody.
+RUST_BACKTRACE=0 trunk --quiet build --release --offline
 node tools/release.mjs
 node tools/single.mjs
 node tools/minify.mjs

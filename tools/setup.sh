@@ -69,14 +69,15 @@ node_modules() {
 
 browser() {
   [ -n "$CHROMIUM" ] && [ -n "$CHROMEDRIVER" ] && return
-  local apt=(apt-get)
-  [ "$(id -u)" = 0 ] || apt=(sudo apt-get)
+  # sudo forgets the environment, so the variable goes behind it.
+  local apt=(env DEBIAN_FRONTEND=noninteractive apt-get)
+  [ "$(id -u)" = 0 ] || apt=(sudo "${apt[@]}")
   command -v apt-get >/dev/null && { [ "$(id -u)" = 0 ] || sudo -n true 2>/dev/null; } ||
     need "Chromium and ChromeDriver are missing and only root can install them. On Debian: apt-get install chromium" \
       "chromium-driver. Elsewhere, name the programs by the variables CHROMIUM and CHROMEDRIVER."
   say "Chromium and ChromeDriver from Debian"
   "${apt[@]}" update -qq
-  DEBIAN_FRONTEND=noninteractive "${apt[@]}" install -qq --no-install-recommends chromium chromium-driver >/dev/null
+  "${apt[@]}" install -qq --no-install-recommends chromium chromium-driver >/dev/null
 }
 
 prerequisites

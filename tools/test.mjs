@@ -1,6 +1,9 @@
 // Runs every suite, also after one has failed, and ends with the total that the suites themselves report.
 import { spawn } from 'node:child_process';
-import { mkdirSync, writeFileSync } from 'node:fs';
+import { mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { resolve } from 'node:path';
+
+const PLAYWRIGHT_REPORT = resolve('target/playwright.json');
 
 /** Counts in the output of cargo and of the wasm test runner: one line for each test binary. */
 function cargoCounts(output) {
@@ -8,13 +11,10 @@ function cargoCounts(output) {
   return lines.reduce((sum, [, passed, failed]) => add(sum, { passed: +passed, failed: +failed }), none());
 }
 
-/** Counts in the summary of Playwright. A test that was interrupted, did not run or passed only at a retry is no pass. */
-function playwrightCounts(output) {
-  const count = (...words) => {
-    const lines = output.matchAll(new RegExp(`^ +(\\d+) (?:${words.join('|')})\\b`, 'gm'));
-    return [...lines].reduce((sum, [, number]) => sum + Number(number), 0);
-  };
-  return { passed: count('passed'), failed: count('failed', 'flaky', 'interrupted', 'did not run') };
+/** Counts in the report of Playwright. A test that was interrupted, did not run or passed only at a retry is no pass. */
+function playwrightCounts() {
+  const { expected, unexpected, flaky, skipped } = JSON.parse(readFileSync(PLAYWRIGHT_REPORT, 'utf8')).stats;
+  return { passed: expected, failed: unexpected + flaky + skipped };
 }
 
 const CARGO = ['--locked', '--color', 'never'];
@@ -46,7 +46,7 @@ const STEPS = [
   { name: 'release build', run: ['tools/build.sh'] },
   {
     name: 'end-to-end tests',
-    run: ['npx', '--no-install', 'playwright', 'test', '--reporter=list'],
+    run: ['npx', '--no-install', 'playwright', 'test', '--reporter=list,json'],
     in: 'tests/e2e',
     counts: playwrightCounts,
   },
@@ -57,7 +57,7 @@ const add = (one, other) => ({ passed: one.passed + other.passed, failed: one.fa
 
 /** Runs a step; its output is shown as it comes and returned without colours. */
 function execute({ run: [program, ...args], in: folder = '.' }) {
-  return new Promise((resolve) => {
+  return new Promise((done) => {
     const child = spawn(program, args, { cwd: folder, stdio: ['ignore', 'pipe', 'pipe'], env: environment });
     let output = '';
     for (const stream of [child.stdout, child.stderr]) {
@@ -66,23 +66,32 @@ function execute({ run: [program, ...args], in: folder = '.' }) {
         process.stdout.write(text);
       });
     }
-    child.on('error', (error) => resolve({ ok: false, output: `${error}\n` }));
-    child.on('close', (code) => resolve({ ok: code === 0, output: output.replace(/\x1b\[[\d;?]*[A-Za-z]/g, '') }));
+    child.on('error', (error) => done({ ok: false, output: `${error}\n` }));
+    child.on('close', (code) => done({ ok: code === 0, output: output.replace(/\x1b\[[\d;?]*[A-Za-z]/g, '') }));
   });
+}
+
+/** What the report of a suite says; nothing where there is no report. */
+function countsOf(step, output) {
+  try {
+    return step.counts?.(output) ?? none();
+  } catch {
+    return none();
+  }
 }
 
 /** What a step counts for. A check that fails, or a suite that fails without a failed test, is one failure. */
 function judge(step, { ok, output }) {
-  const counts = step.counts?.(output) ?? none();
+  const counts = countsOf(step, output);
   const ranNothing = step.counts !== undefined && counts.passed + counts.failed === 0;
   const silent = counts.failed === 0 && (!ok || ranNothing);
   return { ...(silent ? add(counts, { passed: 0, failed: 1 }) : counts), ranNothing };
 }
 
 // Chromedriver looks in the usual places; a browser from elsewhere has to be named to it.
-const environment = { ...process.env, CI: process.env.CI ?? '1' };
+const environment = { ...process.env, CI: process.env.CI ?? '1', PLAYWRIGHT_JSON_OUTPUT_NAME: PLAYWRIGHT_REPORT };
+rmSync(PLAYWRIGHT_REPORT, { force: true });
 if (process.env.CHROMIUM && !process.env.CHROMIUM.startsWith('/usr/bin/')) {
-  const { readFileSync } = await import('node:fs');
   const capabilities = JSON.parse(readFileSync('webdriver.json', 'utf8'));
   capabilities['goog:chromeOptions'].binary = process.env.CHROMIUM;
   mkdirSync('target', { recursive: true });

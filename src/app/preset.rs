@@ -87,9 +87,9 @@ pub fn PresetChoice() -> impl IntoView {
         <select
             data-testid="preset"
             aria-label=say!(lab, preset.choose)
-            title=move || remark_of(lab, id.get())
+            title=Signal::derive(move || remark_of(lab, id.get()))
             disabled=lab.locks(Control::Preset)
-            prop:value=move || id.get().map_or("", PresetId::name)
+            prop:value=move || id.get().map_or("", PresetId::name).to_owned()
             on:change=on_change
         >
             {options}

@@ -156,7 +156,7 @@ fn LanguageChoice() -> impl IntoView {
         view! { <option value=language.tag() lang=language.tag() selected=move || lab.language.get() == language>{name}</option> }
     };
     view! {
-        <select data-testid="language" aria-label=say!(lab, app.language) on:change=choose prop:value=move || lab.language.get().tag()>
+        <select data-testid="language" aria-label=say!(lab, app.language) on:change=choose prop:value=move || lab.language.get().tag().to_owned()>
             {option(Language::English, "English")}
             {option(Language::Portuguese, "Português")}
         </select>
@@ -166,7 +166,9 @@ fn LanguageChoice() -> impl IntoView {
 #[component]
 fn ThemeSwitch() -> impl IntoView {
     let lab = use_lab();
-    let name = move || if lab.dark.get() { tr!(lab, app.theme_light) } else { tr!(lab, app.theme_dark) };
+    let name = Signal::derive(move || {
+        if lab.dark.get() { tr!(lab, app.theme_light) } else { tr!(lab, app.theme_dark) }.to_owned()
+    });
     let switch = move |_| {
         lab.dark.update(|d| *d = !*d);
         THEME.write(if lab.dark.get_untracked() { "dark" } else { "light" });
@@ -189,7 +191,7 @@ fn Notices() -> impl IntoView {
         Notice::CopyByHand(link) => view! {
             <div>
                 {tr!(lab, app.copy_by_hand)}
-                <input type="text" class="text-field" readonly data-testid="link" aria-label=tr!(lab, app.share) prop:value=link />
+                <input type="text" class="text-field" readonly data-testid="link" aria-label=tr!(lab, app.share) value=link />
             </div>
         }
         .into_any(),

@@ -4,6 +4,7 @@ use nalgebra::linalg::{Schur, balancing::balance_parlett_reinsch};
 use nalgebra::{DMatrix, DVector};
 
 use super::{Complex, LinearError, state_space::expect_shape};
+use crate::scalar::sort_few;
 
 /// QR iterations allowed per row; two to four are usual.
 const ITERATIONS_PER_ROW: usize = 60;
@@ -33,7 +34,7 @@ pub fn eigenvalues(matrix: &DMatrix<f64>) -> Result<Vec<Complex>, LinearError> {
     if !values.iter().all(|value| value.is_finite()) {
         return Err(failure);
     }
-    values.sort_unstable_by(|x, y| x.re.total_cmp(&y.re).then(x.im.total_cmp(&y.im)));
+    sort_few(&mut values, |x: &Complex, y| x.re.total_cmp(&y.re).then(x.im.total_cmp(&y.im)));
     Ok(values)
 }
 

@@ -6,6 +6,7 @@
 use nalgebra::{ComplexField, DMatrix};
 
 use super::LinearError;
+use crate::scalar::sort_few;
 
 /// Sweeps over all pairs of columns; a 2 × 2 matrix takes two, ten are rare.
 const SWEEPS: usize = 60;
@@ -35,7 +36,7 @@ where
         }
     }
     let mut values: Vec<f64> = columns.column_iter().map(|column| column.norm() * largest).collect();
-    values.sort_unstable_by(|x, y| y.total_cmp(x));
+    sort_few(&mut values, |x, y| y.total_cmp(x));
     if values.iter().all(ComplexField::is_finite) { Ok(values) } else { Err(failure) }
 }
 

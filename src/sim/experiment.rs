@@ -74,6 +74,12 @@ pub struct Experiment {
 }
 
 impl Experiment {
+    /// Reference of a level (m) right after `time_s` (s), where it rests at `rest` (m) before any step.
+    pub fn reference_after(&self, level: usize, rest: f64, time_s: f64) -> f64 {
+        let before = self.set_point_steps.iter().filter(|s| s.level == level && s.time_s <= time_s);
+        before.map(|s| s.size).fold(rest, |sum, size| sum + size)
+    }
+
     /// The reference step (m) that comes first, in all levels that step at that time; `None` when no reference moves.
     pub fn first_reference_step(&self) -> Option<[f64; 2]> {
         let moving = || self.set_point_steps.iter().filter(|s| s.size != 0.0);

@@ -3,6 +3,7 @@ use serde::Serialize;
 use crate::control::DecentralisedPi;
 use crate::linear::{Complex, LinearError, eigenvalues};
 use crate::plant::Jacobian;
+use crate::scalar::sort_few;
 
 use super::open_loop::OpenLoop;
 
@@ -72,7 +73,7 @@ pub fn closed_loop(
 ) -> Result<ClosedLoop, LinearError> {
     let open = OpenLoop::new(jacobian, controller, power_gain);
     let mut poles_z = eigenvalues(&open.closed(jacobian.dry))?;
-    poles_z.sort_unstable_by(|x, y| y.norm().total_cmp(&x.norm()).then(y.im.total_cmp(&x.im)));
+    sort_few(&mut poles_z, |x, y| y.norm().total_cmp(&x.norm()).then(y.im.total_cmp(&x.im)));
     let stability = Stability::of(&poles_z);
     let images = poles_z.iter().filter(|&&z| z != Complex::ZERO);
     let poles_s: Vec<Complex> = images.map(|z| z.ln() / controller.sampling_time_s).collect();

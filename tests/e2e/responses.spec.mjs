@@ -54,6 +54,43 @@ test('dragging across the chart zooms into that stretch', async ({ lab, page }) 
   expect(await lab.picture('responses')).toEqual(whole);
 });
 
+test('a set-point is dragged in the picture: up and down for its size, sideways for its time', async ({ lab, page }) => {
+  await lab.open();
+  const before = await lab.picture('responses');
+  const box = await lab.id('responses-surface').boundingBox();
+  const from = await lab.middle('set-point1');
+  await page.mouse.move(from.x, from.y);
+  await page.mouse.down();
+  await page.mouse.move(from.x + box.width * 0.1, from.y - 30, { steps: 6 });
+  await page.mouse.up();
+  await lab.settle();
+  const [size, time] = [await lab.value('step1-number'), await lab.value('step1-time')];
+  expect(size).toBeGreaterThan(0.7);
+  expect(time).toBeGreaterThan(350);
+  expect(time).toBeLessThan(500);
+  expect((await lab.picture('responses')).hash).not.toBe(before.hash);
+  // The other set-point stays, and the picture was not zoomed.
+  expect(await lab.value('step2-number')).toBeCloseTo(0.64, 9);
+  expect(await lab.value('step2-time')).toBe(1500);
+  await expect(lab.id('set-point1')).toBeFocused();
+  await page.keyboard.press('ArrowDown');
+  await page.keyboard.press('ArrowRight');
+  await lab.settle();
+  expect(await lab.value('step1-number')).toBeCloseTo(size - 0.01, 9);
+  expect(await lab.value('step1-time')).toBe(time + 10);
+  await expect(lab.id('set-point1')).toHaveAttribute('aria-valuetext', `${(size - 0.01).toFixed(2)} cm at ${time + 10} s`);
+});
+
+test('a set-point outside the shown stretch is out of reach', async ({ lab }) => {
+  await lab.open();
+  await expect(lab.id('set-point1').locator('.dot')).toBeVisible();
+  await lab.id('responses-surface').focus();
+  for (let k = 0; k < 3; k += 1) await lab.id('zoom-in').click();
+  await lab.settle();
+  await expect(lab.id('set-point1').locator('.dot')).toBeHidden();
+  await expect(lab.id('set-point2').locator('.dot')).toBeVisible();
+});
+
 test('the buttons zoom in and out, about the cursor, and show the whole run again', async ({ lab, page }) => {
   await lab.open();
   const whole = await lab.picture('responses');

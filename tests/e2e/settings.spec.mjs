@@ -138,7 +138,12 @@ test('each lock disables its controls and no other', async ({ lab, page }) => {
     await lab.open(`lock=${lock}`);
     expect(await disabled(), lock).toEqual([...controls].sort());
   }
+  const handles = () => page.evaluate(() => [...document.querySelectorAll('[aria-disabled=true]')].map((e) => e.dataset.testid).sort());
+  expect(await handles()).toEqual(['set-point1', 'set-point2']);
   await lab.open('lock=preset,valves');
+  expect(await handles()).toEqual(['valve-handle', 'valve1', 'valve2']);
+  await lab.id('valve1').focus();
+  await page.keyboard.press('ArrowUp');
   await lab.id('point-johansson-2000-non-minimum-phase').locator('.hit').click();
   await lab.settle();
   expect(await lab.value('gamma1-number')).toBe(0.7);

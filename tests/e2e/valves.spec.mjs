@@ -64,6 +64,30 @@ test('the arrow keys do the same as the mouse', async ({ lab, page }) => {
   expect(await lab.value('gamma1-number')).toBe(1);
 });
 
+test('a valve is dragged on the drawing, or moved by keys', async ({ lab, page }) => {
+  await lab.open();
+  await minimumPhase(lab);
+  const from = await lab.middle('valve1');
+  await page.mouse.move(from.x, from.y);
+  await page.mouse.down();
+  // Down is shut: half of the 120 px from open to shut.
+  await page.mouse.move(from.x, from.y + 60, { steps: 6 });
+  await page.mouse.up();
+  await lab.settle();
+  expect(await lab.value('gamma1-number')).toBeCloseTo(0.2, 9);
+  await rightHalfPlane(lab);
+  await expect(lab.id('valve1')).toBeFocused();
+  await page.keyboard.press('ArrowUp');
+  await page.keyboard.press('Shift+ArrowUp');
+  await lab.settle();
+  expect(await lab.value('gamma1-number')).toBeCloseTo(0.26, 9);
+  await expect(lab.id('valve1')).toHaveAttribute('aria-valuetext', '0.26');
+  await lab.id('valve2').focus();
+  await page.keyboard.press('End');
+  await lab.settle();
+  expect(await lab.value('gamma2-number')).toBe(1);
+});
+
 test('the point cannot be dragged off the plane', async ({ lab, page }) => {
   await lab.open();
   const from = await lab.middle('valve-handle');

@@ -96,7 +96,18 @@ fn first_load(experiment: &Experiment) -> Option<Load> {
     experiment.load_steps.first().map(|step| step.load)
 }
 
-fn edit_step(lab: Lab, level: usize, change: impl Fn(&mut SetPointStep)) {
+/// Size of the first step of a reference (m).
+pub fn step_size(lab: Lab, level: usize) -> Signal<f64> {
+    lab.part(move |s| first_step(&s.experiment, level).map_or(0.0, |s| s.size))
+}
+
+/// Time of the first step of a reference (s).
+pub fn step_time(lab: Lab, level: usize) -> Signal<f64> {
+    lab.part(move |s| first_step(&s.experiment, level).map_or(FIRST_STEP_AT_S, |s| s.time_s))
+}
+
+/// Changes the first step of a reference, which is added where there is none.
+pub fn edit_step(lab: Lab, level: usize, change: impl Fn(&mut SetPointStep)) {
     lab.edit(|s| {
         let steps = &mut s.experiment.set_point_steps;
         let place = steps.iter().position(|step| step.level == level).unwrap_or_else(|| {
@@ -112,8 +123,7 @@ fn edit_step(lab: Lab, level: usize, change: impl Fn(&mut SetPointStep)) {
 fn ReferenceStep(level: usize) -> impl IntoView {
     let lab = use_lab();
     let unit = lab.unit;
-    let size = lab.part(move |s| first_step(&s.experiment, level).map_or(0.0, |s| s.size));
-    let time = lab.part(move |s| first_step(&s.experiment, level).map_or(FIRST_STEP_AT_S, |s| s.time_s));
+    let (size, time) = (step_size(lab, level), step_time(lab, level));
     let reach = lab.part(|s| {
         let plant = s.plant();
         plant.tanks[0].height.min(plant.tanks[1].height)

@@ -13,6 +13,7 @@ mod responses;
 mod rga;
 mod rig;
 mod sentences;
+mod set_points;
 mod valves;
 mod why;
 

@@ -39,7 +39,7 @@ pub fn ProcessCard() -> impl IntoView {
             <Rig />
             <div>{(0..2).map(|valve| view! { <ValveSlider valve /> }).collect_view()}</div>
             <div
-                class=move || if sentence().1 { "verdict warm" } else { "verdict" }
+                class=move || if sentence().1 { "verdict warm" } else { "verdict" }.to_owned()
                 role="status"
                 data-testid="process-sentence"
             >

@@ -6,6 +6,7 @@ use leptos::prelude::*;
 use super::metrics::MetricsTable;
 use super::moment::{Moment, use_moment};
 use super::pictures;
+use super::set_points::SetPoints;
 use crate::app::lab::{Lab, use_lab};
 use crate::app::shown::{length_digits, to_shown, unit_name};
 use crate::app::texts::{say, tr};
@@ -45,6 +46,7 @@ pub fn ResponsesCard() -> impl IntoView {
                 <div class="chart">
                     <ChartCanvas picture frames summary name="responses" />
                     <Surface frames />
+                    <SetPoints frames />
                 </div>
             </div>
             <p class="sentence" role="status" data-testid="responses-sentence">{move || rich(&sentence(lab))}</p>

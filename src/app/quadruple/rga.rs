@@ -23,7 +23,7 @@ pub fn RelativeGainCard() -> impl IntoView {
             </header>
             <Gains />
             <Formula />
-            <div class=move || if warm() { "verdict warm" } else { "verdict" } role="status" data-testid="rga-verdict">
+            <div class=move || if warm() { "verdict warm" } else { "verdict" }.to_owned() role="status" data-testid="rga-verdict">
                 <p>{move || rich(&verdict().map_or_else(|| tr!(lab, process.no_equilibrium).to_string(), |v| of_verdict(lab, v)))}</p>
             </div>
             <p class="remark" data-testid="niederlinski">{move || of_niederlinski(lab)}</p>

@@ -3,9 +3,12 @@
 use leptos::prelude::*;
 
 use super::moment::{Moment, use_moment};
+use super::valves::{STEP, on_grid};
 use crate::app::lab::use_lab;
 use crate::app::shown::{length_digits, to_shown, unit_name};
+use crate::app::start::Control;
 use crate::app::texts::{say, tr};
+use crate::app::widgets::{Drag, Handle, Nudge};
 use crate::plant::{Disturbance, QuadrupleTank, Tank};
 
 /// Where the tanks stand in the drawing (left, top), tank 1 first.
@@ -17,38 +20,46 @@ const WIDEST_STREAM: f64 = 7.0;
 const LEAST_BOTTOM: f64 = 0.6;
 /// The valves, left and right.
 const VALVES: [(f64, f64); 2] = [(42.0, 148.0), (234.0, 148.0)];
+const VALVE_IDS: [&str; 2] = ["valve1", "valve2"];
+/// How far a valve is dragged from shut to open (CSS px).
+const VALVE_TRAVEL_PX: f64 = 120.0;
 
 /// The drawing with the state of the shown moment.
 #[component]
 pub fn Rig() -> impl IntoView {
     let lab = use_lab();
     let moment = use_moment();
-    let summary = move || {
+    let summary = Signal::derive(move || {
         let unit = lab.unit.get();
         let number = |v: f64| lab.number_style().fixed(to_shown(v, unit), length_digits(unit));
-        moment.get().map(|m| {
-            let v = |k: usize| lab.number_style().fixed(m.pump_voltage[k], 2);
-            tr!(
-                lab,
-                process.drawing,
-                h1 = number(m.levels[0]),
-                h2 = number(m.levels[1]),
-                h3 = number(m.levels[2]),
-                h4 = number(m.levels[3]),
-                unit = unit_name(unit),
-                v1 = v(0),
-                v2 = v(1)
-            )
-            .to_string()
-        })
-    };
+        moment
+            .get()
+            .map(|m| {
+                let v = |k: usize| lab.number_style().fixed(m.pump_voltage[k], 2);
+                tr!(
+                    lab,
+                    process.drawing,
+                    h1 = number(m.levels[0]),
+                    h2 = number(m.levels[1]),
+                    h3 = number(m.levels[2]),
+                    h4 = number(m.levels[3]),
+                    unit = unit_name(unit),
+                    v1 = v(0),
+                    v2 = v(1)
+                )
+                .to_string()
+            })
+            .unwrap_or_default()
+    });
     view! {
-        <svg class="rig" viewBox="0 0 276 296" role="img" aria-label=summary data-testid="rig">
-            <Pipes />
-            {(0..4).map(|tank| view! { <TankView tank /> }).collect_view()}
-            {move || moment.get().map(|m| streams(&lab.computed.with(|s| s.plant()), &m))}
-            <rect class="basin" x="24" y="262" width="228" height="30" rx="3" />
-            {(0..2).map(|pump| view! { <PumpView pump /> }).collect_view()}
+        <svg class="rig" viewBox="0 0 276 296" role="group" aria-label=summary data-testid="rig">
+            <g aria-hidden="true">
+                <Pipes />
+                {(0..4).map(|tank| view! { <TankView tank /> }).collect_view()}
+                {move || moment.get().map(|m| streams(&lab.computed.with(|s| s.plant()), &m))}
+                <rect class="basin" x="24" y="262" width="228" height="30" rx="3" />
+                {(0..2).map(|pump| view! { <PumpView pump /> }).collect_view()}
+            </g>
             {(0..2).map(|valve| view! { <ValveView valve /> }).collect_view()}
         </svg>
     }
@@ -152,17 +163,32 @@ fn PumpView(pump: usize) -> impl IntoView {
     }
 }
 
+/// A valve, which is opened and closed by dragging it up and down.
 #[component]
 fn ValveView(valve: usize) -> impl IntoView {
     let lab = use_lab();
     let gamma = lab.part(move |s| s.valves[valve]);
+    let set = move |gamma: f64| lab.edit(|s| s.valves[valve] = on_grid(gamma));
+    let grabbed = StoredValue::new(0.0);
     let (x, y) = VALVES[valve];
     let (colour, anchor, at) = if valve == 0 { ("one", "end", 33.0) } else { ("two", "start", 243.0) };
-    let text = move || format!("γ{}", ["₁", "₂"][valve]);
-    let number = move || lab.number_style().fixed(gamma.get(), 2);
+    let number = Signal::derive(move || lab.number_style().fixed(gamma.get(), 2));
     view! {
-        <path class=colour d=format!("M{} {} H{} L{x} {y} L{} {} H{} L{x} {y} Z", x - 6.0, y - 8.0, x + 6.0, x - 6.0, y + 8.0, x + 6.0) />
-        <text class="value" x=at y=y - 2.0 text-anchor=anchor>{text}</text>
-        <text class="value" x=at y=y + 10.0 text-anchor=anchor>{number}</text>
+        <Handle
+            id=VALVE_IDS[valve]
+            label=say!(lab, process.valve, pump = valve + 1)
+            value=gamma
+            limits=(0.0, 1.0)
+            spoken=number
+            locked=lab.locks(Control::Valves)
+            on_grab=move |()| grabbed.set_value(gamma.get_untracked())
+            on_drag=move |drag: Drag| set(grabbed.get_value() - drag.moved.1 / VALVE_TRAVEL_PX)
+            on_nudge=move |by: Nudge| set(gamma.get_untracked() + STEP * by.along())
+        >
+            <circle class="halo" cx=x cy=y r="13" />
+            <path class=colour d=format!("M{} {} H{} L{x} {y} L{} {} H{} L{x} {y} Z", x - 6.0, y - 8.0, x + 6.0, x - 6.0, y + 8.0, x + 6.0) />
+        </Handle>
+        <text class="value" x=at y=y - 2.0 text-anchor=anchor aria-hidden="true">{format!("γ{}", ["₁", "₂"][valve])}</text>
+        <text class="value" x=at y=y + 10.0 text-anchor=anchor aria-hidden="true">{number}</text>
     }
 }

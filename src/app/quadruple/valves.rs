@@ -1,6 +1,6 @@
 //! The valve plane: γ1 across, γ2 upwards, shaded by the right-most zero, with a point to drag.
 
-use leptos::ev::{KeyboardEvent, PointerEvent, TouchEvent};
+use leptos::ev::KeyboardEvent;
 use leptos::prelude::*;
 
 use super::{pictures, sentences};
@@ -8,12 +8,14 @@ use crate::app::lab::use_lab;
 use crate::app::preset::{chosen, load, name_of};
 use crate::app::start::Control;
 use crate::app::texts::{say, tr};
-use crate::app::widgets::{ChartCanvas, ChartMenu, rich};
+use crate::app::widgets::{ChartCanvas, ChartMenu, Drag, Handle, Nudge, rich};
 use crate::figure::{Frame, Rect};
 use crate::plant::PresetId;
 
-/// Step of the arrow keys, and with Shift.
-const STEPS: (f64, f64) = (0.01, 0.05);
+/// Steps of the arrow keys between shut and open.
+const STEPS: f64 = 100.0;
+/// Step of the arrow keys.
+pub const STEP: f64 = 1.0 / STEPS;
 
 const NO_PLACE: Rect = Rect { left: 0.0, top: 0.0, width: 1.0, height: 1.0 };
 /// The frame before the picture has been painted for the first time.
@@ -55,7 +57,7 @@ fn Overlay(frames: RwSignal<Vec<Frame>>) -> impl IntoView {
         <svg class="over" aria-hidden="false">
             <Guides frames />
             <PublishedPoints frames />
-            <Handle frames />
+            <SettingHandle frames />
         </svg>
     }
 }
@@ -104,11 +106,11 @@ fn PublishedPoint(id: PresetId, frames: RwSignal<Vec<Frame>>) -> impl IntoView {
         PresetId::JunqueiraA => "a",
         PresetId::JunqueiraB => "b",
     };
-    let label = move || {
+    let label = Signal::derive(move || {
         let style = lab.number_style();
         let (gamma1, gamma2) = (style.fixed(valves[0], 2), style.fixed(valves[1], 2));
         tr!(lab, valves.published, name = name_of(lab, id), gamma1 = gamma1, gamma2 = gamma2).to_string()
-    };
+    });
     let choose = move || {
         if !lab.locks(Control::Preset) {
             load(lab, id);
@@ -133,80 +135,38 @@ fn PublishedPoint(id: PresetId, frames: RwSignal<Vec<Frame>>) -> impl IntoView {
 
 /// The point: dragged by mouse, pen or finger, moved by the arrow keys.
 #[component]
-fn Handle(frames: RwSignal<Vec<Frame>>) -> impl IntoView {
+fn SettingHandle(frames: RwSignal<Vec<Frame>>) -> impl IntoView {
     let lab = use_lab();
-    let dragging = RwSignal::new(false);
     let [gamma_1, gamma_2] = [0, 1].map(|valve| lab.part(move |s| s.valves[valve]));
-    let locked = lab.locks(Control::Valves);
     let at = move || frame_of(frames).to_px((gamma_1.get(), gamma_2.get()));
-    let set = move |valves: [f64; 2]| {
-        if !locked {
-            lab.edit(|s| s.valves = valves.map(|g| (g.clamp(0.0, 1.0) * 100.0).round() / 100.0));
-        }
-    };
-    let on_down = move |event: PointerEvent| {
-        event.prevent_default();
-        let target = event_target::<web_sys::Element>(&event);
-        let _ = target.set_pointer_capture(event.pointer_id());
-        if let Some(handle) = target.closest("[data-testid=valve-handle]").ok().flatten() {
-            let _ = leptos::wasm_bindgen::JsCast::unchecked_into::<web_sys::HtmlElement>(handle).focus();
-        }
-        dragging.set(true);
-    };
-    let on_move = move |event: PointerEvent| {
-        if !dragging.get_untracked() {
-            return;
-        }
-        let target = event_target::<web_sys::Element>(&event);
-        if let Some(canvas) = target.closest("svg").ok().flatten() {
-            let corner = canvas.get_bounding_client_rect();
-            let (x, y) = (f64::from(event.client_x()) - corner.left(), f64::from(event.client_y()) - corner.top());
-            set(untrack(|| frame_of(frames)).to_data((x, y)).into());
-        }
-    };
-    let on_key = move |event: KeyboardEvent| {
-        let step = if event.shift_key() { STEPS.1 } else { STEPS.0 };
-        let (g1, g2) = (gamma_1.get_untracked(), gamma_2.get_untracked());
-        let moved = match event.key().as_str() {
-            "ArrowLeft" => [g1 - step, g2],
-            "ArrowRight" => [g1 + step, g2],
-            "ArrowDown" => [g1, g2 - step],
-            "ArrowUp" => [g1, g2 + step],
-            "PageDown" => [g1 - STEPS.1, g2 - STEPS.1],
-            "PageUp" => [g1 + STEPS.1, g2 + STEPS.1],
-            "Home" => [0.0, 0.0],
-            "End" => [1.0, 1.0],
-            _ => return,
-        };
-        event.prevent_default();
-        set(moved);
-    };
+    let set = move |(g1, g2): (f64, f64)| lab.edit(|s| s.valves = [g1, g2].map(on_grid));
     let spoken = move || {
         let style = lab.number_style();
         format!("γ₁ {}, γ₂ {}", style.fixed(gamma_1.get(), 2), style.fixed(gamma_2.get(), 2))
     };
+    let on_nudge = move |by: Nudge| {
+        let moved = |gamma: f64, steps: f64| gamma + STEP * (steps + by.page);
+        set((moved(gamma_1.get_untracked(), by.right), moved(gamma_2.get_untracked(), by.up)));
+    };
     view! {
-        <g
-            class="handle"
-            role="slider"
-            tabindex="0"
-            data-testid="valve-handle"
-            aria-label=say!(lab, valves.handle)
-            aria-valuemin="0"
-            aria-valuemax="1"
-            aria-valuenow=move || format!("{:.2}", gamma_1.get())
-            aria-valuetext=spoken
-            aria-disabled=locked.then_some("true")
-            on:pointerdown=on_down
-            on:pointermove=on_move
-            // A finger on the point drags it; anywhere else on the plane it scrolls the page.
-            on:touchstart=|event: TouchEvent| event.prevent_default()
-            on:pointerup=move |_| dragging.set(false)
-            on:pointercancel=move |_| dragging.set(false)
-            on:keydown=on_key
+        <Handle
+            id="valve-handle"
+            label=say!(lab, valves.handle)
+            value=gamma_1
+            limits=(0.0, 1.0)
+            spoken=Signal::derive(spoken)
+            locked=lab.locks(Control::Valves)
+            on_grab=|()| ()
+            on_drag=move |drag: Drag| set(untrack(|| frame_of(frames)).to_data(drag.at))
+            on_nudge
         >
             <circle class="halo" cx=move || at().0 cy=move || at().1 r="17" />
             <circle class="dot" cx=move || at().0 cy=move || at().1 r="8.5" />
-        </g>
+        </Handle>
     }
+}
+
+/// The nearest valve fraction that a handle can be set to.
+pub fn on_grid(gamma: f64) -> f64 {
+    (gamma.clamp(0.0, 1.0) * STEPS).round() / STEPS
 }

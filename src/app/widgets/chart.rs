@@ -117,7 +117,7 @@ pub fn ChartMenu(
     };
     view! {
         <details class="menu small" data-testid=format!("{file}-menu")>
-            <summary aria-label=move || format!("{}: {}", tr!(lab, chart.export), title.get())>"⤓"</summary>
+            <summary aria-label=Signal::derive(move || format!("{}: {}", tr!(lab, chart.export), title.get()))>"⤓"</summary>
             <div>
                 <button type="button" data-testid=format!("{file}-csv") on:click=save_csv>"CSV"</button>
                 <button type="button" data-testid=format!("{file}-svg") on:click=save_svg>"SVG"</button>

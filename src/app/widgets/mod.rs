@@ -3,10 +3,12 @@
 mod chart;
 mod element_size;
 mod field;
+mod handle;
 mod rich;
 mod segmented;
 
 pub use chart::{ChartCanvas, ChartMenu, Picture};
 pub use field::{NumberField, Scale, SliderField};
+pub use handle::{Drag, Handle, Nudge};
 pub use rich::rich;
 pub use segmented::Segmented;
