@@ -72,7 +72,7 @@ fn shade(spec: &ValvePlane, gammas: [f64; 2]) -> f64 {
 fn words(texts: &ValvePlaneTexts) -> [Layer<'static>; 3] {
     [
         word((0.0, 1.0), (22.0, 11.0), Anchor::Left, texts.boundary),
-        word((1.0, 0.86), (-6.0, 0.0), Anchor::Right, texts.minimum_phase),
+        word((1.0, 1.0), (-6.0, 28.0), Anchor::Right, texts.minimum_phase),
         word((0.0, 0.08), (6.0, 0.0), Anchor::Left, texts.right_half_plane),
     ]
 }

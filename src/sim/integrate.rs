@@ -167,9 +167,9 @@ impl Hydraulics {
         let allowed = TOLERANCE * (root_1 * root_1 + root_2 * root_2 + root_3 * root_3 + root_4 * root_4);
         let above = [self.outlet[2] * root_3, self.outlet[3] * root_4, 0.0, 0.0];
         let mut steps = 1.0;
-        for i in 0..4 {
-            let root_at_rest = (self.pumped[i] + above[i]) / self.drain[i];
-            let distance = (root_at_rest - self.root_level[i]).abs() * (root_at_rest + self.root_level[i]);
+        for (i, (root, above)) in self.root_level.into_iter().zip(above).enumerate() {
+            let root_at_rest = (self.pumped[i] + above) / self.drain[i];
+            let distance = (root_at_rest - root).abs() * (root_at_rest + root);
             if distance > allowed {
                 let x = duration * self.rate(i);
                 let needed = (ERROR_CONSTANT * (distance - allowed) / allowed).sqrt().sqrt() * x;
