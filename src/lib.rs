@@ -13,6 +13,8 @@
 //! | 4 | [`figure`] | charts as data, and how to paint them on any plotters backend |
 //! | 5 | `app` | the Leptos user interface (feature `app`) |
 //!
+//! Under all of them lies `scalar`, a few private operations on numbers.
+//!
 //! Everything below `app` compiles without a browser, holds no text for people, and is in SI units (m, m², m³/s, s,
 //! V, rad/s) unless a name says otherwise. Tanks 1 and 2 are the lower ones; indices in code start at 0.
 

@@ -24,6 +24,11 @@ fn address_of(scenario: &Scenario) -> Result<String, ScenarioError> {
     Ok(format!("{page}#{PREFIX}{link}"))
 }
 
+/// The fragment that restores everything, for a link to another page.
+pub fn fragment(lab: Lab) -> Option<String> {
+    lab.scenario.with_untracked(to_link).ok().map(|link| format!("#{PREFIX}{link}"))
+}
+
 /// Puts the link on the clipboard and into the address bar, so that a reload restores the bench as well.
 pub fn share(lab: Lab) {
     match lab.scenario.with_untracked(address_of) {

@@ -241,14 +241,22 @@ fn of_error(lab: Lab, error: &ScenarioError) -> String {
     }
 }
 
-/// In a course page: the way to the whole laboratory, which is this page without its query.
+/// In a course page: the way to the whole laboratory, which is this page without its query, with what is shown here.
 #[component]
 fn EmbedFooter() -> impl IntoView {
     let lab = use_lab();
     let page = window().location().pathname().unwrap_or_default();
+    let bare = page.clone();
+    // The link is made when it is followed: to make it at every change would take a millisecond of each frame.
+    let on_click = move |event: ev::MouseEvent| {
+        let anchor = event.current_target().and_then(|target| target.dyn_into::<web_sys::Element>().ok());
+        if let (Some(anchor), Some(fragment)) = (anchor, share::fragment(lab)) {
+            let _ = anchor.set_attribute("href", &format!("{page}{fragment}"));
+        }
+    };
     view! {
         <footer class="page">
-            <a href=page target="_blank" rel="noopener">{say!(lab, app.embedded)}</a>
+            <a href=bare target="_blank" rel="noopener" data-testid="full-lab" on:click=on_click>{say!(lab, app.embedded)}</a>
         </footer>
     }
 }

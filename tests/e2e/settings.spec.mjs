@@ -1,5 +1,5 @@
 // Language, theme and the flags that an instructor puts into the address.
-import { expect, test } from './lab.mjs';
+import { Lab, expect, test } from './lab.mjs';
 
 // Words that only the English texts hold.
 const ENGLISH = /\b(level|pump|valve|zero in the|step|settle|gain array|share|file|about|run|pinned|whole|noise|load|reference)\b/i;
@@ -107,6 +107,17 @@ test('an embedded bench shows the chosen cards, without header, with locked cont
 });
 
 const PANELS = { process: 'process', valves: 'plane', zeros: 'zeros', rga: 'rga', controller: 'pi', experiment: 'experiment', why: 'why', responses: 'responses' };
+test('from an embedded bench the whole lab opens with what is shown', async ({ lab, page, context }) => {
+  await lab.open('embed=1&preset=cocota-2009-minimum-phase');
+  await lab.type('gamma1-number', '0.52');
+  await lab.settle();
+  const [opened] = await Promise.all([context.waitForEvent('page'), lab.id('full-lab').click()]);
+  const whole = new Lab(opened, lab.origin, lab.complaints);
+  await expect(whole.id('preset')).toHaveValue('cocota-2009-minimum-phase');
+  expect(await whole.value('gamma1-number')).toBe(0.52);
+  await expect(opened.locator('header.top')).toBeVisible();
+});
+
 test('each panel can be shown alone', async ({ lab, page }) => {
   for (const [panel, card] of Object.entries(PANELS)) {
     await lab.open(`panels=${panel}`);
