@@ -1,7 +1,7 @@
 //! Where the entries of a legend stand: in rows above the plot, as many as the width takes.
 
 use super::Entry;
-use super::frame::measure::{CHARACTER, LINE};
+use super::measure::{CHARACTER, LINE};
 
 /// Width of a sample and the gap behind it (CSS px).
 pub(super) const SAMPLE: f64 = 22.0;

@@ -18,6 +18,7 @@ mod chart;
 mod field;
 mod frame;
 mod legend;
+mod measure;
 mod number;
 mod paint;
 mod palette;

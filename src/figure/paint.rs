@@ -5,9 +5,9 @@ use plotters::prelude::{DrawingArea, DrawingBackend};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{FontDesc, FontFamily, FontStyle, FontTransform, RGBAColor, ShapeStyle, TextStyle};
 
-use super::frame::measure::{CHARACTER, FONT, LINE, TICK_GAP};
 use super::frame::tick_counts;
 use super::legend::{self, SAMPLE};
+use super::measure::{CHARACTER, FONT, LINE, TICK_GAP};
 use super::trace::{self, Px};
 use super::{
     Anchor, Axis, Chart, Frame, Label, Layer, Marker, Palette, Pen, Rect, Rgb, Sample, Shape, Size, field, layout,

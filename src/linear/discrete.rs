@@ -1,7 +1,7 @@
 use nalgebra::{DMatrix, DVector};
 
+use super::error::expect_shape;
 use super::exponential::exponential;
-use super::state_space::expect_shape;
 use super::{Complex, LinearError, StateSpace, eigenvalues};
 use crate::scalar::nearest_power_of_two;
 

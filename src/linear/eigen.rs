@@ -3,7 +3,7 @@
 use nalgebra::linalg::{Schur, balancing::balance_parlett_reinsch};
 use nalgebra::{DMatrix, DVector};
 
-use super::{Complex, LinearError, state_space::expect_shape};
+use super::{Complex, LinearError, error::expect_shape};
 use crate::scalar::sort_few;
 
 /// QR iterations allowed per row; two to four are usual.

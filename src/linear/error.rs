@@ -1,3 +1,4 @@
+use nalgebra::DMatrix;
 use serde::Serialize;
 use thiserror::Error;
 
@@ -55,4 +56,19 @@ pub enum LinearError {
         /// Its value.
         value: f64,
     },
+}
+
+/// Checks the size of one matrix.
+pub(super) fn expect_shape(
+    name: &'static str,
+    matrix: &DMatrix<f64>,
+    expected_rows: usize,
+    expected_columns: usize,
+) -> Result<(), LinearError> {
+    let (rows, columns) = matrix.shape();
+    if (rows, columns) == (expected_rows, expected_columns) {
+        Ok(())
+    } else {
+        Err(LinearError::Dimension { matrix: name, rows, columns, expected_rows, expected_columns })
+    }
 }

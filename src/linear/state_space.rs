@@ -1,5 +1,6 @@
 use nalgebra::DMatrix;
 
+use super::error::expect_shape;
 use super::{Complex, LinearError, eigen};
 
 /// A continuous-time linear model `dx/dt = A x + B u`, `y = C x + D u`.
@@ -112,21 +113,6 @@ impl StateSpace {
     pub(super) fn check_square(&self) -> Result<(), LinearError> {
         let (inputs, outputs) = (self.inputs(), self.outputs());
         if inputs == outputs { Ok(()) } else { Err(LinearError::NotSquare { inputs, outputs }) }
-    }
-}
-
-/// Checks the size of one matrix.
-pub(super) fn expect_shape(
-    name: &'static str,
-    matrix: &DMatrix<f64>,
-    expected_rows: usize,
-    expected_columns: usize,
-) -> Result<(), LinearError> {
-    let (rows, columns) = matrix.shape();
-    if (rows, columns) == (expected_rows, expected_columns) {
-        Ok(())
-    } else {
-        Err(LinearError::Dimension { matrix: name, rows, columns, expected_rows, expected_columns })
     }
 }
 

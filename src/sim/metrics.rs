@@ -7,21 +7,8 @@ use crate::plant::QuadrupleTank;
 use crate::scalar::larger;
 
 use super::experiment::Experiment;
-use super::response::Response;
+use super::response::{Response, Settling};
 use super::trajectory::Trajectory;
-
-/// When a response stays within its band.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Settling {
-    /// It settled this long after the step (s).
-    After {
-        /// Seconds after the step.
-        time_s: f64,
-    },
-    /// It is still outside the band at the end of its window (see [`loop_metrics`]).
-    Never,
-}
 
 /// How one loop answered its first set-point step, within the window that [`loop_metrics`] describes; sums over the
 /// whole run.

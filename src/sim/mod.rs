@@ -18,6 +18,7 @@ pub use closed_loop::simulate;
 pub use course::MAX_ROWS;
 pub use experiment::{Experiment, Load, LoadStep, Measurement, SetPointStep};
 pub use linear_loop::simulate_linear;
-pub use metrics::{LoopMetrics, Settling, loop_metrics};
+pub use metrics::{LoopMetrics, loop_metrics};
 pub use poles::{ClosedLoop, Stability, UNIT_CIRCLE_TOLERANCE, closed_loop};
+pub use response::Settling;
 pub use trajectory::{Event, EventKind, Trajectory};

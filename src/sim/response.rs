@@ -1,10 +1,24 @@
 //! The answer of one level to the first step of its reference, cut out of a run.
 
+use serde::Serialize;
+
 use crate::scalar::larger;
 
 use super::experiment::Experiment;
-use super::metrics::Settling;
 use super::trajectory::Trajectory;
+
+/// When a response stays within its band.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Settling {
+    /// It settled this long after the step (s).
+    After {
+        /// Seconds after the step.
+        time_s: f64,
+    },
+    /// It is still outside the band at the end of its window (see [`loop_metrics`]).
+    Never,
+}
 
 /// A step response and what the other level did meanwhile. All slices have the rows of the window, from the step on.
 pub(super) struct Response<'a> {
