@@ -8,6 +8,7 @@
 //! | 1 | [`linear`] | what a linear model says: poles, transmission zeros and directions, frequency response |
 //! | 2 | [`interaction`] | what couples the loops: relative gain array, Niederlinski index, pairing |
 //! | 2 | [`control`] | what acts: the sampled PI controller and two of them, decentralised |
+//! | 3 | [`tuning`] | how gains are found: ultimate points, critical curve, rules |
 //! | 3 | [`sim`] | plant + controller + experiment → trajectories, events, metrics |
 //! | 4 | [`scenario`] | the document that describes an experiment, its links, and what follows from it |
 //! | 4 | [`figure`] | charts as data, and how to paint them on any plotters backend |
@@ -27,6 +28,7 @@ pub mod linear;
 pub mod plant;
 pub mod scenario;
 pub mod sim;
+pub mod tuning;
 
 #[cfg(feature = "app")]
 pub mod app;

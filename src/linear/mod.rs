@@ -1,4 +1,5 @@
-//! What a linear model says: poles, transmission zeros with their directions, frequency response, exact sampling.
+//! What a linear model says: poles, transmission zeros with their directions, frequency response, exact sampling; and
+//! transfer functions with dead time.
 
 mod discrete;
 mod eigen;
@@ -11,6 +12,7 @@ mod reduction;
 mod scaling;
 mod singular_values;
 mod state_space;
+mod transfer;
 mod zeros;
 
 pub use discrete::DiscreteStateSpace;
@@ -18,6 +20,7 @@ pub use eigen::eigenvalues;
 pub use error::LinearError;
 pub use singular_values::singular_values;
 pub use state_space::StateSpace;
+pub use transfer::{TransferFunction, TransferMatrix};
 pub use zeros::{TransmissionZero, transmission_zeros};
 
 /// Complex number of the linear room: poles, zeros (1/s) and gains.

@@ -1,0 +1,131 @@
+use std::f64::consts::TAU;
+
+use nalgebra::Matrix2;
+
+use crate::linear::{Complex, TransferMatrix};
+use crate::scalar::sort_few;
+
+/// Points of the frequency grid for each decade: fine enough that two crossings of a published plant never share a cell.
+const PER_DECADE: f64 = 400.0;
+/// Halvings of a cell of the grid: to the last bits of a frequency.
+const HALVINGS: u32 = 60;
+
+/// Gains of two proportional loops at which the closed loop oscillates, and how.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CriticalPoint {
+    /// Gains kc1, kc2 of the loops.
+    pub gains: [f64; 2],
+    /// By how much the direction was multiplied to get there.
+    pub factor: f64,
+    /// Frequency of the oscillation (rad per unit of time).
+    pub frequency: f64,
+}
+
+impl CriticalPoint {
+    /// Period Tc of the oscillation.
+    pub fn period(&self) -> f64 {
+        TAU / self.frequency
+    }
+}
+
+/// Direction `(k1, k2)` in which loop 2 has the importance r2 relative to loop 1,
+/// `r2 = kc2 g22(0)/(kc1 g11(0))` (Campestrini 2006, eq. 94).
+pub fn importance_direction(dc_gain: &Matrix2<f64>, importance: f64) -> [f64; 2] {
+    [1.0 / dc_gain[(0, 0)], importance / dc_gain[(1, 1)]]
+}
+
+/// The search for critical points of a plant with two loops, over a range of frequencies.
+///
+/// With `K = a diag(c1, c2)` a characteristic locus of GK passes through −1 where
+/// `1 + a T + a² D = 0`, T = tr(G diag c), D = det(G diag c) (Campestrini 2006, §4.2). For a real the imaginary part gives
+/// `a = −Im T/Im D`, and with it the real part
+/// `(Im D)² − Re T Im T Im D + Re D (Im T)² = 0`: one real equation in ω, whose changes of sign are followed on a grid
+/// on which the plant is evaluated once for all directions.
+#[derive(Clone, Debug)]
+pub struct CriticalSearch<'a> {
+    plant: &'a TransferMatrix,
+    grid: Vec<Sample>,
+}
+
+/// What the search needs of G(jω).
+#[derive(Clone, Copy, Debug)]
+struct Sample {
+    frequency: f64,
+    g11: Complex,
+    g22: Complex,
+    determinant: Complex,
+}
+
+impl Sample {
+    fn of(plant: &TransferMatrix, frequency: f64) -> Self {
+        let g = plant.at(Complex::new(0.0, frequency));
+        let determinant = g[(0, 0)] * g[(1, 1)] - g[(0, 1)] * g[(1, 0)];
+        Self { frequency, g11: g[(0, 0)], g22: g[(1, 1)], determinant }
+    }
+
+    fn trace_and_determinant(&self, [c1, c2]: [f64; 2]) -> (Complex, Complex) {
+        (self.g11 * c1 + self.g22 * c2, self.determinant * (c1 * c2))
+    }
+
+    /// The real equation, scaled so that its size does not depend on the direction.
+    fn excess(&self, direction: [f64; 2]) -> f64 {
+        let (t, d) = self.trace_and_determinant(direction);
+        d.im * d.im - t.re * t.im * d.im + d.re * t.im * t.im
+    }
+
+    /// The factor a at a solution. Where one loop is open D vanishes, and `1 + a T = 0` is left.
+    fn factor(&self, direction: [f64; 2]) -> f64 {
+        let (t, d) = self.trace_and_determinant(direction);
+        if d == Complex::ZERO { -1.0 / t.re } else { -t.im / d.im }
+    }
+}
+
+impl<'a> CriticalSearch<'a> {
+    /// A search from the lowest to the highest frequency (rad per unit of time), both positive.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of points")]
+    pub fn new(plant: &'a TransferMatrix, lowest: f64, highest: f64) -> Self {
+        let cells = ((highest / lowest).log10() * PER_DECADE).ceil().clamp(1.0, 1e5) as usize;
+        let ratio = (highest / lowest).ln() / cells as f64;
+        let grid = (0..=cells).map(|k| Sample::of(plant, lowest * (ratio * k as f64).exp())).collect();
+        Self { plant, grid }
+    }
+
+    /// All critical points in a direction `(c1, c2)`, nearest first. Only the nearest bounds the stable gains; two at the
+    /// same factor are a corner of the curve, where both loci pass through −1.
+    pub fn crossings(&self, direction: [f64; 2]) -> Vec<CriticalPoint> {
+        let mut points: Vec<CriticalPoint> = Vec::new();
+        for cell in self.grid.windows(2) {
+            let (low, high) = (self.equation(&cell[0], direction), self.equation(&cell[1], direction));
+            if low == 0.0 || low.signum() == high.signum() {
+                continue;
+            }
+            let solution = self.solve(cell[0], cell[1], direction);
+            let factor = solution.factor(direction);
+            if factor > 0.0 && factor.is_finite() {
+                let gains = direction.map(|c| factor * c);
+                points.push(CriticalPoint { gains, factor, frequency: solution.frequency });
+            }
+        }
+        sort_few(&mut points, |x, y| x.factor.total_cmp(&y.factor));
+        points
+    }
+
+    /// The critical point that bounds the stable gains in a direction; `None` where every gain is stable.
+    pub fn nearest(&self, direction: [f64; 2]) -> Option<CriticalPoint> {
+        self.crossings(direction).into_iter().next()
+    }
+
+    /// The equation whose changes of sign are followed; with one loop open it is that of a single loop, Im T = 0.
+    fn equation(&self, sample: &Sample, direction: [f64; 2]) -> f64 {
+        if direction.contains(&0.0) { sample.trace_and_determinant(direction).0.im } else { sample.excess(direction) }
+    }
+
+    fn solve(&self, mut low: Sample, mut high: Sample, direction: [f64; 2]) -> Sample {
+        let side = self.equation(&low, direction).signum();
+        for _ in 0..HALVINGS {
+            let middle = Sample::of(self.plant, f64::midpoint(low.frequency, high.frequency));
+            if self.equation(&middle, direction).signum() == side { low = middle } else { high = middle }
+        }
+        high
+    }
+}

@@ -1,0 +1,85 @@
+use std::f64::consts::TAU;
+
+use crate::linear::Complex;
+
+/// The ultimate point of a loop: the gain at which it oscillates for ever, and the period of that.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct UltimatePoint {
+    /// Kc; negative for a plant with negative gain.
+    pub gain: f64,
+    /// Tc.
+    pub period: f64,
+}
+
+/// A PID controller `K (1 + 1/(Ti s) + Td s)` (Campestrini 2006, eq. 9).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PidGains {
+    /// K.
+    pub gain: f64,
+    /// Ti; infinite without integral action.
+    pub integral_time: f64,
+    /// Td; 0 without derivative action.
+    pub derivative_time: f64,
+}
+
+impl PidGains {
+    /// C(jω).
+    pub fn at(&self, frequency: f64) -> Complex {
+        let imaginary = self.derivative_time * frequency - 1.0 / (self.integral_time * frequency);
+        Complex::new(1.0, imaginary) * self.gain
+    }
+}
+
+/// A rule that makes controller settings of an ultimate point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TuningRule {
+    /// Ziegler and Nichols, P (Campestrini 2006, Table 1).
+    ZieglerNicholsP,
+    /// Ziegler and Nichols, PI, in the variant 0.4 Kc, 0.8 Tc (Campestrini 2006, Table 1).
+    ZieglerNicholsPi,
+    /// Ziegler and Nichols, PID (Campestrini 2006, Table 1).
+    ZieglerNicholsPid,
+    /// Tyreus and Luyben, PI (Campestrini 2006, Table 2).
+    TyreusLuybenPi,
+    /// Tyreus and Luyben, PID (Campestrini 2006, Table 2).
+    TyreusLuybenPid,
+}
+
+impl TuningRule {
+    /// All rules.
+    pub const ALL: [Self; 5] = [
+        Self::ZieglerNicholsP,
+        Self::ZieglerNicholsPi,
+        Self::ZieglerNicholsPid,
+        Self::TyreusLuybenPi,
+        Self::TyreusLuybenPid,
+    ];
+
+    /// K/Kc, Ti/Tc and Td/Tc.
+    const fn ratios(self) -> (f64, f64, f64) {
+        match self {
+            Self::ZieglerNicholsP => (0.5, f64::INFINITY, 0.0),
+            Self::ZieglerNicholsPi => (0.4, 0.8, 0.0),
+            Self::ZieglerNicholsPid => (0.6, 0.5, 0.125),
+            Self::TyreusLuybenPi => (1.0 / 3.2, 2.2, 0.0),
+            Self::TyreusLuybenPid => (1.0 / 2.2, 2.2, 1.0 / 6.3),
+        }
+    }
+
+    /// The settings for an ultimate point.
+    pub fn settings(self, point: UltimatePoint) -> PidGains {
+        let (gain, integral, derivative) = self.ratios();
+        PidGains {
+            gain: gain * point.gain,
+            integral_time: integral * point.period,
+            derivative_time: derivative * point.period,
+        }
+    }
+
+    /// Where the rule moves the ultimate point of every loop: from −1 to
+    /// `−(K/Kc) (1 + j (2π Td/Tc − Tc/(2π Ti)))` (Campestrini 2006, Table 4).
+    pub fn target(self) -> Complex {
+        let (gain, integral, derivative) = self.ratios();
+        Complex::new(1.0, TAU * derivative - 1.0 / (TAU * integral)) * -gain
+    }
+}
