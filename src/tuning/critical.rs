@@ -67,10 +67,10 @@ impl Sample {
         (self.g11 * c1 + self.g22 * c2, self.determinant * (c1 * c2))
     }
 
-    /// The real equation, scaled so that its size does not depend on the direction.
-    fn excess(&self, direction: [f64; 2]) -> f64 {
+    /// The real equation; with one loop open that of a single loop, Im T = 0.
+    fn equation(&self, direction: [f64; 2]) -> f64 {
         let (t, d) = self.trace_and_determinant(direction);
-        d.im * d.im - t.re * t.im * d.im + d.re * t.im * t.im
+        if direction.contains(&0.0) { t.im } else { d.im * d.im - t.re * t.im * d.im + d.re * t.im * t.im }
     }
 
     /// The factor a at a solution. Where one loop is open D vanishes, and `1 + a T = 0` is left.
@@ -95,7 +95,7 @@ impl<'a> CriticalSearch<'a> {
     pub fn crossings(&self, direction: [f64; 2]) -> Vec<CriticalPoint> {
         let mut points: Vec<CriticalPoint> = Vec::new();
         for cell in self.grid.windows(2) {
-            let (low, high) = (self.equation(&cell[0], direction), self.equation(&cell[1], direction));
+            let (low, high) = (cell[0].equation(direction), cell[1].equation(direction));
             if low == 0.0 || low.signum() == high.signum() {
                 continue;
             }
@@ -115,16 +115,11 @@ impl<'a> CriticalSearch<'a> {
         self.crossings(direction).into_iter().next()
     }
 
-    /// The equation whose changes of sign are followed; with one loop open it is that of a single loop, Im T = 0.
-    fn equation(&self, sample: &Sample, direction: [f64; 2]) -> f64 {
-        if direction.contains(&0.0) { sample.trace_and_determinant(direction).0.im } else { sample.excess(direction) }
-    }
-
     fn solve(&self, mut low: Sample, mut high: Sample, direction: [f64; 2]) -> Sample {
-        let side = self.equation(&low, direction).signum();
+        let side = low.equation(direction).signum();
         for _ in 0..HALVINGS {
             let middle = Sample::of(self.plant, f64::midpoint(low.frequency, high.frequency));
-            if self.equation(&middle, direction).signum() == side { low = middle } else { high = middle }
+            if middle.equation(direction).signum() == side { low = middle } else { high = middle }
         }
         high
     }
