@@ -1,0 +1,79 @@
+use nalgebra::Matrix2;
+
+use crate::linear::Complex;
+
+/// A parallel PID controller `kp + ki/s + kd s` (Campestrini 2006, §5).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ParallelPid {
+    /// kp.
+    pub proportional: f64,
+    /// ki (per unit of time).
+    pub integral: f64,
+    /// kd (units of time); 0 for PI.
+    pub derivative: f64,
+}
+
+/// What the two controllers have to be at the frequency of the critical point: p1 and p2.
+pub type ControllerPair = [Complex; 2];
+
+/// Method A: one characteristic locus of `G diag(p1, p2)` passes through λ, with `p2 = α p1` (Campestrini 2006, eq. 104).
+///
+/// `g` is G(jωc), `ratio` is α; equal importance of the loops is α = g11(0)/g22(0) (eq. 103). Both roots of
+/// `α (g12 g21 − g11 g22) p1² + λ (g11 + α g22) p1 − λ² = 0`, the one with the larger p1 first. The source takes the one
+/// whose real part has the sign of g11(0); in the third quadrant both may have it, and only the loci tell. Not finite where
+/// det G(jωc) = 0.
+pub fn place_one_locus(g: &Matrix2<Complex>, target: Complex, ratio: f64) -> [ControllerPair; 2] {
+    let a = (g[(0, 1)] * g[(1, 0)] - g[(0, 0)] * g[(1, 1)]) * ratio;
+    let b = target * (g[(0, 0)] + g[(1, 1)] * ratio);
+    let root = (b * b + a * target * target * 4.0).sqrt();
+    larger_first([root, -root].map(|root| {
+        let p1 = (root - b) / (a * 2.0);
+        [p1, p1 * ratio]
+    }))
+}
+
+/// Method B: both characteristic loci pass through λ (Campestrini 2006, eqs. 112–117).
+///
+/// With the dynamic relative gain `Λ11 = g11 g22/det G` at the frequency of `g`, the two roots are
+/// `p1 = (λ/g11)(1 ± √(1 − Λ11))`, `p2 = (λ/g22)(1 ∓ √(1 − Λ11))`; the one with the larger p1 first. Without interaction
+/// (Λ11 = 1) each loop is placed alone. λ is a double eigenvalue: the loci are sensitive there.
+pub fn place_both_loci(g: &Matrix2<Complex>, target: Complex) -> [ControllerPair; 2] {
+    let product = g[(0, 0)] * g[(1, 1)];
+    let relative_gain = product / (product - g[(0, 1)] * g[(1, 0)]);
+    let root = (Complex::ONE - relative_gain).sqrt();
+    larger_first([root, -root].map(|root| [target / g[(0, 0)] * (root + 1.0), target / g[(1, 1)] * (-root + 1.0)]))
+}
+
+fn larger_first([one, other]: [ControllerPair; 2]) -> [ControllerPair; 2] {
+    if one[0].norm() >= other[0].norm() { [one, other] } else { [other, one] }
+}
+
+impl ParallelPid {
+    /// The PI controller that is `p` at a frequency: `kp = Re p`, `ki = −ω Im p` (Campestrini 2006, eqs. 105–109).
+    pub fn pi_through(p: Complex, frequency: f64) -> Self {
+        Self { proportional: p.re, integral: -frequency * p.im, derivative: 0.0 }
+    }
+
+    /// The PID controller with Td = Ti/4 that is `p` at a frequency: `kp = Re p`, and `x = Ti ω` is the positive root of
+    /// `Re p x² − 4 Im p x − 4 Re p = 0` (Campestrini 2006, eq. 111). Its roots have the product −4, so one is positive.
+    /// `None` without a proportional part, where Ti says nothing.
+    pub fn pid_through(p: Complex, frequency: f64) -> Option<Self> {
+        if p.re == 0.0 {
+            return None;
+        }
+        let slope = 2.0 * p.im / p.re;
+        let integral_time = (slope + slope.hypot(2.0)) / frequency;
+        Some(Self { proportional: p.re, integral: p.re / integral_time, derivative: p.re * integral_time / 4.0 })
+    }
+
+    /// C(jω).
+    pub fn at(&self, frequency: f64) -> Complex {
+        Complex::new(self.proportional, self.derivative * frequency - self.integral / frequency)
+    }
+}
+
+/// Whether two loops with integral action may be stable: `det(G(0) diag(ki1, ki2)) > 0` is necessary for it. A stable plant
+/// with two proportional-integral loops that fail this has a real pole in the right half-plane.
+pub fn integral_action_may_be_stable(dc_gain: &Matrix2<f64>, integral: [f64; 2]) -> bool {
+    dc_gain.determinant() * integral[0] * integral[1] > 0.0
+}
