@@ -39,7 +39,17 @@ pub fn Laboratory() -> impl IntoView {
             lab.open(outcome);
         }
     });
-    on_cleanup(move || on_hash.remove());
+    let on_press = window_event_listener(ev::pointerdown, |event| close_menus(event.target()));
+    let on_key = window_event_listener(ev::keydown, |event| {
+        if event.key() == "Escape" {
+            close_menus(None);
+        }
+    });
+    on_cleanup(move || {
+        on_hash.remove();
+        on_press.remove();
+        on_key.remove();
+    });
     let embed = lab.flags.with_value(|f| f.embed);
     view! {
         <div class=if embed { "embed" } else { "page" }>
@@ -52,6 +62,18 @@ pub fn Laboratory() -> impl IntoView {
             <QuadrupleTankBench />
             {embed.then(|| view! { <EmbedFooter /> })}
         </div>
+    }
+}
+
+/// Closes the menus that are open, but for the one that was pressed.
+fn close_menus(pressed: Option<web_sys::EventTarget>) {
+    let pressed = pressed.and_then(|target| target.dyn_into::<web_sys::Node>().ok());
+    let Ok(open) = document().query_selector_all("details.menu[open]") else { return };
+    for menu in (0..open.length()).filter_map(|k| open.get(k)) {
+        let is_pressed = pressed.is_some() && menu.contains(pressed.as_ref());
+        if let Some(menu) = menu.dyn_ref::<web_sys::Element>().filter(|_| !is_pressed) {
+            let _ = menu.remove_attribute("open");
+        }
     }
 }
 

@@ -81,17 +81,44 @@ test('a set-point is dragged in the picture: up and down for its size, sideways 
   await expect(lab.id('set-point1')).toHaveAttribute('aria-valuetext', `${(size - 0.01).toFixed(2)} cm at ${time + 10} s`);
 });
 
-test('a set-point outside the shown stretch is out of reach', async ({ lab }) => {
+test('without a cursor the zoom keeps the first step in sight', async ({ lab }) => {
   await lab.open();
-  await expect(lab.id('set-point1').locator('.dot')).toBeVisible();
-  await lab.id('responses-surface').focus();
   for (let k = 0; k < 3; k += 1) await lab.id('zoom-in').click();
+  await lab.settle();
+  await expect(lab.id('set-point1').locator('.dot')).toBeVisible();
+  await expect(lab.id('set-point2').locator('.dot')).toBeHidden();
+});
+
+test('a set-point outside the shown stretch is out of reach', async ({ lab, page }) => {
+  await lab.open();
+  const box = await lab.id('responses-surface').boundingBox();
+  await lab.id('responses-surface').focus();
+  for (let k = 0; k < 10; k += 1) await page.keyboard.press('Shift+ArrowRight');
+  for (let k = 0; k < 3; k += 1) await page.keyboard.press('+');
   await lab.settle();
   await expect(lab.id('set-point1').locator('.dot')).toBeHidden();
   await expect(lab.id('set-point2').locator('.dot')).toBeVisible();
+  // Hidden, it stands in the corner, where a press must not grab it.
+  await page.mouse.move(box.x + 2, box.y + 2);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 120, box.y + 60, { steps: 4 });
+  await page.mouse.up();
+  await lab.settle();
+  expect(await lab.value('step1-number')).toBeCloseTo(0.61, 9);
+  expect(await lab.value('step1-time')).toBe(100);
 });
 
-test('the buttons zoom in and out, about the cursor, and show the whole run again', async ({ lab, page }) => {
+test('the open data table lengthens the page and covers nothing', async ({ lab, page }) => {
+  await lab.open();
+  await page.locator('.responses details.more > summary').click();
+  await lab.settle();
+  const card = await page.locator('.responses').boundingBox();
+  const table = await page.locator('.responses details.more').boundingBox();
+  expect(table.y + table.height).toBeLessThanOrEqual(card.y + card.height + 1);
+  expect((await lab.id('responses').boundingBox()).height).toBeGreaterThan(250);
+});
+
+test('the buttons zoom in and out, about the first step, and show the whole run again', async ({ lab, page }) => {
   await lab.open();
   const whole = await lab.picture('responses');
   const end = async () => {
@@ -106,8 +133,8 @@ test('the buttons zoom in and out, about the cursor, and show the whole run agai
   await lab.id('zoom-in').click();
   await lab.settle();
   expect((await lab.picture('responses')).hash).not.toBe(whole.hash);
-  // 0.6 of 3000 s about the middle.
-  expect(await end()).toBe(2400);
+  // 0.6 of 3000 s, with the first step, at 100 s, at its share of the picture: from 40 s on.
+  expect(await end()).toBe(1840);
   await lab.id('zoom-out').click();
   await lab.settle();
   expect(await end()).toBe(3000);

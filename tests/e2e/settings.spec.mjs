@@ -107,6 +107,18 @@ test('an embedded bench shows the chosen cards, without header, with locked cont
 });
 
 const PANELS = { process: 'process', valves: 'plane', zeros: 'zeros', rga: 'rga', controller: 'pi', experiment: 'experiment', why: 'why', responses: 'responses' };
+test('a menu closes with Escape, with a press elsewhere, and when another opens', async ({ lab, page }) => {
+  await lab.open();
+  const menu = lab.id('file-menu');
+  for (const close of [() => page.keyboard.press('Escape'), () => page.locator('h1').click(), () => page.locator('.about > summary').click()]) {
+    await menu.locator('summary').click();
+    await expect(menu).toHaveAttribute('open', '');
+    await close();
+    await expect(menu).not.toHaveAttribute('open', '');
+  }
+  await expect(page.locator('.about')).toHaveAttribute('open', '');
+});
+
 test('from an embedded bench the whole lab opens with what is shown', async ({ lab, page, context }) => {
   await lab.open('embed=1&preset=cocota-2009-minimum-phase');
   await lab.type('gamma1-number', '0.52');

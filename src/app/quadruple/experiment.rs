@@ -13,6 +13,8 @@ use crate::sim::{Experiment, Load, LoadStep, SetPointStep};
 
 /// Time of a step that the student adds (s).
 const FIRST_STEP_AT_S: f64 = 100.0;
+/// When a load that the student adds begins, as a share of the experiment: after the steps of the published ones.
+const FIRST_LOAD_AT: f64 = 0.8;
 /// Extra pump flow of a load that the student adds (m³/s): about 5 % of a pump's flow on Johansson's rig.
 const FIRST_LOAD_FLOW: f64 = 0.5e-6;
 /// Hole of a leak that the student adds (m²): about a fifth of an outlet of Johansson's rig.
@@ -211,11 +213,12 @@ fn LoadControls() -> impl IntoView {
     let choose = move |event| {
         let load = load_named(&event_target_value(&event));
         lab.edit(|s| {
+            let begin = (FIRST_LOAD_AT * s.experiment.duration_s).round();
             let steps = &mut s.experiment.load_steps;
             match (load, steps.is_empty()) {
                 (None, false) => drop(steps.remove(0)),
                 (None, true) => {}
-                (Some(load), true) => steps.push(LoadStep { time_s: FIRST_STEP_AT_S, load }),
+                (Some(load), true) => steps.push(LoadStep { time_s: begin, load }),
                 (Some(load), false) => steps[0].load = load,
             }
         });

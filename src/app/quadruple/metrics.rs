@@ -2,16 +2,19 @@
 
 use leptos::prelude::*;
 
+use super::sentences::with_analysis;
 use crate::app::lab::{Lab, use_lab};
 use crate::app::shown::{length_digits, per_metre, to_shown, unit_name};
 use crate::app::texts::{say, tr};
-use crate::sim::{LoopMetrics, Settling};
+use crate::sim::{LoopMetrics, Settling, Stability};
 
 /// A row of the table: its name, the class of its colour, its figures.
 struct Row {
     name: String,
     class: &'static str,
     metrics: LoopMetrics,
+    /// Whether figures of a step response mean anything: not where the loop is unstable.
+    is_response: bool,
 }
 
 /// Metrics of the nonlinear run and of the pinned ones.
@@ -51,10 +54,12 @@ pub fn MetricsTable() -> impl IntoView {
 fn rows(lab: Lab) -> Vec<Row> {
     let class = |k: usize| ["loop1", "loop2"][k];
     let mut rows = Vec::new();
+    let is_response = with_analysis(lab, |a| a.closed_loop.stability) != Some(Stability::Unstable);
     lab.run.with(|outcome| {
         let Ok(run) = outcome.as_ref() else { return };
         for (k, &metrics) in run.metrics.iter().enumerate() {
-            rows.push(Row { name: tr!(lab, responses.row, number = k + 1).to_string(), class: class(k), metrics });
+            let name = tr!(lab, responses.row, number = k + 1).to_string();
+            rows.push(Row { name, class: class(k), metrics, is_response });
         }
     });
     lab.pinned.with(|runs| {
@@ -62,7 +67,7 @@ fn rows(lab: Lab) -> Vec<Row> {
             let Ok(run) = outcome.as_ref() else { continue };
             for (k, &metrics) in run.metrics.iter().enumerate() {
                 let name = tr!(lab, responses.row_pinned, run = at + 1, number = k + 1).to_string();
-                rows.push(Row { name, class: class(k), metrics });
+                rows.push(Row { name, class: class(k), metrics, is_response: true });
             }
         }
     });
@@ -72,7 +77,11 @@ fn rows(lab: Lab) -> Vec<Row> {
 fn row_view(lab: Lab, row: &Row) -> impl IntoView + use<> {
     let style = lab.number_style();
     let unit = lab.unit.get();
-    let m = row.metrics;
+    let mut m = row.metrics;
+    if !row.is_response {
+        (m.rise_time_s, m.settling_2_percent, m.settling_5_percent) = (None, None, None);
+        (m.overshoot, m.undershoot) = (None, None);
+    }
     let none = || "–".to_owned();
     let time = |t: Option<f64>| t.map_or_else(none, |t| style.significant(t, 3));
     let settling = |s: Option<Settling>| match s {

@@ -111,11 +111,16 @@ fn show(lab: Lab, stretch: Option<(f64, f64)>) {
     });
 }
 
-/// Shows `factor` times as much, about `centre` (the cursor or the middle where not given).
+/// Shows `factor` times as much, about `centre`; where it is not given about the cursor, else the first step in sight, else
+/// the middle.
 fn zoom(lab: Lab, factor: f64, centre: Option<f64>) {
     let (from, to) = window_s(lab);
     let cursor = lab.scenario.with_untracked(|s| s.view.cursor_s).filter(|t| (from..=to).contains(t));
-    let centre = centre.or(cursor).unwrap_or(f64::midpoint(from, to));
+    let step = lab.scenario.with_untracked(|s| {
+        let times = s.setup.experiment.set_point_steps.iter().map(|step| step.time_s);
+        times.filter(|t| (from..=to).contains(t)).reduce(f64::min)
+    });
+    let centre = centre.or(cursor).or(step).unwrap_or(f64::midpoint(from, to));
     show(lab, Some((centre - (centre - from) * factor, centre + (to - centre) * factor)));
 }
 

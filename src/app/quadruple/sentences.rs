@@ -166,7 +166,9 @@ pub fn of_direction(lab: Lab) -> String {
             Some(zero) => {
                 let y: [f64; 2] = [zero.output_direction[0].re, zero.output_direction[1].re];
                 let lead = tr!(lab, zeros.direction, y1 = style.fixed(y[0], 2), y2 = style.fixed(y[1], 2)).to_string();
-                let rest = if y[1].abs() < NO_PART {
+                let rest = if zero.value.re < 0.0 {
+                    tr!(lab, zeros.easy).to_string()
+                } else if y[1].abs() < NO_PART {
                     tr!(lab, zeros.single, level = 1).to_string()
                 } else if y[0].abs() < NO_PART {
                     tr!(lab, zeros.single, level = 2).to_string()
