@@ -2,7 +2,8 @@
 //!
 //! A control edits [`Lab::scenario`]. That asks for one animation frame; in it, what the change touched is computed once
 //! (however many events came in between), the results are set, and the charts that show them repaint, all before the
-//! browser shows the frame. Reading, computing and painting never mix.
+//! browser shows the frame. Words, numbers and the drawing follow as soon as that frame is on the screen: they cost the
+//! browser more than the charts do, and nobody reads while dragging. Reading, computing, painting and telling never mix.
 
 use std::sync::Arc;
 
@@ -32,19 +33,69 @@ pub enum Notice {
     CopyByHand(String),
 }
 
-/// The state of the laboratory. A handle: copying it copies nothing.
+/// What was computed, for the views that show it.
 #[derive(Clone, Copy)]
-pub struct Lab {
-    /// The document that all of it follows from.
-    pub scenario: RwSignal<Scenario>,
-    /// The setup that the results are of. Charts read this one, so that they paint when results come, not before.
-    pub computed: RwSignal<Arc<Setup>>,
+pub struct Results {
+    /// The setup that the results are of. Views read this one, so that they change when results come, not before.
+    pub setup: RwSignal<Arc<Setup>>,
     /// What theory says.
     pub analysis: RwSignal<Outcome<Analysis>>,
     /// What happens.
     pub run: RwSignal<Outcome<Run>>,
     /// The pinned runs, in the order of the scenario.
     pub pinned: RwSignal<Arc<Vec<Outcome<Run>>>>,
+}
+
+impl Results {
+    fn of(scenario: &Scenario) -> Self {
+        Self {
+            setup: RwSignal::new(Arc::new(scenario.setup.clone())),
+            analysis: RwSignal::new(Arc::new(scenario::analyse(&scenario.setup))),
+            run: RwSignal::new(Arc::new(scenario::run(&scenario.setup))),
+            pinned: RwSignal::new(run_all(&scenario.pinned)),
+        }
+    }
+
+    /// Signals of their own that hold the same results.
+    fn shared(self) -> Self {
+        Self {
+            setup: RwSignal::new(self.setup.get_untracked()),
+            analysis: RwSignal::new(self.analysis.get_untracked()),
+            run: RwSignal::new(self.run.get_untracked()),
+            pinned: RwSignal::new(self.pinned.get_untracked()),
+        }
+    }
+
+    /// Takes over what is newer in `other`.
+    fn follow(self, other: Self) {
+        share(self.setup, other.setup);
+        share(self.analysis, other.analysis);
+        share(self.run, other.run);
+        share(self.pinned, other.pinned);
+    }
+
+    /// What `read` makes of the analysis, if there is one.
+    pub fn with_analysis<T>(self, read: impl FnOnce(&Analysis) -> T) -> Option<T> {
+        self.analysis.with(|outcome| outcome.as_ref().as_ref().ok().map(read))
+    }
+}
+
+fn share<T: Send + Sync + 'static>(to: RwSignal<Arc<T>>, from: RwSignal<Arc<T>>) {
+    let newest = from.get_untracked();
+    if !to.with_untracked(|old| Arc::ptr_eq(old, &newest)) {
+        to.set(newest);
+    }
+}
+
+/// The state of the laboratory. A handle: copying it copies nothing.
+#[derive(Clone, Copy)]
+pub struct Lab {
+    /// The document that all of it follows from.
+    pub scenario: RwSignal<Scenario>,
+    /// The results for the charts, new in every frame.
+    pub charts: Results,
+    /// The same for words, numbers and the drawing, once the charts are on the screen.
+    pub words: Results,
     /// The unit in which levels are shown.
     pub unit: Signal<DisplayUnit>,
     /// The language of the texts.
@@ -55,10 +106,21 @@ pub struct Lab {
     pub notice: RwSignal<Option<Notice>>,
     /// How the page was started.
     pub flags: StoredValue<StartFlags>,
-    computed_pinned: StoredValue<Vec<Setup>>,
-    stopwatch: StoredValue<Stopwatch>,
-    after_frame: StoredValue<Option<Timeout>, LocalStorage>,
+    backstage: StoredValue<Backstage, LocalStorage>,
 }
+
+/// What no view shows.
+#[derive(Default)]
+struct Backstage {
+    stopwatch: Stopwatch,
+    /// What comes after the frame. Kept, not forgotten: a forgotten timer is never freed.
+    next: Option<Timeout>,
+    /// The setups of the pinned runs that are computed.
+    pinned: Vec<Setup>,
+}
+
+/// Words that have to wait come when nothing has changed for so long (ms).
+const PAUSE_MS: u32 = 40;
 
 /// The laboratory of this page.
 pub fn use_lab() -> Lab {
@@ -68,23 +130,19 @@ pub fn use_lab() -> Lab {
 impl Lab {
     /// A laboratory that shows `scenario`, computed at once.
     pub fn new(scenario: Scenario, language: Language, dark: bool, flags: StartFlags) -> Self {
-        let (analysis, run) = (scenario::analyse(&scenario.setup), scenario::run(&scenario.setup));
-        let (computed, pinned) = (scenario.setup.clone(), scenario.pinned.clone());
+        let charts = Results::of(&scenario);
+        let pinned = scenario.pinned.clone();
         let scenario = RwSignal::new(scenario);
         let lab = Self {
-            analysis: RwSignal::new(Arc::new(analysis)),
-            run: RwSignal::new(Arc::new(run)),
-            pinned: RwSignal::new(run_all(&pinned)),
-            computed: RwSignal::new(Arc::new(computed)),
-            computed_pinned: StoredValue::new(pinned),
+            charts,
+            words: charts.shared(),
             unit: Memo::new(move |_| scenario.with(|s| s.setup.display_unit())).into(),
             scenario,
             language: RwSignal::new(language),
             dark: RwSignal::new(dark),
             notice: RwSignal::new(None),
             flags: StoredValue::new(flags),
-            stopwatch: StoredValue::new(Stopwatch::default()),
-            after_frame: StoredValue::new_local(None),
+            backstage: StoredValue::new_local(Backstage { pinned, ..Backstage::default() }),
         };
         Effect::new(move || {
             lab.scenario.track();
@@ -143,7 +201,7 @@ impl Lab {
     }
 
     fn request_frame(self) {
-        if self.stopwatch.try_update_value(Stopwatch::begin) == Some(true) {
+        if self.backstage.try_update_value(|b| b.stopwatch.begin()) == Some(true) {
             request_animation_frame(move || self.frame());
         }
     }
@@ -151,32 +209,60 @@ impl Lab {
     /// One frame: compute what changed since the last one, hand it to the panels, and note how long it took.
     fn frame(self) {
         let Some(after) = self.scenario.try_get_untracked() else { return };
-        let before = self.computed.get_untracked();
-        self.stopwatch.update_value(Stopwatch::start_computing);
+        let before = self.charts.setup.get_untracked();
+        self.backstage.update_value(|b| b.stopwatch.start_computing());
         let theory = (!same_theory(&before, &after.setup)).then(|| Arc::new(scenario::analyse(&after.setup)));
-        let run = (*before != after.setup).then(|| Arc::new(scenario::run(&after.setup)));
-        let pinned = self.computed_pinned.with_value(|p| *p != after.pinned).then(|| run_all(&after.pinned));
-        self.stopwatch.update_value(Stopwatch::stop_computing);
+        let run = (*before != after.setup).then(|| {
+            // A run may take megabytes: the last one goes before the next is made. Words may still hold the one they tell.
+            self.charts.run.update_untracked(|last| *last = self.words.run.get_untracked());
+            Arc::new(scenario::run(&after.setup))
+        });
+        let pinned = self.backstage.with_value(|b| b.pinned != after.pinned).then(|| run_all(&after.pinned));
+        self.backstage.update_value(|b| b.stopwatch.stop_computing());
         if run.is_some() {
-            self.computed.set(Arc::new(after.setup));
+            self.charts.setup.set(Arc::new(after.setup));
         }
         if let Some(theory) = theory {
-            self.analysis.set(theory);
+            self.charts.analysis.set(theory);
         }
         if let Some(run) = run {
-            self.run.set(run);
+            self.charts.run.set(run);
         }
         if let Some(pinned) = pinned {
-            self.computed_pinned.set_value(after.pinned);
-            self.pinned.set(pinned);
+            self.backstage.update_value(|b| b.pinned = after.pinned);
+            self.charts.pinned.set(pinned);
         }
-        let stopwatch = self.stopwatch;
-        // A task after this frame: by then the panels have repainted.
-        let after = Timeout::new(0, move || {
-            stopwatch.try_update_value(Stopwatch::end);
+        // A task after this frame: by then the charts are painted.
+        self.after(0, Self::painted);
+    }
+
+    /// The charts are on the screen: the words follow, at once if it is time for them.
+    fn painted(self) {
+        let told_now = self.backstage.try_update_value(|b| {
+            b.stopwatch.end();
+            b.stopwatch.are_words_due()
         });
-        // Kept, not forgotten: a forgotten timer is never freed.
-        self.after_frame.set_value(Some(after));
+        match told_now {
+            Some(true) => self.tell(),
+            // The next frame replaces this timer and decides anew.
+            Some(false) => self.after(PAUSE_MS, Self::tell),
+            None => {}
+        }
+    }
+
+    fn after(self, delay_ms: u32, next: fn(Self)) {
+        let timer = Timeout::new(delay_ms, move || next(self));
+        self.backstage.try_update_value(|b| b.next = Some(timer));
+    }
+
+    fn tell(self) {
+        self.backstage.try_update_value(|b| b.stopwatch.tell());
+        self.words.follow(self.charts);
+        self.after(0, Self::told);
+    }
+
+    fn told(self) {
+        self.backstage.try_update_value(|b| b.stopwatch.told());
     }
 }
 

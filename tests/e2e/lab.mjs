@@ -36,9 +36,14 @@ export class Lab {
     await this.settle(page);
   }
 
-  /** Waits until what was asked for is computed and painted. */
+  /** Waits until what was asked for is computed and painted, and the words have followed. */
   async settle(page = this.page) {
-    await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 0)))));
+    await page.evaluate(async () => {
+      const task = () => new Promise((done) => setTimeout(done, 0));
+      await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+      do await task();
+      while (performance.getEntriesByName('quadtank:untold').length > 0);
+    });
   }
 
   id(name) {

@@ -55,14 +55,14 @@ fn rows(lab: Lab) -> Vec<Row> {
     let class = |k: usize| ["loop1", "loop2"][k];
     let mut rows = Vec::new();
     let is_response = with_analysis(lab, |a| a.closed_loop.stability) != Some(Stability::Unstable);
-    lab.run.with(|outcome| {
+    lab.words.run.with(|outcome| {
         let Ok(run) = outcome.as_ref() else { return };
         for (k, &metrics) in run.metrics.iter().enumerate() {
             let name = tr!(lab, responses.row, number = k + 1).to_string();
             rows.push(Row { name, class: class(k), metrics, is_response });
         }
     });
-    lab.pinned.with(|runs| {
+    lab.words.pinned.with(|runs| {
         for (at, outcome) in runs.iter().enumerate() {
             let Ok(run) = outcome.as_ref() else { continue };
             for (k, &metrics) in run.metrics.iter().enumerate() {

@@ -12,8 +12,6 @@ use crate::scenario::{Analysis, Run, ValveMap};
 
 use leptos::prelude::*;
 
-use super::sentences::with_analysis;
-
 /// The setting whose zero is shaded half way to the full colour.
 const TYPICAL_SETTING: [f64; 2] = [0.3, 0.3];
 /// Points on the paths of the zeros.
@@ -47,11 +45,11 @@ pub fn valve_plane(lab: Lab) -> Picture {
 
 /// Poles and zeros.
 pub fn pole_zero(lab: Lab) -> Picture {
-    let csv = move || with_analysis(lab, Analysis::roots_to_csv).unwrap_or_default();
+    let csv = move || lab.charts.with_analysis(Analysis::roots_to_csv).unwrap_or_default();
     let build = move |visit: &mut dyn FnMut(&[Chart])| {
-        let map = lab.computed.with_untracked(|setup| ValveMap::of(setup));
+        let map = lab.charts.setup.with_untracked(|setup| ValveMap::of(setup));
         let zero_paths = map.map(|m| m.zero_paths(PATH_POINTS)).unwrap_or_default();
-        with_analysis(lab, |a| {
+        lab.charts.with_analysis(|a| {
             let zeros: Vec<Complex> = a.zeros.iter().flatten().map(|z| z.value).collect();
             visit(&[figure::pole_zero(&PoleZero {
                 poles: &a.poles,
@@ -76,9 +74,9 @@ pub fn pole_zero(lab: Lab) -> Picture {
 pub fn responses(lab: Lab) -> Picture {
     let window = Memo::new(move |_| lab.scenario.with(|s| s.view.zoom_s));
     let hide_linear = Memo::new(move |_| lab.scenario.with(|s| s.view.hide_linear));
-    let csv = move || lab.run.with(|run| run.as_ref().as_ref().map(Run::to_csv).unwrap_or_default());
+    let csv = move || lab.charts.run.with(|run| run.as_ref().as_ref().map(Run::to_csv).unwrap_or_default());
     let build = move |visit: &mut dyn FnMut(&[Chart])| {
-        let (run, pinned): (Outcome<Run>, _) = (lab.run.get(), lab.pinned.get());
+        let (run, pinned): (Outcome<Run>, _) = (lab.charts.run.get(), lab.charts.pinned.get());
         let Ok(run) = run.as_ref() else { return };
         let unit = lab.unit.get();
         let level = tr!(lab, responses.level_axis, unit = unit_name(unit)).to_string();
@@ -86,7 +84,7 @@ pub fn responses(lab: Lab) -> Picture {
         let levels = number(&|k| tr!(lab, responses.level, number = k).to_string());
         let pumps = number(&|k| tr!(lab, responses.pump, number = k).to_string());
         let references = [1, 2].map(|k| format!("{} {k}", tr!(lab, responses.reference)));
-        let plant = lab.computed.with_untracked(|setup| setup.plant());
+        let plant = lab.charts.setup.with_untracked(|setup| setup.plant());
         let [pump_1, pump_2] = plant.pumps;
         let pinned =
             pinned.iter().filter_map(|p| p.as_ref().as_ref().ok()).map(|r| RunColumns::of(&r.nonlinear)).collect();

@@ -80,7 +80,8 @@ fn ValveSlider(valve: usize) -> impl IntoView {
 #[component]
 fn VoltageField(pump: usize) -> impl IntoView {
     let lab = use_lab();
-    let voltages = move || lab.analysis.with(|a| a.as_ref().as_ref().ok().map(|a| a.operating_point.pump_voltage));
+    let voltages =
+        move || lab.words.analysis.with(|a| a.as_ref().as_ref().ok().map(|a| a.operating_point.pump_voltage));
     let value = Signal::derive(move || voltages().map_or(0.0, |v| v[pump]));
     let on_change = move |v: f64| {
         let mut both = untrack(voltages).unwrap_or_default();

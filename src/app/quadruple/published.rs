@@ -35,7 +35,7 @@ pub fn PublishedFigures() -> impl IntoView {
     };
     let note = move || {
         preset().filter(|p| p.printed.is_some()).map(|p| {
-            let at_home = lab.computed.with(|s| **s == crate::scenario::setup_of(p.id));
+            let at_home = lab.words.setup.with(|s| **s == crate::scenario::setup_of(p.id));
             let lead = tr!(lab, process.charts_use, source = p.source, table = p.table).to_string();
             let rest = if at_home { String::new() } else { format!(" {}", tr!(lab, process.printed_for)) };
             lead + &rest

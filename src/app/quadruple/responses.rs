@@ -59,7 +59,7 @@ pub fn ResponsesCard() -> impl IntoView {
 #[component]
 fn Toolbar() -> impl IntoView {
     let lab = use_lab();
-    let pinned = lab.pinned;
+    let pinned = lab.words.pinned;
     let count = move || pinned.with(|p| p.len());
     let pin = move |_| {
         lab.scenario.update(|s| {
@@ -291,7 +291,7 @@ fn readout_text(lab: Lab) -> Option<String> {
 
 /// What the run says, in words: how each stepped level did, then what went wrong first.
 fn sentence(lab: Lab) -> String {
-    lab.run.with(|outcome| {
+    lab.words.run.with(|outcome| {
         let Ok(run) = outcome.as_ref() else { return tr!(lab, responses.none).to_string() };
         let mut parts: Vec<String> =
             run.metrics.iter().enumerate().filter_map(|(k, m)| of_metrics(lab, k, m)).collect();

@@ -80,7 +80,7 @@ fn Formula() -> impl IntoView {
     let number = move |v: f64| lab.number_style().fixed(v, 2);
     let value = move || with_analysis(lab, |a| a.rga_11.ok()).flatten().map_or_else(|| "∞".to_owned(), number);
     let formula = move || {
-        let [g1, g2] = lab.computed.with(|s| s.valves);
+        let [g1, g2] = lab.words.setup.with(|s| s.valves);
         let (first, second, below, value) = (number(g1), number(g2), number(g1 + g2 - 1.0), value());
         let gamma = |k: u8| format!("<msub><mi>γ</mi><mn>{k}</mn></msub>");
         let (one, two) = (gamma(1), gamma(2));

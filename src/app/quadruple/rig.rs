@@ -56,7 +56,7 @@ pub fn Rig() -> impl IntoView {
             <g aria-hidden="true">
                 <Pipes />
                 {(0..4).map(|tank| view! { <TankView tank /> }).collect_view()}
-                {move || moment.get().map(|m| streams(&lab.computed.with(|s| s.plant()), &m))}
+                {move || moment.get().map(|m| streams(&lab.words.setup.with(|s| s.plant()), &m))}
                 <rect class="basin" x="24" y="262" width="228" height="30" rx="3" />
                 {(0..2).map(|pump| view! { <PumpView pump /> }).collect_view()}
             </g>

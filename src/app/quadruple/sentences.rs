@@ -50,21 +50,21 @@ impl ZeroSituation {
     }
 }
 
-/// The analysis in force, if there is one.
+/// What `read` makes of the analysis in force, if there is one.
 pub fn with_analysis<T>(lab: Lab, read: impl FnOnce(&Analysis) -> T) -> Option<T> {
-    lab.analysis.with(|outcome| outcome.as_ref().as_ref().ok().map(read))
+    lab.words.with_analysis(read)
 }
 
 /// The situation of the plant in force.
 pub fn situation(lab: Lab) -> Option<ZeroSituation> {
-    let valves = lab.computed.with(|s| s.valves);
+    let valves = lab.words.setup.with(|s| s.valves);
     with_analysis(lab, |a| ZeroSituation::of(a, valves))
 }
 
 /// The sentence under the drawing, and whether it is a warning.
 pub fn of_zero(lab: Lab) -> (String, bool) {
     let style = lab.number_style();
-    let valves = lab.computed.with(|s| s.valves);
+    let valves = lab.words.setup.with(|s| s.valves);
     let sum = style.fixed(valves[0] + valves[1], 2);
     let Some(situation) = situation(lab) else {
         return (tr!(lab, process.no_equilibrium).to_string(), true);
@@ -88,7 +88,7 @@ pub fn of_zero(lab: Lab) -> (String, bool) {
 
 /// What walls and pumps do not allow at the operating point.
 pub fn of_equilibrium(lab: Lab) -> Vec<String> {
-    lab.analysis.with(|outcome| match outcome.as_ref() {
+    lab.words.analysis.with(|outcome| match outcome.as_ref() {
         Ok(analysis) => analysis.out_of_range.iter().map(|e| of_plant_error(lab, e)).collect(),
         Err(ScenarioError::Plant(PlantError::SingularPlant { .. })) => Vec::new(),
         Err(ScenarioError::Plant(error)) => vec![of_plant_error(lab, error)],

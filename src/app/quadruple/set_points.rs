@@ -3,7 +3,6 @@
 use leptos::prelude::*;
 
 use super::experiment::{edit_step, step_size, step_time};
-use super::sentences::with_analysis;
 use crate::app::lab::use_lab;
 use crate::app::shown::{length_digits, per_metre, to_metres, to_shown, unit_name};
 use crate::app::start::Control;
@@ -28,8 +27,8 @@ fn SetPoint(level: usize, frames: RwSignal<Vec<Frame>>) -> impl IntoView {
     let (size, time_s) = (step_size(lab, level), step_time(lab, level));
     let frame = move || frames.with(|f| f.first().copied());
     let reference = move || {
-        let rest = with_analysis(lab, |a| a.operating_point.levels[level])?;
-        Some(lab.computed.with(|s| s.experiment.reference_after(level, rest, time_s.get())))
+        let rest = lab.charts.with_analysis(|a| a.operating_point.levels[level])?;
+        Some(lab.charts.setup.with(|s| s.experiment.reference_after(level, rest, time_s.get())))
     };
     let place = move || {
         let (frame, reference) = (frame()?, reference()?);

@@ -29,7 +29,7 @@ pub fn ValvePlaneCard() -> impl IntoView {
     let picture = pictures::valve_plane(lab);
     let title = say!(lab, valves.title);
     let summary = move || {
-        let [g1, g2] = lab.computed.with(|s| s.valves);
+        let [g1, g2] = lab.words.setup.with(|s| s.valves);
         let style = lab.number_style();
         tr!(lab, valves.summary, gamma1 = style.fixed(g1, 2), gamma2 = style.fixed(g2, 2)).to_string()
     };

@@ -23,7 +23,7 @@ pub fn WhyCard() -> impl IntoView {
         if !matches!(situation(lab), Some(ZeroSituation::Right(_))) {
             return None;
         }
-        lab.computed.with(|s| with_analysis(lab, |a| a.interpolation_integral(&s.experiment))).flatten()
+        lab.words.setup.with(|s| with_analysis(lab, |a| a.interpolation_integral(&s.experiment))).flatten()
     };
     view! {
         <section class="card why" aria-labelledby="why-title">
