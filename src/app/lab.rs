@@ -115,6 +115,8 @@ struct Backstage {
     stopwatch: Stopwatch,
     /// What comes after the frame. Kept, not forgotten: a forgotten timer is never freed.
     next: Option<Timeout>,
+    /// What comes after the words.
+    told: Option<Timeout>,
     /// The setups of the pinned runs that are computed.
     pinned: Vec<Setup>,
 }
@@ -258,10 +260,15 @@ impl Lab {
     fn tell(self) {
         self.backstage.try_update_value(|b| b.stopwatch.tell());
         self.words.follow(self.charts);
-        self.after(0, Self::told);
+        let told = Timeout::new(0, move || self.told());
+        self.backstage.try_update_value(|b| b.told = Some(told));
     }
 
     fn told(self) {
+        // Asking for a height lays the new words out now, not within the next frame of the charts.
+        if let Some(page) = document().body() {
+            page.offset_height();
+        }
         self.backstage.try_update_value(|b| b.stopwatch.told());
     }
 }

@@ -8,10 +8,10 @@ use leptos::prelude::window;
 /// The change that is under way. Times live in the marks of the browser; this only knows which mark is whose.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Stopwatch {
-    /// Whether a change has come in that no frame has taken up yet.
-    waiting: bool,
-    /// A change that comes in while a frame is being painted gets the other mark.
-    frame: bool,
+    /// What waits for its frame.
+    frame: Turn,
+    /// What waits for its words.
+    words: Turn,
     /// When the change came in that is being painted, and how long that took (ms).
     begun_ms: f64,
     frame_ms: f64,
@@ -20,9 +20,34 @@ pub struct Stopwatch {
     entries: u32,
 }
 
+/// Changes wait together to be taken up; one that comes in while others are worked on gets the other of two marks.
+#[derive(Clone, Copy, Debug, Default)]
+struct Turn {
+    waiting: bool,
+    taken: usize,
+}
+
+impl Turn {
+    /// A change waits from now on; true if it is the first to do so.
+    fn wait(&mut self, marks: [&str; 2]) -> bool {
+        let first = !self.waiting;
+        if first {
+            self.waiting = true;
+            mark(marks[1 - self.taken]);
+        }
+        first
+    }
+
+    /// What waits is taken up.
+    fn take(&mut self) {
+        self.waiting = false;
+        self.taken = 1 - self.taken;
+    }
+}
+
 const EVENT_MARKS: [&str; 2] = ["quadtank:event-a", "quadtank:event-b"];
 const COMPUTE_MARK: &str = "quadtank:computing";
-const WORDS_MARK: &str = "quadtank:untold";
+const WORDS_MARKS: [&str; 2] = ["quadtank:untold-a", "quadtank:untold-b"];
 
 /// A frame of a screen of 60 Hz (ms).
 const IN_TIME_MS: f64 = 1000.0 / 60.0;
@@ -36,20 +61,17 @@ const KEPT: u32 = 4000;
 impl Stopwatch {
     /// A change came in; true when a frame has to be asked for.
     pub fn begin(&mut self) -> bool {
-        let first = !self.waiting;
+        let first = self.frame.wait(EVENT_MARKS);
         if first {
-            self.waiting = true;
-            mark(EVENT_MARKS[usize::from(!self.frame)]);
             self.begun_ms = now_ms();
-            mark(WORDS_MARK);
+            self.words.wait(WORDS_MARKS);
         }
         first
     }
 
     /// A frame takes up what came in, and computes.
     pub fn start_computing(&mut self) {
-        self.waiting = false;
-        self.frame = !self.frame;
+        self.frame.take();
         mark(COMPUTE_MARK);
     }
 
@@ -60,7 +82,7 @@ impl Stopwatch {
 
     /// The charts are painted.
     pub fn end(&mut self) {
-        self.measure("quadtank:paint", EVENT_MARKS[usize::from(self.frame)]);
+        self.measure("quadtank:paint", EVENT_MARKS[self.frame.taken]);
         self.frame_ms = now_ms() - self.begun_ms;
     }
 
@@ -73,11 +95,12 @@ impl Stopwatch {
     /// The words are about to follow.
     pub fn tell(&mut self) {
         self.told_ms = now_ms();
+        self.words.take();
     }
 
     /// The words are on the page.
     pub fn told(&mut self) {
-        self.measure("quadtank:words", WORDS_MARK);
+        self.measure("quadtank:words", WORDS_MARKS[self.words.taken]);
     }
 
     /// The time since a mark becomes an entry; the mark goes, so that none is counted twice.

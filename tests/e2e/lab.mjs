@@ -42,7 +42,7 @@ export class Lab {
       const task = () => new Promise((done) => setTimeout(done, 0));
       await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
       do await task();
-      while (performance.getEntriesByName('quadtank:untold').length > 0);
+      while (performance.getEntriesByType('mark').some((mark) => mark.name.startsWith('quadtank:untold')));
     });
   }
 
