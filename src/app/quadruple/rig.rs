@@ -172,14 +172,16 @@ fn ValveView(valve: usize) -> impl IntoView {
     let grabbed = StoredValue::new(0.0);
     let (x, y) = VALVES[valve];
     let (colour, anchor, at) = if valve == 0 { ("one", "end", 33.0) } else { ("two", "start", 243.0) };
-    let number = Signal::derive(move || lab.number_style().fixed(gamma.get(), 2));
+    let number = move |gamma: f64| lab.number_style().fixed(gamma, 2);
+    // A text in a drawing is dear to lay out: it comes with the words.
+    let shown = move || number(lab.words.setup.with(|s| s.valves[valve]));
     view! {
         <Handle
             id=VALVE_IDS[valve]
             label=say!(lab, process.valve, pump = valve + 1)
             value=gamma
             limits=(0.0, 1.0)
-            spoken=number
+            spoken=Signal::derive(move || number(gamma.get()))
             locked=lab.locks(Control::Valves)
             on_grab=move |()| grabbed.set_value(gamma.get_untracked())
             on_drag=move |drag: Drag| set(grabbed.get_value() - drag.moved.1 / VALVE_TRAVEL_PX)
@@ -189,6 +191,6 @@ fn ValveView(valve: usize) -> impl IntoView {
             <path class=colour d=format!("M{} {} H{} L{x} {y} L{} {} H{} L{x} {y} Z", x - 6.0, y - 8.0, x + 6.0, x - 6.0, y + 8.0, x + 6.0) />
         </Handle>
         <text class="value" x=at y=y - 2.0 text-anchor=anchor aria-hidden="true">{format!("γ{}", ["₁", "₂"][valve])}</text>
-        <text class="value" x=at y=y + 10.0 text-anchor=anchor aria-hidden="true">{number}</text>
+        <text class="value" x=at y=y + 10.0 text-anchor=anchor aria-hidden="true">{shown}</text>
     }
 }
