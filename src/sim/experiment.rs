@@ -80,6 +80,11 @@ impl Experiment {
         before.map(|s| s.size).fold(rest, |sum, size| sum + size)
     }
 
+    /// Whether anything but the references acts on the loops.
+    pub fn is_disturbed(&self) -> bool {
+        !self.load_steps.is_empty() || self.measurement.noise_std > 0.0 || self.measurement.quantised
+    }
+
     /// The reference step (m) that comes first, in all levels that step at that time; `None` when no reference moves.
     pub fn first_reference_step(&self) -> Option<[f64; 2]> {
         let moving = || self.set_point_steps.iter().filter(|s| s.size != 0.0);
@@ -91,5 +96,49 @@ impl Experiment {
             }
         }
         Some(step)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn with_steps(steps: &[(usize, f64, f64)]) -> Experiment {
+        Experiment {
+            duration_s: 100.0,
+            set_point_steps: steps.iter().map(|&(level, time_s, size)| SetPointStep { level, time_s, size }).collect(),
+            load_steps: vec![],
+            measurement: Measurement { noise_std: 0.0, seed: 1, quantised: false },
+        }
+    }
+
+    #[test]
+    fn a_reference_rests_and_then_adds_up_its_own_steps() {
+        let experiment = with_steps(&[(0, 10.0, 0.25), (1, 20.0, 0.5), (0, 30.0, -0.125)]);
+        let reference = |time_s| experiment.reference_after(0, 2.0, time_s);
+        assert_eq!([0.0, 10.0, 25.0, 30.0, 90.0].map(reference), [2.0, 2.25, 2.25, 2.125, 2.125]);
+        assert_eq!(experiment.reference_after(1, 3.0, 90.0), 3.5);
+    }
+
+    #[test]
+    fn loads_noise_and_the_grid_of_the_sensor_disturb() {
+        let calm = with_steps(&[(0, 10.0, 0.25)]);
+        assert!(!calm.is_disturbed());
+        let with = |change: fn(&mut Experiment)| {
+            let mut experiment = calm.clone();
+            change(&mut experiment);
+            experiment.is_disturbed()
+        };
+        assert!(with(|e| e.load_steps.push(LoadStep { time_s: 5.0, load: Load::PumpFlow { pump: 0, flow: 1e-6 } })));
+        assert!(with(|e| e.measurement.noise_std = 1e-4));
+        assert!(with(|e| e.measurement.quantised = true));
+    }
+
+    #[test]
+    fn the_first_step_is_of_all_levels_that_move_at_that_time() {
+        let experiment =
+            with_steps(&[(0, 30.0, 1.0), (1, 5.0, 0.0), (1, 10.0, 0.5), (0, 10.0, -0.25), (0, 10.0, 0.125)]);
+        assert_eq!(experiment.first_reference_step(), Some([-0.125, 0.5]));
+        assert_eq!(with_steps(&[(0, 10.0, 0.0)]).first_reference_step(), None);
     }
 }

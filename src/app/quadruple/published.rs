@@ -27,14 +27,17 @@ pub fn PublishedFigures() -> impl IntoView {
                     <tr>
                         <td>{name}</td>
                         <td data-exact=key.clone()>{exact}</td>
-                        <td data-printed=key>{printed}</td>
+                        <td data-printed=key>{printed.unwrap_or_else(|| "–".to_owned())}</td>
                     </tr>
                 }
             })
             .collect_view()
     };
     let note = move || {
-        preset().filter(|p| p.printed.is_some()).map(|p| {
+        preset().map(|p| {
+            if p.printed.is_none() {
+                return tr!(lab, process.none_printed, source = p.source).to_string();
+            }
             let at_home = lab.words.setup.with(|s| **s == crate::scenario::setup_of(p.id));
             let lead = tr!(lab, process.charts_use, source = p.source, table = p.table).to_string();
             let rest = if at_home { String::new() } else { format!(" {}", tr!(lab, process.printed_for)) };

@@ -300,6 +300,8 @@ fn sentence(lab: Lab) -> String {
             parts = vec![tr!(lab, responses.unstable).to_string()];
         } else if parts.is_empty() {
             parts.push(tr!(lab, responses.sentence_still).to_string());
+        } else if lab.words.setup.with(|s| s.experiment.is_disturbed()) {
+            parts.push(tr!(lab, responses.disturbed).to_string());
         }
         parts.extend(run.nonlinear.events.iter().take(2).map(|event| {
             let time = lab.number_style().fixed(event.time_s, 0);

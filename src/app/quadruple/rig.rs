@@ -111,13 +111,18 @@ fn TankView(tank: usize) -> impl IntoView {
             None
         }
     };
-    let colour = if tank == 0 || tank == 3 { "water1" } else { "water2" };
     let middle = left + TANK.0 / 2.0;
+    // Where the tank is narrow below, its number stands higher.
+    let number_at = move || {
+        let above_bottom = 8.0 + 1.3 * lean.get();
+        (middle - lean.get() / 2.0 * (1.0 - above_bottom / TANK.1), top + TANK.1 - above_bottom)
+    };
+    let colour = if tank == 0 || tank == 3 { "water1" } else { "water2" };
     view! {
         <path class=colour d=water stroke-width="0" />
         <path class="wall" d=walls />
         <text class="name" x=middle y=top + 12.0 text-anchor="middle">{say!(lab, process.tank, number = tank + 1)}</text>
-        <text class="value" x=move || middle - lean.get() / 2.0 y=top + TANK.1 - 8.0 text-anchor="middle" data-testid=format!("rig-level-{}", tank + 1)>
+        <text class="value" x=move || number_at().0 y=move || number_at().1 text-anchor="middle" data-testid=format!("rig-level-{}", tank + 1)>
             {shown}
         </text>
         <text class="alarm" x=middle y=top + 26.0 text-anchor="middle">{alarm}</text>
