@@ -86,6 +86,15 @@ mod tests {
     }
 
     #[test]
+    fn the_product_that_is_written_out_is_the_product() {
+        let m = Matrix4::from_fn(|row, column| {
+            2.0_f64.powi(4 * i32::try_from(row).unwrap() + i32::try_from(column).unwrap())
+        });
+        let x = nalgebra::vector![1.0, 3.0, 5.0, 7.0];
+        assert_eq!(product(&m, &x), m * x);
+    }
+
+    #[test]
     fn a_tank_that_is_a_million_times_faster_stays_finite() {
         let a = Matrix4::from_diagonal(&nalgebra::vector![-1e-2, -1e6, -1e-2, -1e12]);
         let hold = Hold::new(&a, 1.0);

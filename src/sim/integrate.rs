@@ -254,8 +254,7 @@ mod tests {
 
     const LOADS: Disturbance = Disturbance { pump_flow: [1e-6, -1e-6], leak_area: [1e-6, 0.0, 2e-6, 1e-7] };
 
-    #[test]
-    fn a_short_step_follows_the_equations_of_the_plant() {
+    fn follows_the_equations(take: fn(&mut Hydraulics, f64)) {
         for id in PresetId::ALL {
             let preset = id.preset();
             let levels = [0.1, 0.12, 0.03, 0.05];
@@ -263,7 +262,7 @@ mod tests {
             let mut water = Hydraulics::new(&preset.plant, &levels);
             water.set_inputs(&preset.plant, &voltage, &LOADS);
             let short = 1e-4;
-            water.advance(0.0, short, &mut Nobody);
+            take(&mut water, short);
             let expected = preset.plant.derivative(&levels, &voltage, &LOADS);
             for i in 0..4 {
                 let slope = (water.levels()[i] - levels[i]) / short;
@@ -274,6 +273,26 @@ mod tests {
                 );
             }
         }
+    }
+
+    #[test]
+    fn a_short_step_of_either_method_follows_the_equations_of_the_plant() {
+        follows_the_equations(|water, duration| water.advance(0.0, duration, &mut Nobody));
+        follows_the_equations(|water, duration| water.step(0.0, duration, &mut Nobody));
+        follows_the_equations(|water, duration| water.explicit_step(0.0, duration, &mut Nobody));
+    }
+
+    #[test]
+    fn a_tank_that_is_wide_below_takes_its_time_to_run_dry() {
+        let mut plant = PresetId::JohanssonMinimumPhase.preset().plant;
+        plant.tanks[2].section = CrossSection { area_at_empty: 0.01, area_slope: -0.04 };
+        let mut water = Hydraulics::new(&plant, &[0.0, 0.0, 0.1, 0.0]);
+        // Torricelli: 2 A √h + ⅔ A′ h√h, over the drain. With the area at the surface alone it would be 0.0038.
+        let takes = (2.0 * 0.01 * 0.1_f64.sqrt() - 2.0 / 3.0 * 0.04 * 0.1_f64.powf(1.5)) / water.outlet[2];
+        water.step(0.0, 0.8 * takes, &mut Nobody);
+        assert!(water.levels()[2] > 1e-4);
+        water.step(0.0, 0.4 * takes, &mut Nobody);
+        assert!(water.levels()[2] < 1e-4);
     }
 
     /// Worst error of the lower levels (m) against steps 64 times as short, when the pumps move every sample.

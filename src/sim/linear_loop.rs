@@ -19,7 +19,7 @@ struct LinearModel<'a> {
     op: &'a OperatingPoint,
     jacobian: &'a Jacobian,
     deviation: Vector4<f64>,
-    /// What a leak takes at the level of the operating point, for its area (1/(m s)); a dry tank has nothing to lose.
+    /// What a leak takes at the level of the operating point, for its area (1/(m s)): nothing from a dry tank.
     leak_rate: [f64; 4],
     /// `B u` plus the loads (m/s).
     forcing: Vector4<f64>,
@@ -33,8 +33,7 @@ impl<'a> LinearModel<'a> {
     fn new(plant: &'a QuadrupleTank, op: &'a OperatingPoint, jacobian: &'a Jacobian, duration: f64) -> Self {
         let leak_rate = std::array::from_fn(|tank| {
             let level = op.levels[tank];
-            let speed = (2.0 * plant.gravity * level).sqrt();
-            if jacobian.dry[tank] { 0.0 } else { speed / plant.tanks[tank].section.area(level) }
+            (2.0 * plant.gravity * level).sqrt() / plant.tanks[tank].section.area(level)
         });
         Self {
             plant,
@@ -103,4 +102,55 @@ pub fn simulate_linear(
     let mut trajectory = course::run(model, plant, op, controller, experiment);
     trajectory.events.clear();
     trajectory
+}
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+    use crate::control::{AntiWindup, LoopMode, Pairing, PiSettings};
+    use crate::plant::PresetId;
+    use crate::sim::{Load, LoadStep, Measurement, simulate};
+
+    /// Levels (m) that a load moves in the end, with both pumps by hand: nonlinear and linear.
+    fn moved_by(load: Load) -> [[f64; 4]; 2] {
+        let preset = PresetId::JohanssonMinimumPhase.preset();
+        let op = preset.plant.free_equilibrium(preset.pump_voltage);
+        let by_hand = |pump: usize| PiSettings {
+            gain: 1.0,
+            integral_time_s: 30.0,
+            set_point_weight: 1.0,
+            anti_windup: AntiWindup::Off,
+            mode: LoopMode::Manual { output: op.pump_voltage[pump], until_s: f64::INFINITY },
+        };
+        let controller =
+            DecentralisedPi { pairing: Pairing::Diagonal, loops: [by_hand(0), by_hand(1)], sampling_time_s: 1.0 };
+        let experiment = Experiment {
+            duration_s: 2000.0,
+            set_point_steps: vec![],
+            load_steps: vec![LoadStep { time_s: 10.0, load }],
+            measurement: Measurement { noise_std: 0.0, seed: 1, quantised: false },
+        };
+        let jacobian = preset.plant.linearise(&op);
+        let runs = [
+            simulate(&preset.plant, &op, &controller, &experiment),
+            simulate_linear(&preset.plant, &op, &jacobian, &controller, &experiment),
+        ];
+        runs.map(|run| std::array::from_fn(|i| run.levels[i].last().copied().unwrap_or(f64::NAN) - op.levels[i]))
+    }
+
+    #[test]
+    fn a_small_load_moves_the_linear_model_as_it_moves_the_plant() {
+        let leaks = (0..4).map(|tank| Load::Leak { tank, area: 1e-9 });
+        let flows = (0..2).map(|pump| Load::PumpFlow { pump, flow: 1e-9 });
+        for load in leaks.chain(flows) {
+            let [nonlinear, linear] = moved_by(load);
+            assert!(nonlinear.iter().any(|x| x.abs() > 1e-6), "{load:?} {nonlinear:?}");
+            for i in 0..4 {
+                // The load is small: what is left is the square of a share of 1e-4.
+                assert_relative_eq!(nonlinear[i], linear[i], max_relative = 1e-3, epsilon = 1e-10);
+            }
+        }
+    }
 }
