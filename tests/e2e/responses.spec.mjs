@@ -81,6 +81,23 @@ test('a set-point is dragged in the picture: up and down for its size, sideways 
   await expect(lab.id('set-point1')).toHaveAttribute('aria-valuetext', `${(size - 0.01).toFixed(2)} cm at ${time + 10} s`);
 });
 
+test('a dragged set-point stays under the pointer, and the axis follows when it is let go', async ({ lab, page }) => {
+  await lab.open();
+  // Down to almost nothing: without a held axis the response alone would fill the picture.
+  const from = await lab.middle('set-point2');
+  await page.mouse.move(from.x, from.y);
+  await page.mouse.down();
+  for (const moved of [10, 25, 40]) {
+    await page.mouse.move(from.x, from.y + moved);
+    await lab.settle();
+    expect(Math.abs((await lab.middle('set-point2')).y - from.y - moved)).toBeLessThan(2);
+  }
+  const held = await lab.picture('responses');
+  await page.mouse.up();
+  await lab.settle();
+  expect((await lab.picture('responses')).hash).not.toBe(held.hash);
+});
+
 test('without a cursor the zoom keeps the first step in sight', async ({ lab }) => {
   await lab.open();
   for (let k = 0; k < 3; k += 1) await lab.id('zoom-in').click();

@@ -31,7 +31,8 @@ const TABLE_ROWS: usize = 25;
 pub fn ResponsesCard() -> impl IntoView {
     let lab = use_lab();
     let frames = RwSignal::new(Vec::<Frame>::new());
-    let picture = pictures::responses(lab);
+    let held = RwSignal::new(None);
+    let picture = pictures::responses(lab, held);
     let table_picture = picture.clone();
     let title = say!(lab, responses.title);
     let summary = say!(lab, responses.summary, sentence = sentence(lab).replace("**", ""));
@@ -46,7 +47,7 @@ pub fn ResponsesCard() -> impl IntoView {
                 <div class="chart">
                     <ChartCanvas picture frames summary name="responses" />
                     <Surface frames />
-                    <SetPoints frames />
+                    <SetPoints frames held />
                 </div>
             </div>
             <p class="sentence" role="status" data-testid="responses-sentence">{move || rich(&sentence(lab))}</p>

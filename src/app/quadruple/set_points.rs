@@ -17,12 +17,17 @@ const TIME_STEP_S: f64 = 10.0;
 
 /// The handles of both set-points.
 #[component]
-pub fn SetPoints(frames: RwSignal<Vec<Frame>>) -> impl IntoView {
-    view! { <svg class="over handles">{(0..2).map(|level| view! { <SetPoint level frames /> }).collect_view()}</svg> }
+pub fn SetPoints(
+    /// Where the charts stand.
+    frames: RwSignal<Vec<Frame>>,
+    /// What the level axis has to show while a set-point is dragged.
+    held: RwSignal<Option<(f64, f64)>>,
+) -> impl IntoView {
+    view! { <svg class="over handles">{(0..2).map(|level| view! { <SetPoint level frames held /> }).collect_view()}</svg> }
 }
 
 #[component]
-fn SetPoint(level: usize, frames: RwSignal<Vec<Frame>>) -> impl IntoView {
+fn SetPoint(level: usize, frames: RwSignal<Vec<Frame>>, held: RwSignal<Option<(f64, f64)>>) -> impl IntoView {
     let lab = use_lab();
     let (size, time_s) = (step_size(lab, level), step_time(lab, level));
     let frame = move || frames.with(|f| f.first().copied());
@@ -48,10 +53,12 @@ fn SetPoint(level: usize, frames: RwSignal<Vec<Frame>>) -> impl IntoView {
         let new_time_s = new_time_s.round().clamp(limits::TIME_S.min, end);
         edit_step(lab, level, move |step| (step.size, step.time_s) = (new_size, new_time_s));
     };
-    // The scale is that of the moment of grabbing: a scale that follows the drag would run away from the pointer.
+    // The scale is that of the moment of grabbing, and the axis keeps it as long as the drag stays inside: a scale that
+    // follows the drag would run away from the pointer.
     let grabbed = StoredValue::new(None::<(Frame, f64, f64)>);
     let on_grab = move |()| {
         grabbed.set_value(untrack(frame).map(|f| (f, size.get_untracked(), time_s.get_untracked())));
+        held.set(untrack(frame).map(|f| f.y));
     };
     let on_drag = move |drag: Drag| {
         let Some((frame, size, time_s)) = grabbed.get_value() else { return };
@@ -85,6 +92,7 @@ fn SetPoint(level: usize, frames: RwSignal<Vec<Frame>>) -> impl IntoView {
                 locked=lab.locks(Control::Experiment)
                 on_grab
                 on_drag
+                on_release=move |()| held.set(None)
                 on_nudge
             >
                 <circle class="halo" cx=x cy=y r="12" />
