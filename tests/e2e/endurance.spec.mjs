@@ -6,7 +6,7 @@ import { expect, test } from './lab.mjs';
 import { SITE } from './server.mjs';
 
 const EVENTS = 2000;
-const BATCH = 100; // events between two looks at the page
+const BATCH = 100;
 
 /** Small, seeded and good enough (mulberry32). */
 function random(seed) {
@@ -19,9 +19,9 @@ function random(seed) {
   };
 }
 
-/** Events that share a frame: sliders, fields, keys, drags, clicks. */
-const fireAll = (page, dice) =>
-  page.evaluate((dice) => {
+/** A batch of events inside the page: sliders, fields, keys, drags, clicks; some share a frame, some have their own. */
+const batch = (page, dice) =>
+  page.evaluate(async (dice) => {
     const KEYS = ['ArrowLeft', 'ArrowRight', 'ArrowUp', 'ArrowDown', 'PageUp', 'PageDown', 'Home', 'End', '+', '-', '0', 'Escape'];
     const TEXTS = ['0', '1', '-3', '1e9', '0.001', '', 'x', '12,5', '400', '−0.4', '0.5', '19000'];
     // What hands over files, opens dialogues or runs by the clock has tests of its own.
@@ -34,7 +34,7 @@ const fireAll = (page, dice) =>
       for (const share of [0.3, 0.7, 1]) fire(element, new PointerEvent('pointermove', at(v + share * (u - v), u)));
       fire(element, new PointerEvent('pointerup', at(u, u)));
     };
-    for (const [which, u, v] of dice) {
+    for (const [which, u, v, pause] of dice) {
       const all = [...document.querySelectorAll('input, select, button, [role=slider], [role=button], summary')].filter(
         (e) => !e.disabled && !AVOID.test(e.dataset.testid ?? ''),
       );
@@ -59,7 +59,9 @@ const fireAll = (page, dice) =>
       } else {
         fire(element, new MouseEvent('click', { bubbles: true, cancelable: true }));
       }
+      if (pause < 0.3) await new Promise(requestAnimationFrame);
     }
+    await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 0))));
   }, dice);
 
 /** The bench as it was at the start, as far as memory goes. */
@@ -82,6 +84,18 @@ const wasmBytes = (page) =>
     return memory.buffer.byteLength;
   });
 
+/** Runs the longest experiments, as many as the bench can hold at once, and forgets them. */
+async function longestRuns(lab, page) {
+  await lab.type('duration-number', '20000');
+  await lab.type('gamma1-number', '0.3');
+  for (let run = 0; run < 6; run += 1) {
+    await lab.type('noise-number', String(0.01 * (run + 1)));
+    await lab.id('pin').click();
+    await lab.settle();
+  }
+  await reset(lab, page);
+}
+
 /** Bytes of JavaScript and of the wasm, after a collection of garbage. */
 async function memory(page, client) {
   await client.send('HeapProfiler.collectGarbage');
@@ -95,31 +109,28 @@ test('2,000 random events leave no error, no NaN and a flat heap', async ({ lab,
   await lab.open();
   const client = await page.context().newCDPSession(page);
   await client.send('Performance.enable');
-  // The same thousand twice: whatever the first needs, the second needs no more.
+  // Which results are in memory at once, those on the charts and those in the words, is a matter of time. So the most
+  // that can meet comes first; then nothing needs more. What a single move leaves behind, the tests below see.
+  await longestRuns(lab, page);
+  const most = await wasmBytes(page);
+  // The same thousand twice: whatever of the page the first needs, the second needs no more.
   const half = async () => {
     const next = random(20260101);
-    for (let done = 0, together = []; done < EVENTS / 2; done += 1) {
-      together.push([next(), next(), next()]);
-      // Some share a frame, some have their own. Waiting for the words keeps chance out of what is held in memory.
-      if (next() < 0.3) {
-        await fireAll(page, together.splice(0));
-        await lab.settle();
-      }
-      if (done % BATCH === 0) {
-        await lab.clean();
-        expect(lab.complaints).toEqual([]);
-      }
+    for (let k = 0; k < EVENTS / 2; k += BATCH) {
+      await batch(page, Array.from({ length: BATCH }, () => [next(), next(), next(), next()]));
+      await lab.clean();
+      expect(lab.complaints).toEqual([]);
     }
     await reset(lab, page);
     return memory(page, client);
   };
   const [first, second] = [await half(), await half()];
-  info.annotations.push({ type: 'memory', description: JSON.stringify({ first, second }) });
+  info.annotations.push({ type: 'memory', description: JSON.stringify({ most, first, second }) });
   expect(second.js).toBeLessThan(first.js * 1.05 + 200_000);
   expect(second.nodes).toBeLessThan(first.nodes * 1.05 + 100);
   expect(second.listeners).toBeLessThan(first.listeners * 1.05 + 20);
-  // A page or two may come from a larger document than any before; what leaks comes with every event.
-  expect(second.wasm).toBeLessThanOrEqual(first.wasm + 4 * PAGE);
+  // A page or two may come from room that is cut up otherwise; what leaks comes with every event.
+  expect(second.wasm).toBeLessThanOrEqual(most + 4 * PAGE);
   // And the bench still works.
   expect(await lab.number('lambda-11')).toBe(1.4);
   expect(await lab.text('stability')).toContain('Closed loop stable');
