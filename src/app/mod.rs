@@ -10,6 +10,7 @@ mod format;
 mod lab;
 mod preset;
 mod quadruple;
+mod results;
 mod share;
 mod shell;
 mod shown;

@@ -12,8 +12,10 @@ pub struct Stopwatch {
     frame: Turn,
     /// What waits for its words.
     words: Turn,
-    /// When the change came in that is being painted, and how long that took (ms).
-    begun_ms: f64,
+    /// When the first change came in that waits for its frame, and when that which is being painted (ms).
+    waiting_since_ms: f64,
+    painting_since_ms: f64,
+    /// How long the last frame took (ms).
     frame_ms: f64,
     /// When words were told last (ms).
     told_ms: f64,
@@ -63,7 +65,7 @@ impl Stopwatch {
     pub fn begin(&mut self) -> bool {
         let first = self.frame.wait(EVENT_MARKS);
         if first {
-            self.begun_ms = now_ms();
+            self.waiting_since_ms = now_ms();
             self.words.wait(WORDS_MARKS);
         }
         first
@@ -72,6 +74,7 @@ impl Stopwatch {
     /// A frame takes up what came in, and computes.
     pub fn start_computing(&mut self) {
         self.frame.take();
+        self.painting_since_ms = self.waiting_since_ms;
         mark(COMPUTE_MARK);
     }
 
@@ -83,7 +86,7 @@ impl Stopwatch {
     /// The charts are painted.
     pub fn end(&mut self) {
         self.measure("quadtank:paint", EVENT_MARKS[self.frame.taken]);
-        self.frame_ms = now_ms() - self.begun_ms;
+        self.frame_ms = now_ms() - self.painting_since_ms;
     }
 
     /// Whether words may follow the charts at once.

@@ -1,6 +1,6 @@
 use serde::Serialize;
 
-use crate::sim::{LoopMetrics, Trajectory, loop_metrics, simulate, simulate_linear};
+use crate::sim::{LoopMetrics, Stability, Trajectory, closed_loop, loop_metrics, simulate, simulate_linear};
 
 use super::{ScenarioError, Setup};
 
@@ -17,7 +17,8 @@ pub struct Run {
     pub linear: Trajectory,
 }
 
-/// Runs the experiment of a setup on the nonlinear plant and on its linear model.
+/// Runs the experiment of a setup on the nonlinear plant and on its linear model. Where the sampled linear loop is
+/// unstable, the metrics carry no figures of a step response: where limits hold it, an oscillation has none.
 ///
 /// # Errors
 /// [`ScenarioError::Plant`] when levels are given and no input holds them.
@@ -26,11 +27,35 @@ pub fn run(setup: &Setup) -> Result<Run, ScenarioError> {
     let start = setup.operating_point()?;
     let Setup { controller, experiment, .. } = setup;
     let nonlinear = simulate(&plant, &start, controller, experiment);
-    let linear = simulate_linear(&plant, &start, &plant.linearise(&start), controller, experiment);
-    Ok(Run {
-        metrics: loop_metrics(&nonlinear, &plant, controller, experiment),
-        linear_metrics: loop_metrics(&linear, &plant, controller, experiment),
-        nonlinear,
-        linear,
-    })
+    let jacobian = plant.linearise(&start);
+    let linear = simulate_linear(&plant, &start, &jacobian, controller, experiment);
+    let is_unstable =
+        closed_loop(&jacobian, controller, plant.power_gain).is_ok_and(|l| l.stability == Stability::Unstable);
+    let metrics = |run: &Trajectory| {
+        let metrics = loop_metrics(run, &plant, controller, experiment);
+        if is_unstable { metrics.map(LoopMetrics::without_response) } else { metrics }
+    };
+    Ok(Run { metrics: metrics(&nonlinear), linear_metrics: metrics(&linear), nonlinear, linear })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::control::Pairing;
+    use crate::plant::PresetId;
+    use crate::scenario::setup_of;
+
+    #[test]
+    fn an_unstable_loop_has_sums_but_no_step_response() {
+        let mut setup = setup_of(PresetId::JohanssonMinimumPhase);
+        let stable = run(&setup).unwrap();
+        assert!(stable.metrics.iter().all(|m| m.overshoot.is_some() && m.rise_time_s.is_some()));
+        setup.controller.pairing = Pairing::Swapped;
+        let unstable = run(&setup).unwrap();
+        for m in unstable.metrics.into_iter().chain(unstable.linear_metrics) {
+            assert_eq!((m.rise_time_s, m.settling_2_percent, m.settling_5_percent), (None, None, None));
+            assert_eq!((m.overshoot, m.undershoot), (None, None));
+            assert!(m.iae > 0.0 && m.step_time_s.is_some());
+        }
+    }
 }

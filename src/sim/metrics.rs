@@ -79,6 +79,19 @@ fn metrics_of(trajectory: &Trajectory, experiment: &Experiment, index: usize, li
 }
 
 impl LoopMetrics {
+    /// The same without the figures of a step response, for a loop that never comes to rest.
+    #[must_use]
+    pub fn without_response(self) -> Self {
+        Self {
+            rise_time_s: None,
+            settling_2_percent: None,
+            settling_5_percent: None,
+            overshoot: None,
+            undershoot: None,
+            ..self
+        }
+    }
+
     /// The sums over the run.
     fn add_up(&mut self, trajectory: &Trajectory, index: usize, (min, max): (f64, f64)) {
         let start = self.step_time_s.unwrap_or(0.0);

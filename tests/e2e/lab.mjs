@@ -51,7 +51,8 @@ export class Lab {
   }
 
   async text(name) {
-    return (await this.id(name).textContent()).trim();
+    // A space that does not break, and the mark that forbids a break, are a matter of lines.
+    return (await this.id(name).textContent()).replaceAll('\u00a0', ' ').replaceAll('\u2060', '').trim();
   }
 
   async number(name) {

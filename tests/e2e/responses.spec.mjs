@@ -78,7 +78,7 @@ test('a set-point is dragged in the picture: up and down for its size, sideways 
   await lab.settle();
   expect(await lab.value('step1-number')).toBeCloseTo(size - 0.01, 9);
   expect(await lab.value('step1-time')).toBe(time + 10);
-  await expect(lab.id('set-point1')).toHaveAttribute('aria-valuetext', `${(size - 0.01).toFixed(2)} cm at ${time + 10} s`);
+  await expect(lab.id('set-point1')).toHaveAttribute('aria-valuetext', `${(size - 0.01).toFixed(2)}\u00a0cm at ${time + 10}\u00a0s`);
 });
 
 test('a dragged set-point stays under the pointer, and the axis follows when it is let go', async ({ lab, page }) => {

@@ -2,7 +2,7 @@
 
 use leptos::prelude::*;
 
-use super::sentences::{self, with_analysis};
+use super::sentences::{self};
 use crate::app::lab::use_lab;
 use crate::app::start::Control;
 use crate::app::texts::{say, tr};
@@ -62,12 +62,13 @@ fn PairingSwitch() -> impl IntoView {
     let lab = use_lab();
     let swapped = lab.part(|s| s.controller.pairing == Pairing::Swapped);
     let suggested = move || {
-        with_analysis(lab, |a| match a.verdict {
-            PairingVerdict::Diagonal(_) => Some(Pairing::Diagonal),
-            PairingVerdict::Swapped(_) => Some(Pairing::Swapped),
-            PairingVerdict::None(_) => None,
-        })
-        .flatten()
+        lab.words
+            .with_analysis(|a| match a.verdict {
+                PairingVerdict::Diagonal(_) => Some(Pairing::Diagonal),
+                PairingVerdict::Swapped(_) => Some(Pairing::Swapped),
+                PairingVerdict::None(_) => None,
+            })
+            .flatten()
     };
     let text = move |choice: Pairing| {
         Signal::derive(move || {
@@ -229,7 +230,7 @@ fn ManualMode(index: usize) -> impl IntoView {
     let rest = move || {
         let pump = lab.scenario.with(|s| s.setup.controller.pairing.pump_of(index));
         let power = lab.scenario.with(|s| s.setup.plant().power_gain);
-        with_analysis(lab, |a| a.operating_point.pump_voltage[pump] / power).unwrap_or_default()
+        lab.words.with_analysis(|a| a.operating_point.pump_voltage[pump] / power).unwrap_or_default()
     };
     let range = lab.part(move |s| s.plant().controller_limits()[s.controller.pairing.pump_of(index)]);
     let switch = move |event| {

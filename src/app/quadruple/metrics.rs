@@ -2,19 +2,16 @@
 
 use leptos::prelude::*;
 
-use super::sentences::with_analysis;
 use crate::app::lab::{Lab, use_lab};
 use crate::app::shown::{length_digits, per_metre, to_shown, unit_name};
 use crate::app::texts::{say, tr};
-use crate::sim::{LoopMetrics, Settling, Stability};
+use crate::sim::{LoopMetrics, Settling};
 
 /// A row of the table: its name, the class of its colour, its figures.
 struct Row {
     name: String,
     class: &'static str,
     metrics: LoopMetrics,
-    /// Whether figures of a step response mean anything: not where the loop is unstable.
-    is_response: bool,
 }
 
 /// Metrics of the nonlinear run and of the pinned ones.
@@ -54,12 +51,11 @@ pub fn MetricsTable() -> impl IntoView {
 fn rows(lab: Lab) -> Vec<Row> {
     let class = |k: usize| ["loop1", "loop2"][k];
     let mut rows = Vec::new();
-    let is_response = with_analysis(lab, |a| a.closed_loop.stability) != Some(Stability::Unstable);
     lab.words.run.with(|outcome| {
         let Ok(run) = outcome.as_ref() else { return };
         for (k, &metrics) in run.metrics.iter().enumerate() {
             let name = tr!(lab, responses.row, number = k + 1).to_string();
-            rows.push(Row { name, class: class(k), metrics, is_response });
+            rows.push(Row { name, class: class(k), metrics });
         }
     });
     lab.words.pinned.with(|runs| {
@@ -67,7 +63,7 @@ fn rows(lab: Lab) -> Vec<Row> {
             let Ok(run) = outcome.as_ref() else { continue };
             for (k, &metrics) in run.metrics.iter().enumerate() {
                 let name = tr!(lab, responses.row_pinned, run = at + 1, number = k + 1).to_string();
-                rows.push(Row { name, class: class(k), metrics, is_response: true });
+                rows.push(Row { name, class: class(k), metrics });
             }
         }
     });
@@ -77,11 +73,7 @@ fn rows(lab: Lab) -> Vec<Row> {
 fn row_view(lab: Lab, row: &Row) -> impl IntoView + use<> {
     let style = lab.number_style();
     let unit = lab.unit.get();
-    let mut m = row.metrics;
-    if !row.is_response {
-        (m.rise_time_s, m.settling_2_percent, m.settling_5_percent) = (None, None, None);
-        (m.overshoot, m.undershoot) = (None, None);
-    }
+    let m = row.metrics;
     let none = || "–".to_owned();
     let time = |t: Option<f64>| t.map_or_else(none, |t| style.significant(t, 3));
     let settling = |s: Option<Settling>| match s {
@@ -89,7 +81,7 @@ fn row_view(lab: Lab, row: &Row) -> impl IntoView + use<> {
         Some(Settling::Never) => tr!(lab, responses.never).to_string(),
         Some(Settling::After { time_s }) => style.significant(time_s, 3),
     };
-    let percent = |share: Option<f64>| share.map_or_else(none, |s| format!("{} %", style.fixed(100.0 * s, 1)));
+    let percent = |share: Option<f64>| share.map_or_else(none, |s| format!("{}\u{a0}%", style.fixed(100.0 * s, 1)));
     let cells = [
         time(m.rise_time_s),
         settling(m.settling_2_percent),

@@ -1,6 +1,7 @@
 //! The charts of the home bench, from the results of the laboratory. Building them follows what they read.
 
-use crate::app::lab::{Lab, Outcome};
+use crate::app::lab::Lab;
+use crate::app::results::Outcome;
 use crate::app::shown::{per_metre, unit_name};
 use crate::app::texts::tr;
 use crate::app::widgets::Picture;

@@ -3,7 +3,7 @@
 use leptos::prelude::*;
 
 use super::pictures;
-use super::sentences::{self, with_analysis};
+use super::sentences::{self};
 use crate::app::lab::{Lab, use_lab};
 use crate::app::texts::{say, tr};
 use crate::app::widgets::{ChartCanvas, ChartMenu, rich};
@@ -48,15 +48,16 @@ fn summary(lab: Lab) -> String {
             .collect();
         if texts.is_empty() { "–".to_owned() } else { texts.join("; ") }
     };
-    with_analysis(lab, |a| {
-        tr!(
-            lab,
-            zeros.summary,
-            poles = list(&mut a.poles.iter().copied()),
-            zeros = list(&mut a.zeros.iter().flatten().map(|z| z.value)),
-            closed = list(&mut a.closed_loop.poles_s.iter().copied().filter(|z| z.im >= 0.0))
-        )
-        .to_string()
-    })
-    .unwrap_or_default()
+    lab.words
+        .with_analysis(|a| {
+            tr!(
+                lab,
+                zeros.summary,
+                poles = list(&mut a.poles.iter().copied()),
+                zeros = list(&mut a.zeros.iter().flatten().map(|z| z.value)),
+                closed = list(&mut a.closed_loop.poles_s.iter().copied().filter(|z| z.im >= 0.0))
+            )
+            .to_string()
+        })
+        .unwrap_or_default()
 }

@@ -2,7 +2,6 @@
 
 use leptos::prelude::*;
 
-use super::sentences::with_analysis;
 use crate::app::lab::use_lab;
 use crate::app::preset::chosen;
 use crate::app::shown::{length_digits, to_shown, unit_name};
@@ -66,27 +65,28 @@ fn rows(lab: crate::app::lab::Lab, preset: Option<&Preset>) -> Vec<Row> {
     let unit = lab.unit.get();
     let printed = preset.and_then(|p| p.printed);
     let length = |m: f64| style.fixed(to_shown(m, unit), length_digits(unit));
-    with_analysis(lab, |a| {
-        let mut rows: Vec<Row> = Vec::new();
-        for tank in 0..4 {
-            let name = format!("h{} ({})", ["₁", "₂", "₃", "₄"][tank], unit_name(unit));
-            rows.push((name, length(a.operating_point.levels[tank]), printed.map(|p| length(p.levels[tank]))));
-        }
-        for tank in 0..4 {
-            let name = format!("T{} (s)", ["₁", "₂", "₃", "₄"][tank]);
-            let exact = a.time_constants_s[tank].map_or_else(|| "0".to_owned(), |t| style.fixed(t, 2));
-            rows.push((name, exact, printed.map(|p| style.fixed(p.time_constants_s[tank], 0))));
-        }
-        if let Ok(zeros) = &a.zeros {
-            for (k, zero) in zeros.iter().enumerate() {
-                let text = style.significant(zero.value.re, 4);
-                let source = printed.and_then(|p| p.zeros.get(k).map(|&z| style.significant(z, 2)));
-                rows.push((format!("z{} (1/s)", ["₁", "₂"].get(k).unwrap_or(&"")), text, source));
+    lab.words
+        .with_analysis(|a| {
+            let mut rows: Vec<Row> = Vec::new();
+            for tank in 0..4 {
+                let name = format!("h{} ({})", ["₁", "₂", "₃", "₄"][tank], unit_name(unit));
+                rows.push((name, length(a.operating_point.levels[tank]), printed.map(|p| length(p.levels[tank]))));
             }
-        }
-        let rga = a.rga_11.as_ref().map_or_else(|_| "∞".to_owned(), |l| style.fixed(*l, 4));
-        rows.push(("λ₁₁".to_owned(), rga, printed.map(|p| style.significant(p.rga_11, 3))));
-        rows
-    })
-    .unwrap_or_default()
+            for tank in 0..4 {
+                let name = format!("T{} (s)", ["₁", "₂", "₃", "₄"][tank]);
+                let exact = a.time_constants_s[tank].map_or_else(|| "0".to_owned(), |t| style.fixed(t, 2));
+                rows.push((name, exact, printed.map(|p| style.fixed(p.time_constants_s[tank], 0))));
+            }
+            if let Ok(zeros) = &a.zeros {
+                for (k, zero) in zeros.iter().enumerate() {
+                    let text = style.significant(zero.value.re, 4);
+                    let source = printed.and_then(|p| p.zeros.get(k).map(|&z| style.significant(z, 2)));
+                    rows.push((format!("z{} (1/s)", ["₁", "₂"].get(k).unwrap_or(&"")), text, source));
+                }
+            }
+            let rga = a.rga_11.as_ref().map_or_else(|_| "∞".to_owned(), |l| style.fixed(*l, 4));
+            rows.push(("λ₁₁".to_owned(), rga, printed.map(|p| style.significant(p.rga_11, 3))));
+            rows
+        })
+        .unwrap_or_default()
 }

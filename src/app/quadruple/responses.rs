@@ -296,7 +296,7 @@ fn sentence(lab: Lab) -> String {
         let Ok(run) = outcome.as_ref() else { return tr!(lab, responses.none).to_string() };
         let mut parts: Vec<String> =
             run.metrics.iter().enumerate().filter_map(|(k, m)| of_metrics(lab, k, m)).collect();
-        let unstable = super::sentences::with_analysis(lab, |a| a.closed_loop.stability == Stability::Unstable);
+        let unstable = lab.words.with_analysis(|a| a.closed_loop.stability == Stability::Unstable);
         if unstable == Some(true) {
             parts = vec![tr!(lab, responses.unstable).to_string()];
         } else if parts.is_empty() {
@@ -328,7 +328,7 @@ fn of_metrics(lab: Lab, index: usize, metrics: &LoopMetrics) -> Option<String> {
     let (level, other) = (index + 1, 2 - index);
     Some(match metrics.settling_2_percent? {
         Settling::After { time_s } => {
-            let overshoot = format!("{} %", style.fixed(100.0 * metrics.overshoot.unwrap_or(0.0), 0));
+            let overshoot = format!("{}\u{a0}%", style.fixed(100.0 * metrics.overshoot.unwrap_or(0.0), 0));
             let time = style.significant(time_s, 3);
             tr!(
                 lab,

@@ -2,7 +2,6 @@
 
 use leptos::prelude::*;
 
-use super::sentences::with_analysis;
 use crate::app::lab::{Lab, use_lab};
 use crate::app::texts::{say, tr};
 use crate::app::widgets::rich;
@@ -13,7 +12,7 @@ use crate::scenario::Analysis;
 #[component]
 pub fn RelativeGainCard() -> impl IntoView {
     let lab = use_lab();
-    let verdict = move || with_analysis(lab, |a| a.verdict);
+    let verdict = move || lab.words.with_analysis(|a| a.verdict);
     let warm = move || matches!(verdict(), Some(PairingVerdict::None(_)) | None);
     view! {
         <section class="card rga" aria-labelledby="rga-title">
@@ -35,8 +34,8 @@ pub fn RelativeGainCard() -> impl IntoView {
 #[component]
 fn Gains() -> impl IntoView {
     let lab = use_lab();
-    let rga = move || with_analysis(lab, Analysis::rga).flatten();
-    let chosen = move |row: usize, column: usize| match with_analysis(lab, |a| a.verdict) {
+    let rga = move || lab.words.with_analysis(Analysis::rga).flatten();
+    let chosen = move |row: usize, column: usize| match lab.words.with_analysis(|a| a.verdict) {
         Some(PairingVerdict::Diagonal(_)) => row == column,
         Some(PairingVerdict::Swapped(_)) => row != column,
         _ => false,
@@ -78,7 +77,7 @@ fn Gains() -> impl IntoView {
 fn Formula() -> impl IntoView {
     let lab = use_lab();
     let number = move |v: f64| lab.number_style().fixed(v, 2);
-    let value = move || with_analysis(lab, |a| a.rga_11.ok()).flatten().map_or_else(|| "∞".to_owned(), number);
+    let value = move || lab.words.with_analysis(|a| a.rga_11.ok()).flatten().map_or_else(|| "∞".to_owned(), number);
     let formula = move || {
         let [g1, g2] = lab.words.setup.with(|s| s.valves);
         let (first, second, below, value) = (number(g1), number(g2), number(g1 + g2 - 1.0), value());
@@ -119,9 +118,10 @@ fn of_verdict(lab: Lab, verdict: PairingVerdict) -> String {
 
 fn of_niederlinski(lab: Lab) -> String {
     let number = |index: Option<f64>| index.map_or_else(|| "–".to_owned(), |n| lab.number_style().fixed(n, 2));
-    with_analysis(lab, |a| {
-        let [diagonal, swapped] = a.niederlinski.map(number);
-        tr!(lab, rga.niederlinski, diagonal = diagonal, swapped = swapped).to_string()
-    })
-    .unwrap_or_default()
+    lab.words
+        .with_analysis(|a| {
+            let [diagonal, swapped] = a.niederlinski.map(number);
+            tr!(lab, rga.niederlinski, diagonal = diagonal, swapped = swapped).to_string()
+        })
+        .unwrap_or_default()
 }

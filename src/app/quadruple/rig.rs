@@ -17,7 +17,9 @@ const TANK: (f64, f64) = (64.0, 78.0);
 /// Width of a stream that carries the most a pump can deliver.
 const WIDEST_STREAM: f64 = 7.0;
 /// A trapezoidal tank is drawn with at least this share of its brim at the bottom, so that its level can be read.
-const LEAST_BOTTOM: f64 = 0.6;
+const LEAST_BOTTOM: f64 = 0.8;
+/// The number of the level stands so far above the bottom, and higher by so much of what the far wall leans.
+const NUMBER_AT: (f64, f64) = (8.0, 2.0);
 /// The valves, left and right.
 const VALVES: [(f64, f64); 2] = [(42.0, 148.0), (234.0, 148.0)];
 const VALVE_IDS: [&str; 2] = ["valve1", "valve2"];
@@ -114,7 +116,7 @@ fn TankView(tank: usize) -> impl IntoView {
     let middle = left + TANK.0 / 2.0;
     // Where the tank is narrow below, its number stands higher.
     let number_at = move || {
-        let above_bottom = 8.0 + 1.3 * lean.get();
+        let above_bottom = NUMBER_AT.0 + NUMBER_AT.1 * lean.get();
         (middle - lean.get() / 2.0 * (1.0 - above_bottom / TANK.1), top + TANK.1 - above_bottom)
     };
     let colour = if tank == 0 || tank == 3 { "water1" } else { "water2" };

@@ -50,15 +50,10 @@ impl ZeroSituation {
     }
 }
 
-/// What `read` makes of the analysis in force, if there is one.
-pub fn with_analysis<T>(lab: Lab, read: impl FnOnce(&Analysis) -> T) -> Option<T> {
-    lab.words.with_analysis(read)
-}
-
 /// The situation of the plant in force.
 pub fn situation(lab: Lab) -> Option<ZeroSituation> {
     let valves = lab.words.setup.with(|s| s.valves);
-    with_analysis(lab, |a| ZeroSituation::of(a, valves))
+    lab.words.with_analysis(|a| ZeroSituation::of(a, valves))
 }
 
 /// The sentence under the drawing, and whether it is a warning.
@@ -159,57 +154,60 @@ const NO_PART: f64 = 0.05;
 /// The direction of the right-most zero, in words.
 pub fn of_direction(lab: Lab) -> String {
     let style = lab.number_style();
-    with_analysis(lab, |analysis| match &analysis.zeros {
-        Err(_) => tr!(lab, zeros.degenerate).to_string(),
-        Ok(_) => match analysis.rightmost_zero() {
-            None => tr!(lab, zeros.none).to_string(),
-            Some(zero) => {
-                let y: [f64; 2] = [zero.output_direction[0].re, zero.output_direction[1].re];
-                let lead = tr!(lab, zeros.direction, y1 = style.fixed(y[0], 2), y2 = style.fixed(y[1], 2)).to_string();
-                let rest = if zero.value.re < 0.0 {
-                    tr!(lab, zeros.easy).to_string()
-                } else if y[1].abs() < NO_PART {
-                    tr!(lab, zeros.single, level = 1).to_string()
-                } else if y[0].abs() < NO_PART {
-                    tr!(lab, zeros.single, level = 2).to_string()
-                } else if y[0] * y[1] < 0.0 {
-                    tr!(lab, zeros.opposed).to_string()
-                } else {
-                    tr!(lab, zeros.together).to_string()
-                };
-                lead + &rest
-            }
-        },
-    })
-    .unwrap_or_else(|| tr!(lab, process.no_equilibrium).to_string())
+    lab.words
+        .with_analysis(|analysis| match &analysis.zeros {
+            Err(_) => tr!(lab, zeros.degenerate).to_string(),
+            Ok(_) => match analysis.rightmost_zero() {
+                None => tr!(lab, zeros.none).to_string(),
+                Some(zero) => {
+                    let y: [f64; 2] = [zero.output_direction[0].re, zero.output_direction[1].re];
+                    let lead =
+                        tr!(lab, zeros.direction, y1 = style.fixed(y[0], 2), y2 = style.fixed(y[1], 2)).to_string();
+                    let rest = if zero.value.re < 0.0 {
+                        tr!(lab, zeros.easy).to_string()
+                    } else if y[1].abs() < NO_PART {
+                        tr!(lab, zeros.single, level = 1).to_string()
+                    } else if y[0].abs() < NO_PART {
+                        tr!(lab, zeros.single, level = 2).to_string()
+                    } else if y[0] * y[1] < 0.0 {
+                        tr!(lab, zeros.opposed).to_string()
+                    } else {
+                        tr!(lab, zeros.together).to_string()
+                    };
+                    lead + &rest
+                }
+            },
+        })
+        .unwrap_or_else(|| tr!(lab, process.no_equilibrium).to_string())
 }
 
 /// What the closed-loop poles say, and whether it is bad news.
 pub fn of_stability(lab: Lab) -> (String, bool) {
     let style = lab.number_style();
-    with_analysis(lab, |analysis| {
-        let slowest = analysis.closed_loop.slowest();
-        let number = |z: Complex| style.significant(z.re, 2);
-        match (analysis.closed_loop.stability, slowest) {
-            (Stability::Stable, Some(pole)) => {
-                let time = style.significant(1.0 / pole.re.abs(), 3);
-                let text = match analysis.closed_loop.sensitivity_peak {
-                    Some(peak) => {
-                        let peak = style.significant(peak, 3);
-                        tr!(lab, pi.stable, pole = number(pole), time = time, peak = peak).to_string()
-                    }
-                    None => tr!(lab, pi.stable_short, pole = number(pole), time = time).to_string(),
-                };
-                (text, false)
+    lab.words
+        .with_analysis(|analysis| {
+            let slowest = analysis.closed_loop.slowest();
+            let number = |z: Complex| style.significant(z.re, 2);
+            match (analysis.closed_loop.stability, slowest) {
+                (Stability::Stable, Some(pole)) => {
+                    let time = style.significant(1.0 / pole.re.abs(), 3);
+                    let text = match analysis.closed_loop.sensitivity_peak {
+                        Some(peak) => {
+                            let peak = style.significant(peak, 3);
+                            tr!(lab, pi.stable, pole = number(pole), time = time, peak = peak).to_string()
+                        }
+                        None => tr!(lab, pi.stable_short, pole = number(pole), time = time).to_string(),
+                    };
+                    (text, false)
+                }
+                (Stability::Unstable, Some(pole)) if pole.re > 0.0 => {
+                    let time = style.significant(std::f64::consts::LN_2 / pole.re, 2);
+                    let pole = format!("+{}", number(pole));
+                    (tr!(lab, pi.unstable, pole = pole, time = time).to_string(), true)
+                }
+                (Stability::Marginal, _) => (tr!(lab, pi.marginal).to_string(), true),
+                _ => (tr!(lab, pi.unstable_fast).to_string(), true),
             }
-            (Stability::Unstable, Some(pole)) if pole.re > 0.0 => {
-                let time = style.significant(std::f64::consts::LN_2 / pole.re, 2);
-                let pole = format!("+{}", number(pole));
-                (tr!(lab, pi.unstable, pole = pole, time = time).to_string(), true)
-            }
-            (Stability::Marginal, _) => (tr!(lab, pi.marginal).to_string(), true),
-            _ => (tr!(lab, pi.unstable_fast).to_string(), true),
-        }
-    })
-    .unwrap_or_else(|| (tr!(lab, process.no_equilibrium).to_string(), true))
+        })
+        .unwrap_or_else(|| (tr!(lab, process.no_equilibrium).to_string(), true))
 }

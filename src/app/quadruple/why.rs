@@ -2,7 +2,7 @@
 
 use leptos::prelude::*;
 
-use super::sentences::{ZeroSituation, situation, with_analysis};
+use super::sentences::{ZeroSituation, situation};
 use crate::app::lab::use_lab;
 use crate::app::shown::{to_shown, unit_name};
 use crate::app::texts::{say, tr};
@@ -23,7 +23,7 @@ pub fn WhyCard() -> impl IntoView {
         if !matches!(situation(lab), Some(ZeroSituation::Right(_))) {
             return None;
         }
-        lab.words.setup.with(|s| with_analysis(lab, |a| a.interpolation_integral(&s.experiment))).flatten()
+        lab.words.setup.with(|s| lab.words.with_analysis(|a| a.interpolation_integral(&s.experiment))).flatten()
     };
     view! {
         <section class="card why" aria-labelledby="why-title">
