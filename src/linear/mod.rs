@@ -1,11 +1,14 @@
 //! What a linear model says: poles, transmission zeros with their directions, frequency response, exact sampling; and
 //! transfer functions with dead time.
 
+mod delayed;
 mod discrete;
 mod eigen;
 mod error;
 mod exponential;
 mod frequency;
+mod lag_chain;
+mod loci;
 mod null_vectors;
 pub mod quadruple;
 mod reduction;
@@ -15,9 +18,12 @@ mod state_space;
 mod transfer;
 mod zeros;
 
+pub use delayed::{DelayedPlant, Path};
 pub use discrete::DiscreteStateSpace;
 pub use eigen::eigenvalues;
 pub use error::LinearError;
+pub use lag_chain::MAX_ORDER;
+pub use loci::{Closure, Loci, LoopOutline, LoopStability, Margins, locus_values};
 pub use singular_values::singular_values;
 pub use state_space::StateSpace;
 pub use transfer::{TransferFunction, TransferMatrix};

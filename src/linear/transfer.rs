@@ -1,6 +1,7 @@
-use nalgebra::Matrix2;
+use nalgebra::{DMatrix, Matrix2};
 
-use super::{Complex, LinearError};
+use super::error::expect_shape;
+use super::{Complex, LinearError, StateSpace, eigenvalues};
 
 /// A rational transfer function with a dead time, `g(s) = b(s)/a(s) e^(−θ s)`. The unit of time is that of the plant.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,15 +38,67 @@ impl TransferFunction {
     /// # Errors
     /// As [`new`](Self::new).
     pub fn lags(gain: f64, time_constants: &[f64], dead_time: f64) -> Result<Self, LinearError> {
-        let denominator = time_constants.iter().fold(vec![1.0], |product, &t| {
-            let mut next = product.clone();
-            next.push(0.0);
-            for (power, &c) in product.iter().enumerate() {
-                next[power + 1] += t * c;
-            }
-            next
-        });
+        let denominator = time_constants.iter().fold(vec![1.0], |so_far, &t| product(&so_far, &[1.0, t]));
         Self::new(vec![gain], denominator, dead_time)
+    }
+
+    /// Coefficients of b by rising powers of s.
+    pub fn numerator(&self) -> &[f64] {
+        &self.numerator
+    }
+
+    /// Coefficients of a by rising powers of s.
+    pub fn denominator(&self) -> &[f64] {
+        &self.denominator
+    }
+
+    /// Dead time θ.
+    pub fn dead_time(&self) -> f64 {
+        self.dead_time
+    }
+
+    /// Degree of a(s).
+    fn order(&self) -> usize {
+        self.denominator.iter().rposition(|&c| c != 0.0).unwrap_or(0)
+    }
+
+    /// `self · other`: one after the other.
+    #[must_use]
+    pub fn times(&self, other: &Self) -> Self {
+        Self {
+            numerator: product(&self.numerator, &other.numerator),
+            denominator: product(&self.denominator, &other.denominator),
+            dead_time: self.dead_time + other.dead_time,
+        }
+    }
+
+    /// `factor · self`.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
+        Self { numerator: self.numerator.iter().map(|c| c * factor).collect(), ..self.clone() }
+    }
+
+    /// `self / other`.
+    ///
+    /// # Errors
+    /// [`LinearError::OutOfRange`] when `other` is zero, or when its dead time is the longer one: the quotient would have
+    /// to know the future.
+    pub fn over(&self, other: &Self) -> Result<Self, LinearError> {
+        let denominator = product(&self.denominator, &other.numerator);
+        Self::new(product(&self.numerator, &other.denominator), denominator, self.dead_time - other.dead_time)
+    }
+
+    /// Poles of a(s), by rising real part.
+    ///
+    /// # Errors
+    /// [`LinearError::NoConvergence`] as [`eigenvalues`].
+    pub fn poles(&self) -> Result<Vec<Complex>, LinearError> {
+        let order = self.order();
+        let leading = self.denominator[order];
+        eigenvalues(&DMatrix::from_fn(order, order, |row, column| {
+            let chain = if column == row + 1 { 1.0 } else { 0.0 };
+            if row + 1 == order { -self.denominator[column] / leading } else { chain }
+        }))
     }
 
     /// Value at a point of the s-plane; not finite at a pole.
@@ -58,6 +111,17 @@ impl TransferFunction {
     pub fn dc_gain(&self) -> f64 {
         self.at(Complex::ZERO).re
     }
+}
+
+/// Coefficients of the product of two polynomials.
+fn product(p: &[f64], q: &[f64]) -> Vec<f64> {
+    let mut result = vec![0.0; (p.len() + q.len()).saturating_sub(1)];
+    for (i, a) in p.iter().enumerate() {
+        for (j, b) in q.iter().enumerate() {
+            result[i + j] += a * b;
+        }
+    }
+    result
 }
 
 /// A plant with two inputs and two outputs, row by output.
@@ -73,6 +137,96 @@ impl TransferMatrix {
     /// G(0).
     pub fn dc_gain(&self) -> Matrix2<f64> {
         Matrix2::from_fn(|row, column| self.0[row][column].dc_gain())
+    }
+
+    /// The same plant with its inputs exchanged, for the off-diagonal pairing.
+    #[must_use]
+    pub fn swapped(&self) -> Self {
+        Self(self.0.clone().map(|[first, second]| [second, first]))
+    }
+
+    /// With one more element after every path, such as a dead time or the lag of a pump or a sensor.
+    #[must_use]
+    pub fn followed_by(&self, element: &TransferFunction) -> Self {
+        Self(self.0.clone().map(|row| row.map(|path| path.times(element))))
+    }
+
+    /// A state-space model with two inputs and two outputs as transfer functions, by the recursion of Faddeev and
+    /// Le Verrier for `adj(s I − A)` and `det(s I − A)`.
+    ///
+    /// # Errors
+    /// [`LinearError::Dimension`] when there are not two inputs and outputs, else as [`StateSpace::new`].
+    pub fn from_state_space(model: &StateSpace) -> Result<Self, LinearError> {
+        model.check()?;
+        expect_shape("D", &model.d, 2, 2)?;
+        let n = model.order();
+        let mut denominator = vec![0.0; n + 1];
+        denominator[n] = 1.0;
+        let mut numerators: [[Vec<f64>; 2]; 2] = Default::default();
+        for numerator in numerators.iter_mut().flatten() {
+            numerator.resize(n + 1, 0.0);
+        }
+        // adj(s I − A) = Σ M_k s^(k−1), from the highest power down.
+        let mut m = DMatrix::identity(n, n);
+        for k in (1..=n).rev() {
+            let gain = &model.c * &m * &model.b;
+            for (row, column) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                numerators[row][column][k - 1] = gain[(row, column)];
+            }
+            let am = &model.a * &m;
+            denominator[k - 1] = -am.trace() / (n - k + 1) as f64;
+            m = am + DMatrix::identity(n, n) * denominator[k - 1];
+        }
+        for (row, column) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+            for (b, a) in numerators[row][column].iter_mut().zip(&denominator) {
+                *b += a * model.d[(row, column)];
+            }
+        }
+        let element = |numerator| TransferFunction::new(numerator, denominator.clone(), 0.0);
+        let [[g11, g12], [g21, g22]] = numerators;
+        Ok(Self([[element(g11)?, element(g12)?], [element(g21)?, element(g22)?]]))
+    }
+
+    /// State space, one controllable form for each element; poles that elements share stand there for each of them.
+    ///
+    /// # Errors
+    /// [`LinearError::OutOfRange`] with a dead time, which no finite number of states has, or with the relative degree of
+    /// an element that is not proper.
+    pub fn state_space(&self) -> Result<StateSpace, LinearError> {
+        let elements = self.0.as_flattened();
+        if let Some(delayed) = elements.iter().find(|g| g.dead_time != 0.0) {
+            return Err(LinearError::OutOfRange { field: "dead_time", value: delayed.dead_time });
+        }
+        let orders = elements.iter().map(TransferFunction::order).collect::<Vec<_>>();
+        let n = orders.iter().sum();
+        let (mut a, mut b) = (DMatrix::zeros(n, n), DMatrix::zeros(n, 2));
+        let (mut c, mut d) = (DMatrix::zeros(2, n), DMatrix::zeros(2, 2));
+        let mut first = 0;
+        for (index, (g, &order)) in elements.iter().zip(&orders).enumerate() {
+            let (row, column) = (index / 2, index % 2);
+            let degree = g.numerator.iter().rposition(|&x| x != 0.0).unwrap_or(0);
+            if degree > order {
+                let value = order as f64 - degree as f64;
+                return Err(LinearError::OutOfRange { field: "relative_degree", value });
+            }
+            let leading = g.denominator[order];
+            let coefficient = |k: usize| g.numerator.get(k).copied().unwrap_or(0.0) / leading;
+            let through = coefficient(order);
+            d[(row, column)] = through;
+            for k in 0..order {
+                let alpha = g.denominator[k] / leading;
+                a[(first + order - 1, first + k)] = -alpha;
+                if k + 1 < order {
+                    a[(first + k, first + k + 1)] = 1.0;
+                }
+                c[(row, first + k)] = coefficient(k) - through * alpha;
+            }
+            if order > 0 {
+                b[(first + order - 1, column)] = 1.0;
+            }
+            first += order;
+        }
+        StateSpace::new(a, b, c, d)
     }
 }
 
@@ -90,6 +244,48 @@ mod tests {
         let expected = Complex::new(2.0, 0.0) / ((s + 1.0) * (s * 3.0 + 1.0)) * Complex::cis(-0.5 * w);
         assert_relative_eq!((g.at(s) - expected).norm(), 0.0, epsilon = 1e-15);
         assert_eq!(g.dc_gain(), 2.0);
+    }
+
+    #[test]
+    fn products_and_quotients_are_those_of_the_values() {
+        let f = TransferFunction::lags(2.0, &[1.0, 3.0], 2.5).unwrap();
+        let g = TransferFunction::new(vec![1.0, -4.0], vec![1.0, 0.5, 2.0], 1.0).unwrap();
+        let s = Complex::new(0.1, 0.7);
+        assert_relative_eq!((f.times(&g).at(s) - f.at(s) * g.at(s)).norm(), 0.0, epsilon = 1e-15);
+        assert_relative_eq!((f.over(&g).unwrap().at(s) - f.at(s) / g.at(s)).norm(), 0.0, epsilon = 1e-14);
+        assert_eq!(g.over(&f), Err(LinearError::OutOfRange { field: "dead_time", value: -1.5 }));
+        let poles = f.poles().unwrap();
+        assert_relative_eq!(poles[0].re, -1.0, max_relative = 1e-14);
+        assert_relative_eq!(poles[1].re, -1.0 / 3.0, max_relative = 1e-14);
+    }
+
+    #[test]
+    fn to_state_space_and_back_the_response_stays() {
+        let g = |n: &[f64], d: &[f64]| TransferFunction::new(n.to_vec(), d.to_vec(), 0.0).unwrap();
+        let plant = TransferMatrix([
+            [g(&[2.0], &[1.0, 3.0]), g(&[1.0, -1.0], &[1.0, 2.0, 0.5])],
+            [g(&[1.0, 0.0, 2.0], &[1.0, 0.3, 4.0, 0.0]), g(&[0.7], &[1.0])],
+        ]);
+        let model = plant.state_space().unwrap();
+        assert_eq!(model.order(), 5);
+        let back = TransferMatrix::from_state_space(&model).unwrap();
+        for w in [0.0, 0.2, 1.0, 6.0] {
+            let s = Complex::new(0.0, w);
+            let expected = plant.at(s);
+            assert_relative_eq!((back.at(s) - expected).norm(), 0.0, epsilon = 1e-13);
+            let direct = model.frequency_response(w).unwrap();
+            assert!((0..4).all(|i| (direct[(i / 2, i % 2)] - expected[(i / 2, i % 2)]).norm() < 1e-13));
+        }
+        assert_eq!(plant.swapped().at(Complex::ZERO)[(0, 0)], Complex::from(1.0));
+    }
+
+    #[test]
+    fn a_dead_time_has_no_state_space() {
+        let delay = TransferFunction::new(vec![1.0], vec![1.0], 0.5).unwrap();
+        let plant = TransferMatrix([[delay.clone(), delay.clone()], [delay.clone(), delay.clone()]]);
+        assert_eq!(plant.state_space(), Err(LinearError::OutOfRange { field: "dead_time", value: 0.5 }));
+        let twice = plant.followed_by(&delay);
+        assert_eq!(twice.0[0][1].dead_time(), 1.0);
     }
 
     #[test]

@@ -1,0 +1,205 @@
+//! Exact simulation of transfer functions with dead time, for inputs that are constant between switches.
+
+use super::lag_chain::{MAX_ORDER, Motion, State};
+use super::{LinearError, TransferFunction, TransferMatrix};
+
+/// One way from an input to an output; several between the same two add up.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Path {
+    /// Index of the input, 0 or 1.
+    pub input: usize,
+    /// Index of the output, 0 or 1.
+    pub output: usize,
+    /// What the way does.
+    pub element: TransferFunction,
+}
+
+/// A path on its way.
+#[derive(Clone, Copy, Debug)]
+struct Moving {
+    input: usize,
+    output: usize,
+    dead_time: f64,
+    motion: Motion,
+    state: State,
+    /// What the input was one dead time ago.
+    acting: f64,
+    /// Index of the next change of the input that has not arrived.
+    awaited: usize,
+}
+
+/// A plant with two inputs and two outputs as a sum of paths, each with any dead time, started at rest.
+///
+/// Inputs change only through [`set_inputs`](Self::set_inputs); between changes, and between their delayed arrivals,
+/// every path moves exactly (to rounding). The unit of time is that of the plant.
+#[derive(Clone, Debug)]
+pub struct DelayedPlant {
+    paths: Vec<Moving>,
+    inputs: [f64; 2],
+    /// Changes of each input: time and new value.
+    changes: [Vec<(f64, f64)>; 2],
+    time: f64,
+}
+
+impl DelayedPlant {
+    /// At rest, with both inputs zero.
+    ///
+    /// # Errors
+    /// [`LinearError::OutOfRange`] for a path that is not strictly proper or of an order above [`MAX_ORDER`].
+    ///
+    /// # Panics
+    /// Never for indices of inputs and outputs of 0 and 1.
+    pub fn new(paths: &[Path]) -> Result<Self, LinearError> {
+        let moving = |path: &Path| {
+            let motion = Motion::new(&path.element)?;
+            let dead_time = path.element.dead_time();
+            let (input, output) = (path.input, path.output);
+            Ok(Moving { input, output, dead_time, motion, state: [0.0; MAX_ORDER], acting: 0.0, awaited: 0 })
+        };
+        let paths = paths.iter().map(moving).collect::<Result<_, LinearError>>()?;
+        Ok(Self { paths, inputs: [0.0; 2], changes: [Vec::new(), Vec::new()], time: 0.0 })
+    }
+
+    /// Time since the start.
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// Both inputs from now on.
+    pub fn set_inputs(&mut self, inputs: [f64; 2]) {
+        for (i, input) in inputs.into_iter().enumerate() {
+            if input != self.inputs[i] {
+                self.changes[i].push((self.time, input));
+            }
+        }
+        self.inputs = inputs;
+        self.take_arrivals();
+    }
+
+    /// Both outputs now.
+    pub fn outputs(&self) -> [f64; 2] {
+        self.sum(|path| path.motion.output(&path.state))
+    }
+
+    /// Both outputs `duration` from now, which must be no longer than [`quiet`](Self::quiet).
+    pub fn outputs_after(&self, duration: f64) -> [f64; 2] {
+        self.sum(|path| path.motion.output(&path.motion.after(&path.state, path.acting, duration)))
+    }
+
+    /// How long nothing arrives: until the next change of an input has passed a dead time. Infinite when none is on its way.
+    pub fn quiet(&self) -> f64 {
+        self.paths.iter().filter_map(|path| self.arrival(path)).fold(f64::INFINITY, f64::min) - self.time
+    }
+
+    /// Moves on, over any number of arrivals.
+    pub fn advance(&mut self, duration: f64) {
+        let end = self.time + duration;
+        loop {
+            let quiet = self.quiet();
+            if self.time + quiet >= end {
+                break;
+            }
+            let arrival = self.time + quiet;
+            self.glide(quiet);
+            self.time = arrival;
+            self.take_arrivals();
+        }
+        self.glide(end - self.time);
+        self.time = end;
+        self.take_arrivals();
+    }
+
+    fn glide(&mut self, duration: f64) {
+        for path in &mut self.paths {
+            path.state = path.motion.after(&path.state, path.acting, duration);
+        }
+    }
+
+    /// When the awaited change arrives at the end of a path.
+    fn arrival(&self, path: &Moving) -> Option<f64> {
+        self.changes[path.input].get(path.awaited).map(|(time, _)| time + path.dead_time)
+    }
+
+    fn take_arrivals(&mut self) {
+        let Self { paths, changes, time, .. } = self;
+        for path in paths {
+            while let Some(&(begun, value)) = changes[path.input].get(path.awaited) {
+                if begun + path.dead_time > *time {
+                    break;
+                }
+                path.acting = value;
+                path.awaited += 1;
+            }
+        }
+    }
+
+    fn sum(&self, of_path: impl Fn(&Moving) -> f64) -> [f64; 2] {
+        let mut outputs = [0.0; 2];
+        for path in &self.paths {
+            outputs[path.output] += of_path(path);
+        }
+        outputs
+    }
+}
+
+impl TransferMatrix {
+    /// The four elements as paths.
+    pub fn paths(&self) -> Vec<Path> {
+        let path = |output: usize, input: usize| Path { input, output, element: self.0[output][input].clone() };
+        vec![path(0, 0), path(0, 1), path(1, 0), path(1, 1)]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+
+    fn one(dead_time: f64) -> Path {
+        Path { input: 0, output: 0, element: TransferFunction::lags(2.0, &[3.0], dead_time).unwrap() }
+    }
+
+    /// Response of `2/(3 s + 1)` to a unit step.
+    fn step(t: f64) -> f64 {
+        if t > 0.0 { 2.0 * (1.0 - (-t / 3.0).exp()) } else { 0.0 }
+    }
+
+    #[test]
+    fn a_dead_time_that_is_no_multiple_of_anything() {
+        let dead_time = std::f64::consts::SQRT_2;
+        let mut plant = DelayedPlant::new(&[one(dead_time)]).unwrap();
+        let mut t = 0.0;
+        for k in 0..40 {
+            // A step at 0 and one back at 2.1.
+            plant.set_inputs([if k < 3 { 1.0 } else { 0.0 }, 0.0]);
+            plant.advance(0.7);
+            t += 0.7;
+            let expected = step(t - dead_time) - step(t - 3.0 * 0.7 - dead_time);
+            assert_relative_eq!(plant.outputs()[0], expected, epsilon = 1e-13);
+        }
+        assert_eq!(plant.quiet(), f64::INFINITY);
+    }
+
+    #[test]
+    fn looking_ahead_is_what_happens() {
+        let mut plant = DelayedPlant::new(&[one(1.0), one(0.25)]).unwrap();
+        plant.set_inputs([1.0, 0.0]);
+        assert_relative_eq!(plant.quiet(), 0.25);
+        plant.advance(0.5);
+        assert_relative_eq!(plant.quiet(), 0.5);
+        let ahead = plant.outputs_after(0.3)[0];
+        plant.advance(0.3);
+        assert_relative_eq!(plant.outputs()[0], ahead, max_relative = 1e-14);
+        assert_relative_eq!(ahead, step(0.55), max_relative = 1e-13);
+    }
+
+    #[test]
+    fn paths_between_the_same_two_add_up() {
+        let mut plant = DelayedPlant::new(&[one(0.0), one(2.0)]).unwrap();
+        plant.set_inputs([1.0, 5.0]);
+        plant.advance(3.0);
+        assert_relative_eq!(plant.outputs()[0], step(3.0) + step(1.0), max_relative = 1e-13);
+        assert_eq!(plant.outputs()[1], 0.0);
+    }
+}

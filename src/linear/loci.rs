@@ -1,0 +1,380 @@
+//! Characteristic loci of a loop with two inputs and two outputs, and what they say by the generalised Nyquist criterion.
+//!
+//! A loop is given by its return ratio `L(jω) = G(jω) K(jω)` at real frequencies (rad per unit of time of the plant).
+
+use std::f64::consts::{PI, TAU};
+
+use nalgebra::Matrix2;
+
+use super::Complex;
+
+/// Halvings of a cell of the frequency grid, down to the last bits.
+const HALVINGS: u32 = 48;
+/// Steps of a golden-section search: the cell shrinks to some 1e-8 of itself, and the minimum to its square.
+const GOLDEN_STEPS: u32 = 40;
+
+/// Values λ1, λ2 of both loci: the eigenvalues of the return ratio (Campestrini 2006, eqs. 68, 69 and 100).
+pub fn locus_values(ratio: &Matrix2<Complex>) -> [Complex; 2] {
+    let mean = (ratio[(0, 0)] + ratio[(1, 1)]) * 0.5;
+    let half_difference = (ratio[(0, 0)] - ratio[(1, 1)]) * 0.5;
+    let root = (half_difference * half_difference + ratio[(0, 1)] * ratio[(1, 0)]).sqrt();
+    [mean + root, mean - root]
+}
+
+/// How the loci close over all frequencies, from −∞ to ∞ (Campestrini 2006, Figs. 11 to 13).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Closure {
+    /// Each locus is a closed curve of its own.
+    Separate,
+    /// One continues into the other: the two close only together.
+    Joint,
+}
+
+impl Closure {
+    /// From what the return ratio is at ω = 0, or, with integral action, what it is times s there: a real matrix with real
+    /// eigenvalues closes each locus, a pair of complex ones joins them.
+    pub fn of(at_zero: &Matrix2<f64>) -> Self {
+        let half_difference = (at_zero[(0, 0)] - at_zero[(1, 1)]) * 0.5;
+        if half_difference * half_difference + at_zero[(0, 1)] * at_zero[(1, 0)] < 0.0 {
+            Self::Joint
+        } else {
+            Self::Separate
+        }
+    }
+}
+
+/// Both loci over a range of frequencies, each followed without a jump.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Loci {
+    /// Frequencies, rising.
+    pub frequency: Vec<f64>,
+    /// Values of each locus at these.
+    pub branches: [Vec<Complex>; 2],
+}
+
+/// How far a loop is from instability when all of it is scaled or turned. Meant for stable loops.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Margins {
+    /// Shortest distance of a locus from −1.
+    pub distance: f64,
+    /// Frequency of that.
+    pub distance_frequency: f64,
+    /// Smallest factor above 1 on all gains at which a locus reaches −1; `None` where there is none.
+    pub gain_up: Option<f64>,
+    /// Largest factor below 1 at which one does.
+    pub gain_down: Option<f64>,
+    /// Smallest phase lag in all loops at which a locus reaches −1 (rad).
+    pub phase: Option<f64>,
+}
+
+impl Loci {
+    /// Follows the loci of a loop over `points` frequencies with equal ratios.
+    pub fn along(ratio: impl Fn(f64) -> Matrix2<Complex>, low: f64, high: f64, points: usize) -> Self {
+        let cells = points.max(2) - 1;
+        let growth = (high / low).ln() / cells as f64;
+        let frequency: Vec<f64> = (0..=cells).map(|k| low * (growth * k as f64).exp()).collect();
+        let mut branches = [Vec::with_capacity(frequency.len()), Vec::with_capacity(frequency.len())];
+        for &w in &frequency {
+            let values = locus_values(&ratio(w));
+            let [a, b] = match (expected(&branches[0]), expected(&branches[1])) {
+                (Some(a), Some(b)) => nearest_order(values, [a, b]),
+                _ => values,
+            };
+            branches[0].push(a);
+            branches[1].push(b);
+        }
+        Self { frequency, branches }
+    }
+
+    /// Margins, refined between the frequencies with the loop itself, which must be the one that was followed.
+    pub fn margins(&self, ratio: impl Fn(f64) -> Matrix2<Complex>) -> Margins {
+        let (distance, distance_frequency) = self.nearest_to_minus_one(&ratio);
+        let mut margins = Margins { distance, distance_frequency, gain_up: None, gain_down: None, phase: None };
+        for branch in &self.branches {
+            for (cell, w) in branch.windows(2).zip(self.frequency.windows(2)) {
+                let solve = |side: &dyn Fn(Complex) -> f64| {
+                    (side(cell[0]) * side(cell[1]) < 0.0)
+                        .then(|| crossing(&ratio, [cell[0], cell[1]], [w[0], w[1]], side))
+                };
+                if let Some(at) = solve(&|x| x.im).filter(|at| at.re < 0.0) {
+                    let factor = -1.0 / at.re;
+                    if factor > 1.0 {
+                        margins.gain_up = Some(margins.gain_up.map_or(factor, |best| best.min(factor)));
+                    } else {
+                        margins.gain_down = Some(margins.gain_down.map_or(factor, |best| best.max(factor)));
+                    }
+                }
+                if let Some(at) = solve(&|x| x.norm() - 1.0) {
+                    let lag = (at.arg() + PI).rem_euclid(TAU);
+                    margins.phase = Some(margins.phase.map_or(lag, |best| best.min(lag)));
+                }
+            }
+        }
+        margins
+    }
+
+    fn nearest_to_minus_one(&self, ratio: impl Fn(f64) -> Matrix2<Complex>) -> (f64, f64) {
+        let distance =
+            |w: f64| locus_values(&ratio(w)).map(|x| (x + 1.0).norm()).into_iter().fold(f64::INFINITY, f64::min);
+        let sampled: Vec<f64> = self.frequency.iter().map(|&w| distance(w)).collect();
+        let best = (0..sampled.len()).min_by(|&i, &j| sampled[i].total_cmp(&sampled[j])).unwrap_or(0);
+        let low = self.frequency[best.saturating_sub(1)];
+        let high = self.frequency[(best + 1).min(self.frequency.len() - 1)];
+        let w = golden_section(distance, low, high);
+        let (found, at_sample) = (distance(w), sampled[best]);
+        if found < at_sample { (found, w) } else { (at_sample, self.frequency[best]) }
+    }
+}
+
+/// Where a branch goes next if it goes on as it did.
+fn expected(branch: &[Complex]) -> Option<Complex> {
+    match branch {
+        [.., before, last] => Some(last * 2.0 - before),
+        [last] => Some(*last),
+        [] => None,
+    }
+}
+
+/// Two values in the order in which they are nearer to two others.
+fn nearest_order([a, b]: [Complex; 2], [first, second]: [Complex; 2]) -> [Complex; 2] {
+    let straight = (a - first).norm() + (b - second).norm();
+    let crossed = (b - first).norm() + (a - second).norm();
+    if crossed < straight { [b, a] } else { [a, b] }
+}
+
+/// The value of a branch where `side` changes its sign in a cell.
+fn crossing(
+    ratio: impl Fn(f64) -> Matrix2<Complex>,
+    [mut left, mut right]: [Complex; 2],
+    [mut low, mut high]: [f64; 2],
+    side: impl Fn(Complex) -> f64,
+) -> Complex {
+    let sign = side(left).signum();
+    for _ in 0..HALVINGS {
+        let middle = f64::midpoint(low, high);
+        let [a, b] = locus_values(&ratio(middle));
+        let guess = (left + right) * 0.5;
+        let value = if (a - guess).norm() <= (b - guess).norm() { a } else { b };
+        if side(value).signum() == sign {
+            (low, left) = (middle, value);
+        } else {
+            (high, right) = (middle, value);
+        }
+    }
+    right
+}
+
+/// Where a function with one minimum between two points has it.
+fn golden_section(function: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+    let share = (5.0_f64.sqrt() - 1.0) / 2.0;
+    let (mut a, mut b) = (high - share * (high - low), low + share * (high - low));
+    let (mut at_a, mut at_b) = (function(a), function(b));
+    for _ in 0..GOLDEN_STEPS {
+        if at_a < at_b {
+            (high, b, at_b) = (b, a, at_a);
+            a = high - share * (high - low);
+            at_a = function(a);
+        } else {
+            (low, a, at_a) = (a, b, at_b);
+            b = low + share * (high - low);
+            at_b = function(b);
+        }
+    }
+    f64::midpoint(low, high)
+}
+
+/// Stability of a loop of stable parts, by the number of encirclements of −1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LoopStability {
+    /// No pole in the right half-plane.
+    Stable,
+    /// That many poles in the right half-plane.
+    Unstable {
+        /// Number of them.
+        poles: u32,
+    },
+    /// A locus passes through −1, to rounding: an oscillation that stays.
+    Marginal {
+        /// Its frequency; 0 for a pole at the origin.
+        frequency: f64,
+    },
+}
+
+/// What the count of encirclements needs to know of a loop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LoopOutline {
+    /// Frequency below which only integral action moves.
+    pub low: f64,
+    /// Frequency above which the loop gain only falls.
+    pub high: f64,
+    /// Integrators in the loop: the order of the pole of det(I + L) at the origin.
+    pub integrators: u32,
+    /// Sum of the longest dead times of both loops: how fast det(I + L) turns.
+    pub dead_time: f64,
+}
+
+/// Turn of det(I + L) between two frequencies of the count (rad) that is followed without a closer look.
+const QUIET_TURN: f64 = 0.4;
+/// Bisections of one step of the count; a turn that is not resolved by then goes through zero.
+const DEPTH: u32 = 40;
+/// Decades that the count goes beyond the outline on each side to find the limits.
+const DECADES: u32 = 9;
+
+impl LoopStability {
+    /// The verdict on a loop whose parts are stable, but for integrators.
+    ///
+    /// Loci that together encircle −1 are the same as det(I + L) = (1 + λ1)(1 + λ2) that encircles 0. Followed from 0 to ∞
+    /// its argument grows by Δ, and passing the pole of order n at the origin on its right side costs n π, so
+    /// `Z = n/2 − Δ/π` poles of the closed loop are in the right half-plane (Campestrini 2006, Theorem 1, with P = 0).
+    pub fn of(ratio: impl Fn(f64) -> Matrix2<Complex>, outline: &LoopOutline) -> Self {
+        let value = |w: f64| (Matrix2::identity() + ratio(w)).determinant();
+        let integrators = outline.integrators;
+        // Below all else det(I + L) is R/(jω)^n with a real R.
+        let residue = |w: f64| value(w) * Complex::new(0.0, w).powu(integrators);
+        let settled = |r: Complex| r.im.abs() <= 0.05 * r.re.abs();
+        let mut start = outline.low * 1e-3;
+        let mut limit = DECADES;
+        while !settled(residue(start)) && limit > 0 {
+            start *= 0.1;
+            limit -= 1;
+        }
+        let first = residue(start);
+        if !settled(first) {
+            return Self::Marginal { frequency: 0.0 };
+        }
+        let mut turn = if first.re > 0.0 { first.arg() } else { (-first).arg() };
+        let mut w = start;
+        let mut at = value(w);
+        let mut quiet = false;
+        // To where det(I + L) is 1 and stays there.
+        while w < outline.high || !quiet {
+            if w > outline.high * 10.0_f64.powi(6) {
+                break;
+            }
+            let step =
+                (0.03 * w).min(if outline.dead_time > 0.0 { QUIET_TURN / outline.dead_time } else { f64::INFINITY });
+            // Where nothing is left to turn, in longer strides.
+            let next = if quiet && w > outline.high { w * 1.5 } else { w + step };
+            let after = value(next);
+            match turned(&value, (w, at), (next, after), DEPTH) {
+                Ok(angle) => turn += angle,
+                Err(frequency) => return Self::Marginal { frequency },
+            }
+            (w, at) = (next, after);
+            quiet = (at - 1.0).norm() < 0.1;
+        }
+        turn -= at.arg();
+        let poles = (f64::from(integrators) / 2.0 - turn / PI).round();
+        if poles <= 0.0 { Self::Stable } else { Self::Unstable { poles: count(poles) } }
+    }
+}
+
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive number of poles")]
+fn count(poles: f64) -> u32 {
+    poles as u32
+}
+
+/// Angle by which a function of frequency turns between two points; the frequency where it cannot be told.
+fn turned(
+    value: &impl Fn(f64) -> Complex,
+    (low, at_low): (f64, Complex),
+    (high, at_high): (f64, Complex),
+    depth: u32,
+) -> Result<f64, f64> {
+    let angle = (at_high / at_low).arg();
+    if angle.abs() <= QUIET_TURN {
+        return Ok(angle);
+    }
+    if depth == 0 || !angle.is_finite() {
+        return Err(low);
+    }
+    let middle = f64::midpoint(low, high);
+    let at_middle = value(middle);
+    Ok(turned(value, (low, at_low), (middle, at_middle), depth - 1)?
+        + turned(value, (middle, at_middle), (high, at_high), depth - 1)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+
+    fn diagonal(a: Complex, b: Complex) -> Matrix2<Complex> {
+        Matrix2::new(a, Complex::ZERO, Complex::ZERO, b)
+    }
+
+    /// `k/(s + 1)^3` in loop 1 and a harmless loop 2; unstable beyond k = 8.
+    fn cubic(k: f64) -> impl Fn(f64) -> Matrix2<Complex> {
+        move |w| {
+            let lag = Complex::new(1.0, w).inv();
+            diagonal(lag.powu(3) * k, lag * 0.5)
+        }
+    }
+
+    const OUTLINE: LoopOutline = LoopOutline { low: 0.01, high: 100.0, integrators: 0, dead_time: 0.0 };
+
+    #[test]
+    fn a_triple_lag_is_stable_up_to_eight() {
+        assert_eq!(LoopStability::of(cubic(7.9), &OUTLINE), LoopStability::Stable);
+        assert_eq!(LoopStability::of(cubic(8.1), &OUTLINE), LoopStability::Unstable { poles: 2 });
+        let LoopStability::Marginal { frequency } = LoopStability::of(cubic(8.0), &OUTLINE) else {
+            panic!("a locus on −1 is marginal")
+        };
+        assert_relative_eq!(frequency, 3.0_f64.sqrt(), max_relative = 0.05);
+        // Negative gain: the real pole at k < −1.
+        assert_eq!(LoopStability::of(cubic(-1.1), &OUTLINE), LoopStability::Unstable { poles: 1 });
+    }
+
+    #[test]
+    fn integrators_and_dead_time_are_counted() {
+        // k e^(−s)/s is stable up to π/2; in both loops it counts twice.
+        let delayed = |k: f64| {
+            move |w: f64| {
+                let g = Complex::cis(-w) / Complex::new(0.0, w) * k;
+                diagonal(g, g)
+            }
+        };
+        let outline = LoopOutline { low: 0.01, high: 100.0, integrators: 2, dead_time: 2.0 };
+        assert_eq!(LoopStability::of(delayed(1.5), &outline), LoopStability::Stable);
+        assert_eq!(LoopStability::of(delayed(1.65), &outline), LoopStability::Unstable { poles: 4 });
+        // Far beyond: pairs of poles cross at (4 n + 1) π/2.
+        assert_eq!(LoopStability::of(delayed(8.0), &outline), LoopStability::Unstable { poles: 8 });
+        // The wrong sign: one real pole in each loop.
+        assert_eq!(LoopStability::of(delayed(-0.1), &outline), LoopStability::Unstable { poles: 2 });
+    }
+
+    #[test]
+    fn margins_of_a_triple_lag() {
+        let ratio = cubic(2.0);
+        let loci = Loci::along(&ratio, 0.01, 100.0, 300);
+        let margins = loci.margins(&ratio);
+        assert_relative_eq!(margins.gain_up.unwrap(), 4.0, max_relative = 1e-10);
+        assert_eq!(margins.gain_down, None);
+        // |2/(jω + 1)^3| = 1 at ω² = 2^(2/3) − 1; loop 2 never reaches 1.
+        let w = (2.0_f64.powf(2.0 / 3.0) - 1.0).sqrt();
+        assert_relative_eq!(margins.phase.unwrap(), PI - 3.0 * w.atan(), max_relative = 1e-10);
+        let nearest = |w: f64| (Complex::new(1.0, w).inv().powu(3) * 2.0 + 1.0).norm();
+        assert!(margins.distance <= nearest(margins.distance_frequency * 1.001));
+        assert!(margins.distance <= nearest(margins.distance_frequency * 0.999));
+    }
+
+    #[test]
+    fn branches_that_cross_are_followed() {
+        // Two lags whose loci meet nowhere but whose sizes change order.
+        let ratio = |w: f64| diagonal(Complex::new(1.0, w).inv() * 3.0, Complex::new(1.0, 0.1 * w).inv());
+        let loci = Loci::along(ratio, 0.01, 1e3, 200);
+        let first = loci.branches[0].first().unwrap().norm();
+        let (large, small) = if first > 2.0 { (0, 1) } else { (1, 0) };
+        for (k, &w) in loci.frequency.iter().enumerate() {
+            assert!((loci.branches[large][k] - ratio(w)[(0, 0)]).norm() < 1e-12);
+            assert!((loci.branches[small][k] - ratio(w)[(1, 1)]).norm() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn complex_eigenvalues_at_zero_join_the_loci() {
+        assert_eq!(Closure::of(&Matrix2::new(0.5, -1.0, 1.0, 2.4)), Closure::Joint);
+        assert_eq!(Closure::of(&Matrix2::new(4.0, -0.19, 8.0, 0.456)), Closure::Separate);
+    }
+}
