@@ -5,10 +5,10 @@
 
 use std::f64::consts::TAU;
 
+use quadtank::control::ParallelPid;
 use quadtank::linear::Complex;
 use quadtank::tuning::{
-    ControllerPair, ParallelPid, PublishedPlant, TuningRule, integral_action_may_be_stable, place_both_loci,
-    place_one_locus,
+    ControllerPair, PublishedPlant, TuningRule, integral_action_may_be_stable, place_both_loci, place_one_locus,
 };
 
 /// Periods of the printed critical points, by their numbers (Tables 7 and 13).

@@ -4,11 +4,14 @@
 
 use approx::assert_relative_eq;
 use quadtank::linear::TransferMatrix;
-use quadtank::tuning::{CriticalSearch, PublishedPlant, TuningRule, UltimatePoint, importance_direction};
+use quadtank::tuning::{
+    CriticalCurve, CriticalSearch, GainLimit, PublishedPlant, TuningRule, UltimatePoint, frequency_range,
+    importance_direction,
+};
 
 fn with_search<T>(plant: PublishedPlant, work: impl FnOnce(&TransferMatrix, &CriticalSearch) -> T) -> T {
     let transfer = plant.transfer_matrix().unwrap();
-    let (lowest, highest) = plant.frequencies();
+    let (lowest, highest) = frequency_range(&transfer).unwrap();
     work(&transfer, &CriticalSearch::new(&transfer, lowest, highest))
 }
 
@@ -152,22 +155,31 @@ fn the_curve_of_wood_and_berry_by_importance() {
 #[test]
 fn at_the_corner_of_wood_and_berry_both_loci_pass_minus_one() {
     with_search(PublishedPlant::WoodBerry, |plant, search| {
-        let crossings = |importance: f64| search.crossings(importance_direction(&plant.dc_gain(), importance));
-        // Above the corner the slow oscillation comes first, below it the quick one.
-        let slow_first = |importance: f64| crossings(importance)[0].period() > 8.0;
-        let (mut below, mut above) = (0.19, 0.22);
-        assert!(!slow_first(below) && slow_first(above));
-        for _ in 0..50 {
-            let middle = f64::midpoint(below, above);
-            if slow_first(middle) { above = middle } else { below = middle }
+        let curve = CriticalCurve::of(plant, search, 200);
+        let [corner] = curve.corners[..] else { panic!("one corner, not {:?}", curve.corners) };
+        // Recomputed by an independent program.
+        within(corner.importance, 0.20137, 5e-6);
+        for point in corner.points {
+            within(point.gains[0], 1.90694, 5e-6);
+            within(point.gains[1], -0.253_364, 5e-7);
         }
-        within(above, 0.20137, 5e-6);
-        let found = crossings(above);
-        within(found[0].gains[0], 1.90694, 5e-6);
-        within(found[0].gains[1], -0.253_364, 5e-7);
-        within(found[0].period(), 11.9807, 1e-4);
-        within(found[1].period(), 3.93999, 1e-4);
-        assert_relative_eq!(found[0].factor, found[1].factor, max_relative = 1e-9);
+        within(corner.points[0].period(), 11.9807, 1e-4);
+        within(corner.points[1].period(), 3.93999, 1e-4);
+        // Non-convex: between k1 = 1.27 and the corner |k2| rises again.
+        let at = |importance: f64| search.nearest(importance_direction(&plant.dc_gain(), importance)).unwrap().gains;
+        assert!(at(0.3)[0] < at(0.25)[0] && at(0.3)[1].abs() < 0.2522 && corner.points[0].gains[1].abs() > 0.2533);
+    });
+}
+
+#[test]
+fn process_two_has_no_corner_and_its_ends_are_single_loops() {
+    with_search(PublishedPlant::ProcessTwo, |plant, search| {
+        let curve = CriticalCurve::of(plant, search, 200);
+        assert!(curve.corners.is_empty());
+        assert!(curve.points.iter().all(|point| matches!(point.limit, GainLimit::Oscillation(_))));
+        let GainLimit::Oscillation(first) = curve.points[0].limit else { panic!("loop 1 alone oscillates") };
+        assert_eq!(first.gains[1], 0.0);
+        within(first.gains[0], 9.0, 1e-9);
     });
 }
 

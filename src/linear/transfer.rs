@@ -93,12 +93,39 @@ impl TransferFunction {
     /// # Errors
     /// [`LinearError::NoConvergence`] as [`eigenvalues`].
     pub fn poles(&self) -> Result<Vec<Complex>, LinearError> {
-        let order = self.order();
-        let leading = self.denominator[order];
-        eigenvalues(&DMatrix::from_fn(order, order, |row, column| {
+        eigenvalues(&self.companion())
+    }
+
+    /// Controllable form, with as many states as the denominator has degrees.
+    ///
+    /// # Errors
+    /// [`LinearError::OutOfRange`] with a dead time, which no finite number of states has, or with the relative degree
+    /// when the element is not proper.
+    pub fn state_space(&self) -> Result<StateSpace, LinearError> {
+        if self.dead_time != 0.0 {
+            return Err(LinearError::OutOfRange { field: "dead_time", value: self.dead_time });
+        }
+        let n = self.order();
+        let degree = self.numerator.iter().rposition(|&x| x != 0.0).unwrap_or(0);
+        if degree > n {
+            return Err(LinearError::OutOfRange { field: "relative_degree", value: n as f64 - degree as f64 });
+        }
+        let leading = self.denominator[n];
+        let beta = |k: usize| self.numerator.get(k).copied().unwrap_or(0.0) / leading;
+        let through = beta(n);
+        let b = DMatrix::from_fn(n, 1, |row, _| if row + 1 == n { 1.0 } else { 0.0 });
+        let c = DMatrix::from_fn(1, n, |_, k| beta(k) - through * self.denominator[k] / leading);
+        StateSpace::new(self.companion(), b, c, DMatrix::from_element(1, 1, through))
+    }
+
+    /// The companion matrix of a(s).
+    fn companion(&self) -> DMatrix<f64> {
+        let n = self.order();
+        let leading = self.denominator[n];
+        DMatrix::from_fn(n, n, |row, column| {
             let chain = if column == row + 1 { 1.0 } else { 0.0 };
-            if row + 1 == order { -self.denominator[column] / leading } else { chain }
-        }))
+            if row + 1 == n { -self.denominator[column] / leading } else { chain }
+        })
     }
 
     /// Value at a point of the s-plane; not finite at a pole.
@@ -190,40 +217,20 @@ impl TransferMatrix {
     /// State space, one controllable form for each element; poles that elements share stand there for each of them.
     ///
     /// # Errors
-    /// [`LinearError::OutOfRange`] with a dead time, which no finite number of states has, or with the relative degree of
-    /// an element that is not proper.
+    /// As [`TransferFunction::state_space`].
     pub fn state_space(&self) -> Result<StateSpace, LinearError> {
-        let elements = self.0.as_flattened();
-        if let Some(delayed) = elements.iter().find(|g| g.dead_time != 0.0) {
-            return Err(LinearError::OutOfRange { field: "dead_time", value: delayed.dead_time });
-        }
-        let orders = elements.iter().map(TransferFunction::order).collect::<Vec<_>>();
-        let n = orders.iter().sum();
+        let [[g11, g12], [g21, g22]] = &self.0;
+        let models = [g11.state_space()?, g12.state_space()?, g21.state_space()?, g22.state_space()?];
+        let n = models.iter().map(StateSpace::order).sum();
         let (mut a, mut b) = (DMatrix::zeros(n, n), DMatrix::zeros(n, 2));
         let (mut c, mut d) = (DMatrix::zeros(2, n), DMatrix::zeros(2, 2));
         let mut first = 0;
-        for (index, (g, &order)) in elements.iter().zip(&orders).enumerate() {
-            let (row, column) = (index / 2, index % 2);
-            let degree = g.numerator.iter().rposition(|&x| x != 0.0).unwrap_or(0);
-            if degree > order {
-                let value = order as f64 - degree as f64;
-                return Err(LinearError::OutOfRange { field: "relative_degree", value });
-            }
-            let leading = g.denominator[order];
-            let coefficient = |k: usize| g.numerator.get(k).copied().unwrap_or(0.0) / leading;
-            let through = coefficient(order);
-            d[(row, column)] = through;
-            for k in 0..order {
-                let alpha = g.denominator[k] / leading;
-                a[(first + order - 1, first + k)] = -alpha;
-                if k + 1 < order {
-                    a[(first + k, first + k + 1)] = 1.0;
-                }
-                c[(row, first + k)] = coefficient(k) - through * alpha;
-            }
-            if order > 0 {
-                b[(first + order - 1, column)] = 1.0;
-            }
+        for (index, model) in models.iter().enumerate() {
+            let (row, column, order) = (index / 2, index % 2, model.order());
+            a.view_mut((first, first), (order, order)).copy_from(&model.a);
+            b.view_mut((first, column), (order, 1)).copy_from(&model.b);
+            c.view_mut((row, first), (1, order)).copy_from(&model.c);
+            d[(row, column)] = model.d[0];
             first += order;
         }
         StateSpace::new(a, b, c, d)

@@ -3,6 +3,7 @@
 mod closed_loop;
 mod course;
 mod experiment;
+mod held_tank;
 mod hold;
 mod implicit;
 mod integrate;
@@ -13,12 +14,15 @@ mod open_loop;
 mod poles;
 mod response;
 mod trajectory;
+mod two_loops;
 
 pub use closed_loop::simulate;
 pub use course::MAX_ROWS;
 pub use experiment::{Experiment, Load, LoadStep, Measurement, SetPointStep};
+pub use held_tank::HeldTank;
 pub use linear_loop::simulate_linear;
 pub use metrics::{LoopMetrics, loop_metrics};
 pub use poles::{ClosedLoop, Stability, UNIT_CIRCLE_TOLERANCE, closed_loop};
 pub use response::Settling;
 pub use trajectory::{Event, EventKind, Trajectory};
+pub use two_loops::{Halt, HeldPlant, LoopTrace, TwoLoops, run_two_loops};

@@ -2,7 +2,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::Matrix2;
 
-use crate::linear::{Complex, TransferMatrix};
+use crate::linear::{Complex, LinearError, TransferMatrix};
 use crate::scalar::sort_few;
 
 /// Points of the frequency grid for each decade: fine enough that two crossings of a published plant never share a cell.
@@ -28,6 +28,41 @@ impl CriticalPoint {
     }
 }
 
+/// What bounds the stable gains in a direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum GainLimit {
+    /// A pair of poles on the imaginary axis: an ultimate point.
+    Oscillation(CriticalPoint),
+    /// A real pole at the origin: beyond it the loop drifts away without an oscillation, and there is no ultimate period.
+    RealPole {
+        /// Gains k1, k2 there.
+        gains: [f64; 2],
+        /// By how much the direction was multiplied to get there.
+        factor: f64,
+    },
+    /// Nothing: every gain is stable.
+    None,
+}
+
+/// Frequencies (rad per unit of time) between which the ultimate points of a plant lie: two decades beyond its slowest and
+/// its quickest part, dead times included.
+///
+/// # Errors
+/// As [`TransferFunction::poles`](crate::linear::TransferFunction::poles).
+pub fn frequency_range(plant: &TransferMatrix) -> Result<(f64, f64), LinearError> {
+    let (mut slowest, mut quickest) = (f64::INFINITY, 0.0_f64);
+    for element in plant.0.as_flattened() {
+        let rates = element.poles()?.into_iter().map(Complex::norm);
+        let delay = (element.dead_time() > 0.0).then(|| element.dead_time().recip());
+        for rate in rates.chain(delay).filter(|&rate| rate > 0.0) {
+            slowest = slowest.min(rate);
+            quickest = quickest.max(rate);
+        }
+    }
+    // A plant of gains alone has no time of its own.
+    Ok(if quickest > 0.0 { (slowest * 0.01, quickest * 100.0) } else { (0.01, 100.0) })
+}
+
 /// Direction `(k1, k2)` in which loop 2 has the importance r2 relative to loop 1,
 /// `r2 = kc2 g22(0)/(kc1 g11(0))` (Campestrini 2006, eq. 94).
 pub fn importance_direction(dc_gain: &Matrix2<f64>, importance: f64) -> [f64; 2] {
@@ -44,6 +79,7 @@ pub fn importance_direction(dc_gain: &Matrix2<f64>, importance: f64) -> [f64; 2]
 #[derive(Clone, Debug)]
 pub struct CriticalSearch<'a> {
     plant: &'a TransferMatrix,
+    at_rest: Sample,
     grid: Vec<Sample>,
 }
 
@@ -87,7 +123,7 @@ impl<'a> CriticalSearch<'a> {
         let cells = ((highest / lowest).log10() * PER_DECADE).ceil().clamp(1.0, 1e5) as usize;
         let ratio = (highest / lowest).ln() / cells as f64;
         let grid = (0..=cells).map(|k| Sample::of(plant, lowest * (ratio * k as f64).exp())).collect();
-        Self { plant, grid }
+        Self { plant, at_rest: Sample::of(plant, 0.0), grid }
     }
 
     /// All critical points in a direction `(c1, c2)`, nearest first. Only the nearest bounds the stable gains; two at the
@@ -110,9 +146,29 @@ impl<'a> CriticalSearch<'a> {
         points
     }
 
-    /// The critical point that bounds the stable gains in a direction; `None` where every gain is stable.
+    /// The nearest critical point in a direction; `None` where there is none.
     pub fn nearest(&self, direction: [f64; 2]) -> Option<CriticalPoint> {
         self.crossings(direction).into_iter().next()
+    }
+
+    /// What bounds the stable gains in a direction: an oscillation or a real pole, whichever is nearer.
+    pub fn limit(&self, direction: [f64; 2]) -> GainLimit {
+        let point = self.nearest(direction);
+        let real = self.real_pole(direction).filter(|&factor| point.is_none_or(|point| factor < point.factor));
+        match (real, point) {
+            (Some(factor), _) => GainLimit::RealPole { gains: direction.map(|c| factor * c), factor },
+            (None, Some(point)) => GainLimit::Oscillation(point),
+            (None, None) => GainLimit::None,
+        }
+    }
+
+    /// The smallest positive factor for which `det(I + a G(0) diag c) = 1 + a T + a² D` is zero.
+    fn real_pole(&self, direction: [f64; 2]) -> Option<f64> {
+        let (t, d) = self.at_rest.trace_and_determinant(direction);
+        // In 1/a: x² + T x + D = 0, whose largest root is the nearest factor.
+        let discriminant = t.re * t.re - 4.0 * d.re;
+        let largest = f64::midpoint(-t.re, discriminant.sqrt());
+        (discriminant >= 0.0 && largest > 0.0).then(|| largest.recip())
     }
 
     fn solve(&self, mut low: Sample, mut high: Sample, direction: [f64; 2]) -> Sample {

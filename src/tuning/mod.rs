@@ -3,11 +3,27 @@
 //! The unit of time is that of the plant; periods are in that unit, frequencies in rad per that unit.
 
 mod critical;
+mod curve;
+mod error;
+mod experiment;
+mod limit_cycle;
 mod placement;
 mod plants;
+mod relay_test;
 mod rules;
 
-pub use critical::{CriticalPoint, CriticalSearch, importance_direction};
-pub use placement::{ControllerPair, ParallelPid, integral_action_may_be_stable, place_both_loci, place_one_locus};
-pub use plants::PublishedPlant;
-pub use rules::{PidGains, TuningRule, UltimatePoint};
+pub use critical::{CriticalPoint, CriticalSearch, GainLimit, frequency_range, importance_direction};
+pub use curve::{Corner, CriticalCurve, CurvePoint};
+pub use error::TuningError;
+pub use experiment::{
+    RelayTest, SequentialStep, TestTime, check_stable, independent_test, independent_tuning, modulus_estimator,
+    relay_test, sequential_tuning, simultaneous_test, single_loop_test, ultimate_point, with_integrator,
+};
+pub use limit_cycle::{LimitCycle, limit_cycles};
+pub use placement::{ControllerPair, integral_action_may_be_stable, place_both_loci, place_one_locus};
+pub use plants::{PublishedPlant, tank_transfer_matrix};
+pub use relay_test::{
+    CurveDistance, Exciter, LoopMeasurement, Oscillation, RelayReading, RelayVerdict, distance_from_curve,
+    read_relay_test,
+};
+pub use rules::{TuningRule, UltimatePoint};

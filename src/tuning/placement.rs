@@ -1,17 +1,7 @@
 use nalgebra::Matrix2;
 
+use crate::control::ParallelPid;
 use crate::linear::Complex;
-
-/// A parallel PID controller `kp + ki/s + kd s` (Campestrini 2006, §5).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ParallelPid {
-    /// kp.
-    pub proportional: f64,
-    /// ki (per unit of time).
-    pub integral: f64,
-    /// kd (units of time); 0 for PI.
-    pub derivative: f64,
-}
 
 /// What the two controllers have to be at the frequency of the critical point: p1 and p2.
 pub type ControllerPair = [Complex; 2];
@@ -64,11 +54,6 @@ impl ParallelPid {
         let slope = 2.0 * p.im / p.re;
         let integral_time = (slope + slope.hypot(2.0)) / frequency;
         Some(Self { proportional: p.re, integral: p.re / integral_time, derivative: p.re * integral_time / 4.0 })
-    }
-
-    /// C(jω).
-    pub fn at(&self, frequency: f64) -> Complex {
-        Complex::new(self.proportional, self.derivative * frequency - self.integral / frequency)
     }
 }
 

@@ -1,5 +1,6 @@
 use std::f64::consts::TAU;
 
+use crate::control::IsaPid;
 use crate::linear::Complex;
 
 /// The ultimate point of a loop: the gain at which it oscillates for ever, and the period of that.
@@ -9,25 +10,6 @@ pub struct UltimatePoint {
     pub gain: f64,
     /// Tc.
     pub period: f64,
-}
-
-/// A PID controller `K (1 + 1/(Ti s) + Td s)` (Campestrini 2006, eq. 9).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PidGains {
-    /// K.
-    pub gain: f64,
-    /// Ti; infinite without integral action.
-    pub integral_time: f64,
-    /// Td; 0 without derivative action.
-    pub derivative_time: f64,
-}
-
-impl PidGains {
-    /// C(jω).
-    pub fn at(&self, frequency: f64) -> Complex {
-        let imaginary = self.derivative_time * frequency - 1.0 / (self.integral_time * frequency);
-        Complex::new(1.0, imaginary) * self.gain
-    }
 }
 
 /// A rule that makes controller settings of an ultimate point.
@@ -67,9 +49,9 @@ impl TuningRule {
     }
 
     /// The settings for an ultimate point.
-    pub fn settings(self, point: UltimatePoint) -> PidGains {
+    pub fn settings(self, point: UltimatePoint) -> IsaPid {
         let (gain, integral, derivative) = self.ratios();
-        PidGains {
+        IsaPid {
             gain: gain * point.gain,
             integral_time: integral * point.period,
             derivative_time: derivative * point.period,

@@ -1,0 +1,256 @@
+//! PID controllers in their three forms, and two loops of them, with or without what couples them.
+
+use nalgebra::Matrix2;
+
+use crate::linear::Complex;
+
+/// The derivative filter is this many times quicker than the derivative time.
+const FILTER: f64 = 100.0;
+
+/// A parallel PID controller `kp + ki/s + kd s` (Campestrini 2006, §5). Times are in the unit of the plant.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ParallelPid {
+    /// kp.
+    pub proportional: f64,
+    /// ki (per unit of time).
+    pub integral: f64,
+    /// kd (units of time); 0 for PI.
+    pub derivative: f64,
+}
+
+/// A PID controller without interaction of its actions, `K (1 + 1/(Ti s) + Td s)` (Campestrini 2006, eq. 9).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct IsaPid {
+    /// K.
+    pub gain: f64,
+    /// Ti; infinite without integral action.
+    pub integral_time: f64,
+    /// Td; 0 without derivative action.
+    pub derivative_time: f64,
+}
+
+/// A PID controller in series, `K′ (1 + 1/(Ti′ s)) (1 + Td′ s)` (Campestrini 2006, eq. 10).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SeriesPid {
+    /// K′.
+    pub gain: f64,
+    /// Ti′.
+    pub integral_time: f64,
+    /// Td′.
+    pub derivative_time: f64,
+}
+
+impl ParallelPid {
+    /// Time constant of the derivative filter, `Tf = |kd/kp|/100`; 0 without a derivative or a proportional part.
+    pub fn filter_time(&self) -> f64 {
+        if self.derivative == 0.0 || self.proportional == 0.0 {
+            return 0.0;
+        }
+        (self.derivative / self.proportional).abs() / FILTER
+    }
+
+    /// `C(jω)` with an ideal derivative.
+    pub fn at(&self, frequency: f64) -> Complex {
+        Complex::new(self.proportional, self.derivative * frequency - self.integral / frequency)
+    }
+
+    /// `C(jω)` with the derivative filter, `kd s/(Tf s + 1)`: what is simulated.
+    pub fn filtered_at(&self, frequency: f64) -> Complex {
+        let derivative = Complex::new(0.0, self.derivative * frequency);
+        let filter = Complex::new(1.0, self.filter_time() * frequency);
+        Complex::new(self.proportional, -self.integral / frequency) + derivative / filter
+    }
+
+    fn scaled(&self, factor: f64) -> Self {
+        Self {
+            proportional: factor * self.proportional,
+            integral: factor * self.integral,
+            derivative: factor * self.derivative,
+        }
+    }
+}
+
+impl From<IsaPid> for ParallelPid {
+    fn from(pid: IsaPid) -> Self {
+        Self {
+            proportional: pid.gain,
+            integral: pid.gain / pid.integral_time,
+            derivative: pid.gain * pid.derivative_time,
+        }
+    }
+}
+
+impl IsaPid {
+    /// `C(jω)`.
+    pub fn at(&self, frequency: f64) -> Complex {
+        ParallelPid::from(*self).at(frequency)
+    }
+
+    /// Made slower and weaker by a factor f: gain K/f, times f T (Campestrini 2006, eqs. 92 and 93, for Kc and Tc).
+    #[must_use]
+    pub fn detuned(self, factor: f64) -> Self {
+        Self {
+            gain: self.gain / factor,
+            integral_time: self.integral_time * factor,
+            derivative_time: self.derivative_time * factor,
+        }
+    }
+
+    /// The same controller in parallel form as ISA form; `None` without a proportional part.
+    pub fn from_parallel(pid: ParallelPid) -> Option<Self> {
+        (pid.proportional != 0.0).then(|| Self {
+            gain: pid.proportional,
+            integral_time: if pid.integral == 0.0 { f64::INFINITY } else { pid.proportional / pid.integral },
+            derivative_time: pid.derivative / pid.proportional,
+        })
+    }
+}
+
+impl From<SeriesPid> for IsaPid {
+    /// `K = K′ (Ti′ + Td′)/Ti′`, `Ti = Ti′ + Td′`, `Td = Ti′ Td′/(Ti′ + Td′)` (Campestrini 2006, eq. 11).
+    fn from(series: SeriesPid) -> Self {
+        let sum = series.integral_time + series.derivative_time;
+        Self {
+            gain: series.gain * sum / series.integral_time,
+            integral_time: sum,
+            derivative_time: series.integral_time * series.derivative_time / sum,
+        }
+    }
+}
+
+impl SeriesPid {
+    /// The same controller in series; `None` for `Ti < 4 Td`, whose zeros are complex. The longer of both times is Ti′.
+    pub fn from_isa(isa: IsaPid) -> Option<Self> {
+        let discriminant = 1.0 - 4.0 * isa.derivative_time / isa.integral_time;
+        if !(discriminant >= 0.0 && isa.integral_time.is_finite()) {
+            return None;
+        }
+        let integral_time = isa.integral_time * 0.5 * (1.0 + discriminant.sqrt());
+        let derivative_time = isa.integral_time - integral_time;
+        Some(Self { gain: isa.gain * integral_time / isa.integral_time, integral_time, derivative_time })
+    }
+}
+
+/// Controllers from both control errors to both inputs, row by input.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PidMatrix(pub [[ParallelPid; 2]; 2]);
+
+impl PidMatrix {
+    /// Two loops that know nothing of each other: error 1 to input 1, error 2 to input 2.
+    pub fn decentralised([first, second]: [ParallelPid; 2]) -> Self {
+        let none = ParallelPid::default();
+        Self([[first, none], [none, second]])
+    }
+
+    /// Two loops behind a static decoupler `u1 = v1 + K_I1 v2`, `u2 = v2 + K_I2 v1` (Campestrini 2006, eq. 72).
+    pub fn decoupled([first, second]: [ParallelPid; 2], [one, two]: [f64; 2]) -> Self {
+        Self([[first, second.scaled(one)], [first.scaled(two), second]])
+    }
+
+    /// Value at a frequency, with derivative filters.
+    pub fn at(&self, frequency: f64) -> Matrix2<Complex> {
+        Matrix2::from_fn(|row, column| self.0[row][column].filtered_at(frequency))
+    }
+
+    /// The integral gains.
+    pub fn integral(&self) -> Matrix2<f64> {
+        Matrix2::from_fn(|row, column| self.0[row][column].integral)
+    }
+
+    /// How many integrators it takes: the rank of the integral gains.
+    pub fn integrators(&self) -> u32 {
+        let gains = self.integral();
+        let size = gains.norm();
+        if size == 0.0 {
+            0
+        } else if gains.determinant().abs() <= f64::EPSILON * size * size {
+            1
+        } else {
+            2
+        }
+    }
+
+    /// At rest and ready to take samples, one every `sampling_time`.
+    pub fn start(&self, sampling_time: f64) -> RunningPidMatrix {
+        let running = |pid: ParallelPid| RunningPid { pid, sampling_time, integral: 0.0, derivative: 0.0, error: 0.0 };
+        RunningPidMatrix(self.0.map(|row| row.map(running)))
+    }
+}
+
+/// A sampled controller: the integral by trapezia, the filtered derivative by backward differences.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct RunningPid {
+    pid: ParallelPid,
+    sampling_time: f64,
+    integral: f64,
+    derivative: f64,
+    error: f64,
+}
+
+impl RunningPid {
+    fn step(&mut self, error: f64) -> f64 {
+        let (pid, ts) = (self.pid, self.sampling_time);
+        self.integral += pid.integral * ts * 0.5 * (error + self.error);
+        let filter = pid.filter_time();
+        self.derivative = (filter * self.derivative + pid.derivative * (error - self.error)) / (filter + ts);
+        self.error = error;
+        pid.proportional * error + self.integral + self.derivative
+    }
+}
+
+/// The controllers of a [`PidMatrix`] with their states.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RunningPidMatrix([[RunningPid; 2]; 2]);
+
+impl RunningPidMatrix {
+    /// One sample: from both errors to both inputs.
+    pub fn step(&mut self, errors: [f64; 2]) -> [f64; 2] {
+        self.0.each_mut().map(|[first, second]| first.step(errors[0]) + second.step(errors[1]))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+
+    #[test]
+    fn the_three_forms_are_one_controller() {
+        let series = SeriesPid { gain: 2.0, integral_time: 5.0, derivative_time: 1.25 };
+        let isa = IsaPid::from(series);
+        let w = 0.8;
+        let s = Complex::new(0.0, w);
+        let expected = ((s * 5.0).inv() + 1.0) * (s * 1.25 + 1.0) * 2.0;
+        assert_relative_eq!((isa.at(w) - expected).norm(), 0.0, epsilon = 1e-14);
+        assert_relative_eq!((ParallelPid::from(isa).at(w) - expected).norm(), 0.0, epsilon = 1e-14);
+        let back = SeriesPid::from_isa(isa).unwrap();
+        assert_relative_eq!(back.integral_time, 5.0, max_relative = 1e-14);
+        assert_relative_eq!(back.derivative_time, 1.25, max_relative = 1e-14);
+        assert_relative_eq!(back.gain, 2.0, max_relative = 1e-14);
+        assert_eq!(SeriesPid::from_isa(IsaPid { gain: 1.0, integral_time: 3.9, derivative_time: 1.0 }), None);
+        let again = IsaPid::from_parallel(ParallelPid::from(isa)).unwrap();
+        assert_relative_eq!(again.integral_time, isa.integral_time, max_relative = 1e-14);
+    }
+
+    #[test]
+    fn a_sampled_controller_is_what_it_is_at_low_frequency() {
+        let pid = ParallelPid { proportional: 2.0, integral: 0.5, derivative: 3.0 };
+        let ts = 1e-3;
+        let mut running = PidMatrix::decentralised([pid, pid]).start(ts);
+        // A ramp e = t: kp t + ki t²/2 + kd.
+        let mut output = [0.0; 2];
+        for k in 0..=4000 {
+            output = running.step([f64::from(k) * ts, 0.0]);
+        }
+        assert_relative_eq!(output[0], 2.0 * 4.0 + 0.5 * 8.0 + 3.0, max_relative = 1e-6);
+        assert_eq!(output[1], 0.0);
+    }
+
+    #[test]
+    fn a_decoupler_adds_what_the_other_loop_does() {
+        let p = |proportional| ParallelPid { proportional, integral: 0.0, derivative: 0.0 };
+        let mut running = PidMatrix::decoupled([p(2.0), p(-3.0)], [0.5, 0.25]).start(1.0);
+        assert_eq!(running.step([1.0, 1.0]), [2.0 - 1.5, -3.0 + 0.5]);
+    }
+}

@@ -1,0 +1,122 @@
+//! The nonlinear plant under inputs that are held, in deviations from an operating point.
+
+use crate::plant::{Disturbance, OperatingPoint, QuadrupleTank};
+
+use super::integrate::{Hydraulics, Watch};
+use super::two_loops::HeldPlant;
+
+/// The quadruple tank as a [`HeldPlant`]: inputs are deviations of the pump voltages (V), outputs deviations of the measured
+/// levels 1 and 2 (V). Voltages beyond the limits of a pump are cut there; levels stay within the walls.
+#[derive(Clone, Debug)]
+pub struct HeldTank<'a> {
+    plant: &'a QuadrupleTank,
+    op: OperatingPoint,
+    water: Hydraulics,
+}
+
+/// Walls are left to whoever looks at the levels.
+struct Unwatched;
+
+impl Watch for Unwatched {
+    fn overflow(&mut self, _: usize, _: f64) {}
+    fn empty(&mut self, _: usize, _: f64) {}
+}
+
+impl<'a> HeldTank<'a> {
+    /// The plant at rest at an operating point.
+    pub fn new(plant: &'a QuadrupleTank, op: &OperatingPoint) -> Self {
+        let mut tank = Self { plant, op: *op, water: Hydraulics::new(plant, &op.levels) };
+        tank.set_inputs([0.0; 2]);
+        tank
+    }
+
+    /// Levels (m).
+    pub fn levels(&self) -> [f64; 4] {
+        self.water.levels()
+    }
+
+    fn signals(&self, water: &Hydraulics) -> [f64; 2] {
+        let [h1, h2, ..] = water.levels();
+        [(h1 - self.op.levels[0]) * self.plant.sensor.gain, (h2 - self.op.levels[1]) * self.plant.sensor.gain]
+    }
+}
+
+impl HeldPlant for HeldTank<'_> {
+    fn outputs(&self) -> [f64; 2] {
+        self.signals(&self.water)
+    }
+
+    fn set_inputs(&mut self, inputs: [f64; 2]) {
+        let voltage = [0, 1].map(|i| {
+            let pump = &self.plant.pumps[i];
+            (self.op.pump_voltage[i] + inputs[i]).max(pump.voltage_min).min(pump.voltage_max)
+        });
+        self.water.set_inputs(self.plant, &voltage, &Disturbance::default());
+    }
+
+    fn quiet(&self) -> f64 {
+        f64::INFINITY
+    }
+
+    fn outputs_after(&self, duration: f64) -> [f64; 2] {
+        let mut water = self.water;
+        water.advance(0.0, duration, &mut Unwatched);
+        self.signals(&water)
+    }
+
+    fn advance(&mut self, duration: f64) {
+        self.water.advance(0.0, duration, &mut Unwatched);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+    use crate::control::{PidMatrix, Relay};
+    use crate::plant::PresetId;
+    use crate::sim::{TwoLoops, run_two_loops};
+
+    #[test]
+    fn at_rest_nothing_moves_and_small_steps_are_linear() {
+        let preset = PresetId::JohanssonMinimumPhase.preset();
+        let op = preset.plant.free_equilibrium(preset.pump_voltage);
+        let mut tank = HeldTank::new(&preset.plant, &op);
+        tank.advance(500.0);
+        assert!(tank.outputs().iter().all(|y| y.abs() < 1e-9));
+        tank.set_inputs([1e-4, 0.0]);
+        // Far beyond the slowest time constant.
+        for _ in 0..30 {
+            tank.advance(50.0);
+        }
+        let g = preset.plant.linearise(&op);
+        let gain = -g.c * g.a.try_inverse().unwrap() * g.b;
+        for i in 0..2 {
+            assert_relative_eq!(tank.outputs()[i], 1e-4 * gain[(i, 0)], max_relative = 1e-3);
+        }
+    }
+
+    #[test]
+    fn relays_with_hysteresis_swing_around_the_operating_point() {
+        let preset = PresetId::JohanssonMinimumPhase.preset();
+        let op = preset.plant.free_equilibrium(preset.pump_voltage);
+        let relay = Relay { hysteresis: 0.05, ..Relay::ideal(0.5, 1.0) };
+        let loops = TwoLoops {
+            relays: [Some(relay), Some(relay)],
+            controllers: PidMatrix::default(),
+            references: [0.0; 2],
+            release: 5.0,
+            duration: 600.0,
+            step: 0.5,
+        };
+        let trace = run_two_loops(&mut HeldTank::new(&preset.plant, &op), &loops);
+        assert_eq!(trace.halt, None);
+        for i in 0..2 {
+            assert!(trace.switches[i].len() > 10);
+            // Relays of relative degree 1 turn at once: the output stays within the hysteresis once it is there.
+            let late = trace.time.iter().zip(&trace.outputs[i]).filter(|(time, _)| **time > 100.0);
+            assert!(late.map(|(_, y)| y.abs()).fold(0.0, f64::max) < 0.0501);
+        }
+    }
+}

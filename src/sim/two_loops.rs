@@ -1,0 +1,344 @@
+//! Relays and PID controllers around a plant with two inputs and outputs, with every switch at its exact instant.
+
+use crate::control::{PidMatrix, Relay};
+use crate::linear::DelayedPlant;
+
+/// A plant whose inputs are held between changes, in deviations from its rest.
+pub trait HeldPlant {
+    /// Both outputs now.
+    fn outputs(&self) -> [f64; 2];
+    /// Both inputs from now on.
+    fn set_inputs(&mut self, inputs: [f64; 2]);
+    /// How long the outputs are smooth if no input changes.
+    fn quiet(&self) -> f64;
+    /// Both outputs `duration` from now, at most [`quiet`](Self::quiet).
+    fn outputs_after(&self, duration: f64) -> [f64; 2];
+    /// Moves on by at most [`quiet`](Self::quiet).
+    fn advance(&mut self, duration: f64);
+}
+
+impl HeldPlant for DelayedPlant {
+    fn outputs(&self) -> [f64; 2] {
+        self.outputs()
+    }
+
+    fn set_inputs(&mut self, inputs: [f64; 2]) {
+        self.set_inputs(inputs);
+    }
+
+    fn quiet(&self) -> f64 {
+        self.quiet()
+    }
+
+    fn outputs_after(&self, duration: f64) -> [f64; 2] {
+        self.outputs_after(duration)
+    }
+
+    fn advance(&mut self, duration: f64) {
+        self.advance(duration);
+    }
+}
+
+/// Who acts on the plant and what is asked of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TwoLoops {
+    /// A relay in loop 1, in loop 2, or none.
+    pub relays: [Option<Relay>; 2],
+    /// Sampled controllers, added to the relays.
+    pub controllers: PidMatrix,
+    /// References from the start on.
+    pub references: [f64; 2],
+    /// When relays begin to switch. Until then they hold their first value: at rest every relay stands exactly on its
+    /// threshold, and where the paths across are the quicker ones they would switch each other for ever.
+    pub release: f64,
+    /// How long (units of time of the plant).
+    pub duration: f64,
+    /// Time between rows, which is the sampling time of the controllers.
+    pub step: f64,
+}
+
+impl TwoLoops {
+    /// Size of all that moves the plant.
+    fn excitation(&self) -> f64 {
+        let relays = self.relays.iter().flatten().map(|relay| relay.amplitude + relay.bias.abs());
+        self.references.iter().map(|r| r.abs()).chain(relays).sum()
+    }
+}
+
+/// Why a run ended before its time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Halt {
+    /// A relay switched again and again at once: it slides, or would switch as fast as it can.
+    Chattering {
+        /// Index of the loop.
+        relay: usize,
+        /// When.
+        time: f64,
+    },
+    /// An output left all bounds.
+    Diverged {
+        /// When.
+        time: f64,
+    },
+}
+
+/// What a run of [`TwoLoops`] left behind. Rows are at multiples of the step, at switches and at arrivals of what a dead
+/// time had held back; inputs hold from their row to the next.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LoopTrace {
+    /// Times of the rows.
+    pub time: Vec<f64>,
+    /// Inputs from the rows on.
+    pub inputs: [Vec<f64>; 2],
+    /// Outputs at the rows.
+    pub outputs: [Vec<f64>; 2],
+    /// When each relay switched, and whether its error had become positive.
+    pub switches: [Vec<(f64, bool)>; 2],
+    /// Why it ended early.
+    pub halt: Option<Halt>,
+}
+
+/// Switches of one relay within one step that are taken for chattering.
+const SWITCHES_PER_STEP: u32 = 12;
+/// Outputs beyond this many times the excitation have diverged.
+const DIVERGED: f64 = 1e6;
+/// Steps of the root search; each adds about half as many digits again.
+const ROOT_STEPS: u32 = 60;
+/// Rows at most.
+const MAX_ROWS: usize = 400_000;
+
+/// Runs the loops from rest. Relays start with the sign of their first error, and a positive one where that is zero.
+pub fn run_two_loops(plant: &mut impl HeldPlant, loops: &TwoLoops) -> LoopTrace {
+    let mut run = Run::new(plant, loops);
+    let mut sample = 0_u32;
+    while run.trace.halt.is_none() && run.time < loops.duration && run.trace.time.len() < MAX_ROWS {
+        run.take_sample();
+        sample += 1;
+        run.pass_until((f64::from(sample) * loops.step).min(loops.duration));
+    }
+    run.row();
+    run.trace
+}
+
+struct Run<'a, P> {
+    plant: &'a mut P,
+    loops: &'a TwoLoops,
+    controllers: crate::control::RunningPidMatrix,
+    /// Output of the controllers, held between samples.
+    held: [f64; 2],
+    /// What each relay takes the sign of its error to be.
+    positive: [bool; 2],
+    inputs: [f64; 2],
+    time: f64,
+    trace: LoopTrace,
+}
+
+impl<'a, P: HeldPlant> Run<'a, P> {
+    fn new(plant: &'a mut P, loops: &'a TwoLoops) -> Self {
+        let outputs = plant.outputs();
+        let positive = [0, 1].map(|i| loops.references[i] - outputs[i] >= 0.0);
+        let controllers = loops.controllers.start(loops.step);
+        let trace = LoopTrace::default();
+        Self { plant, loops, controllers, held: [0.0; 2], positive, inputs: [0.0; 2], time: 0.0, trace }
+    }
+
+    fn errors(&self, outputs: [f64; 2]) -> [f64; 2] {
+        [self.loops.references[0] - outputs[0], self.loops.references[1] - outputs[1]]
+    }
+
+    fn take_sample(&mut self) {
+        let outputs = self.plant.outputs();
+        let bound = DIVERGED * self.loops.excitation();
+        if outputs.iter().any(|y| y.is_nan() || y.abs() > bound) {
+            self.trace.halt = Some(Halt::Diverged { time: self.time });
+            return;
+        }
+        self.held = self.controllers.step(self.errors(outputs));
+        self.act();
+        self.row();
+    }
+
+    /// Sends what controllers and relays want to the plant.
+    fn act(&mut self) {
+        for i in 0..2 {
+            self.inputs[i] = self.held[i] + self.loops.relays[i].map_or(0.0, |relay| relay.output(self.positive[i]));
+        }
+        self.plant.set_inputs(self.inputs);
+    }
+
+    fn row(&mut self) {
+        let outputs = self.plant.outputs();
+        self.trace.time.push(self.time);
+        for (i, output) in outputs.into_iter().enumerate() {
+            self.trace.inputs[i].push(self.inputs[i]);
+            self.trace.outputs[i].push(output);
+        }
+    }
+
+    /// Until the next sample, over switches and arrivals.
+    fn pass_until(&mut self, end: f64) {
+        let mut switches = 0;
+        while self.time < end && self.trace.halt.is_none() {
+            let left = end - self.time;
+            let quiet = self.plant.quiet();
+            let piece = if quiet < left { quiet } else { left };
+            let Some((relay, instant)) = self.first_switch(piece) else {
+                self.plant.advance(piece);
+                if quiet < left {
+                    self.time += piece;
+                    self.row();
+                } else {
+                    self.time = end;
+                }
+                continue;
+            };
+            self.plant.advance(instant);
+            self.time += instant;
+            self.positive[relay] = !self.positive[relay];
+            self.trace.switches[relay].push((self.time, self.positive[relay]));
+            self.act();
+            self.row();
+            switches += 1;
+            if switches > SWITCHES_PER_STEP {
+                self.trace.halt = Some(Halt::Chattering { relay, time: self.time });
+            }
+        }
+    }
+
+    /// The relay that switches first within a smooth piece, and after how long.
+    fn first_switch(&self, piece: f64) -> Option<(usize, f64)> {
+        if self.time < self.loops.release {
+            return None;
+        }
+        let ends = self.plant.outputs_after(piece);
+        let mut first: Option<(usize, f64)> = None;
+        for i in 0..2 {
+            let Some(relay) = self.loops.relays[i] else { continue };
+            let threshold = relay.threshold(self.positive[i]);
+            // Positive as long as the relay stays what it is.
+            let sign = if self.positive[i] { 1.0 } else { -1.0 };
+            let stay = |outputs: [f64; 2]| sign * (self.errors(outputs)[i] - threshold);
+            if stay(ends) < 0.0 {
+                let instant =
+                    root(|h| stay(self.plant.outputs_after(h)), stay(self.plant.outputs()), piece, stay(ends));
+                if first.is_none_or(|(_, earlier)| instant < earlier) {
+                    first = Some((i, instant));
+                }
+            }
+        }
+        first
+    }
+}
+
+/// Where a smooth function that falls from `at_start` at 0 to a negative `at_end` passes zero: regula falsi with the
+/// correction of Illinois. The start where it is not positive even there.
+fn root(function: impl Fn(f64) -> f64, at_start: f64, end: f64, at_end: f64) -> f64 {
+    if at_start <= 0.0 {
+        return 0.0;
+    }
+    let (mut low, mut at_low, mut high, mut at_high) = (0.0, at_start, end, at_end);
+    let mut side = 0;
+    for _ in 0..ROOT_STEPS {
+        let middle = (low * at_high - high * at_low) / (at_high - at_low);
+        if !(middle > low && middle < high) || high - low <= 1e-15 * end {
+            break;
+        }
+        let at_middle = function(middle);
+        if at_middle > 0.0 {
+            (low, at_low) = (middle, at_middle);
+            if side == 1 {
+                at_high *= 0.5;
+            }
+            side = 1;
+        } else {
+            (high, at_high) = (middle, at_middle);
+            if at_middle == 0.0 {
+                break;
+            }
+            if side == -1 {
+                at_low *= 0.5;
+            }
+            side = -1;
+        }
+    }
+    high
+}
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+    use crate::control::ParallelPid;
+    use crate::linear::{Path, TransferFunction};
+
+    fn single(element: TransferFunction) -> DelayedPlant {
+        DelayedPlant::new(&[Path { input: 0, output: 0, element }]).unwrap()
+    }
+
+    fn relay_loop(relay: Relay, duration: f64, step: f64) -> TwoLoops {
+        let controllers = PidMatrix::default();
+        TwoLoops { relays: [Some(relay), None], controllers, references: [0.0; 2], release: 0.0, duration, step }
+    }
+
+    #[test]
+    fn an_integrator_with_dead_time_swings_as_by_hand() {
+        // y' = u(t − θ): a triangle of period 4 θ and amplitude d θ.
+        let theta = 0.7;
+        let mut plant = single(TransferFunction::new(vec![1.0], vec![0.0, 1.0], theta).unwrap());
+        let trace = run_two_loops(&mut plant, &relay_loop(Relay::ideal(2.0, 1.0), 30.0, 0.13));
+        assert_eq!(trace.halt, None);
+        let times: Vec<f64> = trace.switches[0].iter().map(|&(time, _)| time).collect();
+        // Up to the first switch y rises from 0 at θ; it stands at exactly 0 until then.
+        for pair in times[1..].windows(2) {
+            assert_relative_eq!(pair[1] - pair[0], 2.0 * theta, max_relative = 1e-12);
+        }
+        let peak = trace.outputs[0].iter().copied().fold(0.0, f64::max);
+        assert_relative_eq!(peak, 2.0 * theta, max_relative = 1e-12);
+    }
+
+    #[test]
+    fn a_relay_on_a_lag_chatters_and_hysteresis_cures_it() {
+        let lag = || single(TransferFunction::lags(1.0, &[3.0], 0.0).unwrap());
+        let ideal = Relay::ideal(1.0, 1.0);
+        let trace = run_two_loops(&mut lag(), &relay_loop(ideal, 10.0, 0.1));
+        assert!(matches!(trace.halt, Some(Halt::Chattering { relay: 0, .. })));
+        let trace = run_two_loops(&mut lag(), &relay_loop(Relay { hysteresis: 0.5, ..ideal }, 50.0, 0.1));
+        assert_eq!(trace.halt, None);
+        // From −0.5 to 0.5 with the end value 1: T ln 3.
+        let times: Vec<f64> = trace.switches[0].iter().map(|&(time, _)| time).collect();
+        for pair in times[1..].windows(2) {
+            assert_relative_eq!(pair[1] - pair[0], 3.0 * 3.0_f64.ln(), max_relative = 1e-11);
+        }
+    }
+
+    #[test]
+    fn a_reversed_relay_swings_a_plant_with_negative_gain() {
+        let plant = |gain: f64| single(TransferFunction::lags(gain, &[1.0], 0.5).unwrap());
+        let one = run_two_loops(&mut plant(2.0), &relay_loop(Relay::ideal(1.0, 2.0), 20.0, 0.1));
+        let other = run_two_loops(&mut plant(-2.0), &relay_loop(Relay::ideal(1.0, -2.0), 20.0, 0.1));
+        assert_eq!(one.switches, other.switches);
+        assert_eq!(one.outputs, other.outputs);
+    }
+
+    #[test]
+    fn a_pi_loop_reaches_its_reference_and_a_wrong_sign_diverges() {
+        let pid = |proportional, integral| ParallelPid { proportional, integral, derivative: 0.0 };
+        let run = |first| {
+            let controllers = PidMatrix::decentralised([first, ParallelPid::default()]);
+            let loops = TwoLoops {
+                controllers,
+                references: [1.0, 0.0],
+                duration: 200.0,
+                step: 0.05,
+                relays: [None; 2],
+                release: 0.0,
+            };
+            run_two_loops(&mut single(TransferFunction::lags(2.0, &[5.0], 1.0).unwrap()), &loops)
+        };
+        let trace = run(pid(0.8, 0.15));
+        assert_eq!(trace.halt, None);
+        assert_relative_eq!(*trace.outputs[0].last().unwrap(), 1.0, epsilon = 1e-9);
+        assert!(matches!(run(pid(-2.0, -0.5)).halt, Some(Halt::Diverged { .. })));
+    }
+}

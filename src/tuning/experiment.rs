@@ -1,0 +1,226 @@
+//! Relay tests on a plant with two loops: single, independent, sequential and simultaneous (Campestrini 2006, §3.5 to 3.7).
+
+use crate::control::{IsaPid, ParallelPid, PidMatrix, Relay};
+use crate::linear::{DelayedPlant, Path, TransferFunction, TransferMatrix};
+use crate::sim::{HeldPlant, LoopTrace, TwoLoops, run_two_loops};
+
+use super::error::positive;
+use super::relay_test::{Exciter, RelayReading, read_relay_test};
+use super::{TuningError, TuningRule, UltimatePoint};
+
+/// Length and fineness of a test.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TestTime {
+    /// Duration (units of time of the plant).
+    pub duration: f64,
+    /// When relays begin to switch, see [`TwoLoops::release`].
+    pub release: f64,
+    /// Time between rows, and sampling time of controllers in the other loop.
+    pub step: f64,
+}
+
+/// A record and what it says.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RelayTest {
+    /// The record.
+    pub trace: LoopTrace,
+    /// What it says.
+    pub reading: RelayReading,
+}
+
+/// Runs relays, in one loop or both, on a plant at rest; `controllers` act beside them.
+///
+/// # Errors
+/// [`TuningError::OutOfRange`] for an amplitude, a duration or a step that is not positive, or a hysteresis below zero.
+pub fn relay_test(
+    plant: &mut impl HeldPlant,
+    relays: [Option<Relay>; 2],
+    controllers: PidMatrix,
+    time: TestTime,
+) -> Result<RelayTest, TuningError> {
+    positive("duration", time.duration)?;
+    positive("step", time.step)?;
+    for relay in relays.iter().flatten() {
+        positive("amplitude", relay.amplitude)?;
+        if !(relay.hysteresis >= 0.0 && relay.hysteresis.is_finite()) {
+            return Err(TuningError::OutOfRange { field: "hysteresis", value: relay.hysteresis });
+        }
+        if !relay.bias.is_finite() {
+            return Err(TuningError::OutOfRange { field: "bias", value: relay.bias });
+        }
+    }
+    let TestTime { duration, release, step } = time;
+    let loops = TwoLoops { relays, controllers, references: [0.0; 2], release, duration, step };
+    let trace = run_two_loops(plant, &loops);
+    let exciters = relays.map(|relay| relay.map(|r| Exciter { amplitude: r.amplitude, reversed: r.reversed }));
+    let reading = read_relay_test(&trace, exciters);
+    Ok(RelayTest { trace, reading })
+}
+
+/// Refuses a plant with a pole that is not in the left half-plane.
+///
+/// # Errors
+/// [`TuningError::UnstablePlant`] with the real part of that pole.
+pub fn check_stable(plant: &TransferMatrix) -> Result<(), TuningError> {
+    for element in plant.0.as_flattened() {
+        if let Some(pole) = element.poles()?.last().filter(|pole| pole.re >= 0.0) {
+            return Err(TuningError::UnstablePlant { real_part: pole.re });
+        }
+    }
+    Ok(())
+}
+
+/// Ideal relays of the given amplitudes with the signs of the diagonal gains, together (DRF, Campestrini 2006, §3.7).
+///
+/// # Errors
+/// As [`relay_test`]; [`TuningError::UnstablePlant`].
+pub fn simultaneous_test(
+    plant: &TransferMatrix,
+    amplitudes: [f64; 2],
+    time: TestTime,
+) -> Result<RelayTest, TuningError> {
+    check_stable(plant)?;
+    let gain = plant.dc_gain();
+    let relays = [0, 1].map(|i| Some(Relay::ideal(amplitudes[i], gain[(i, i)])));
+    relay_test(&mut DelayedPlant::new(&plant.paths())?, relays, PidMatrix::default(), time)
+}
+
+/// An ideal relay in one loop, the input of the other at rest (IRF, Campestrini 2006, §3.5).
+///
+/// # Errors
+/// As [`simultaneous_test`].
+pub fn independent_test(
+    plant: &TransferMatrix,
+    index: usize,
+    amplitude: f64,
+    time: TestTime,
+) -> Result<RelayTest, TuningError> {
+    with_one_relay(plant, index, amplitude, ParallelPid::default(), time)
+}
+
+/// A relay in one loop, a controller in the other.
+fn with_one_relay(
+    plant: &TransferMatrix,
+    index: usize,
+    amplitude: f64,
+    other: ParallelPid,
+    time: TestTime,
+) -> Result<RelayTest, TuningError> {
+    check_stable(plant)?;
+    let mut relays = [None; 2];
+    relays[index] = Some(Relay::ideal(amplitude, plant.dc_gain()[(index, index)]));
+    let mut controllers = [other; 2];
+    controllers[index] = ParallelPid::default();
+    relay_test(&mut DelayedPlant::new(&plant.paths())?, relays, PidMatrix::decentralised(controllers), time)
+}
+
+/// Ultimate point of the loop with the relay, by first harmonics; `None` where the test did not end periodically.
+pub fn ultimate_point(test: &RelayTest, index: usize) -> Option<UltimatePoint> {
+    let oscillation = test.reading.oscillation?;
+    Some(UltimatePoint { gain: oscillation.loops[index].gain_by_harmonic?, period: oscillation.period })
+}
+
+/// Independent tests of both loops and a rule, detuned by a factor f for each loop (Campestrini 2006, eqs. 92, 93). `None`
+/// where a test did not end periodically.
+///
+/// # Errors
+/// As [`simultaneous_test`]; [`TuningError::OutOfRange`] for a factor that is not positive.
+pub fn independent_tuning(
+    plant: &TransferMatrix,
+    amplitudes: [f64; 2],
+    rule: TuningRule,
+    detuning: [f64; 2],
+    time: TestTime,
+) -> Result<Option<[IsaPid; 2]>, TuningError> {
+    let mut found = [None; 2];
+    for index in [0, 1] {
+        positive("detuning", detuning[index])?;
+        let test = independent_test(plant, index, amplitudes[index], time)?;
+        found[index] = ultimate_point(&test, index).map(|point| rule.settings(point).detuned(detuning[index]));
+    }
+    Ok(found[0].zip(found[1]).map(|(first, second)| [first, second]))
+}
+
+/// One step of a sequential tuning.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SequentialStep {
+    /// Pass, from 1.
+    pub pass: usize,
+    /// Index of the loop with the relay.
+    pub index: usize,
+    /// The test.
+    pub test: RelayTest,
+    /// What it found; `None` where it did not end periodically, and the sequence with it.
+    pub point: Option<UltimatePoint>,
+    /// The settings by the rule.
+    pub settings: Option<IsaPid>,
+}
+
+/// Sequential tests (SRF, Campestrini 2006, §3.6): a relay in loop 1, the loop closed by the rule, a relay in loop 2 and so
+/// on, any number of passes. It need not converge; the steps show it.
+///
+/// # Errors
+/// As [`simultaneous_test`].
+pub fn sequential_tuning(
+    plant: &TransferMatrix,
+    amplitudes: [f64; 2],
+    rule: TuningRule,
+    passes: usize,
+    time: TestTime,
+) -> Result<Vec<SequentialStep>, TuningError> {
+    let mut steps = Vec::new();
+    let mut controllers = [ParallelPid::default(); 2];
+    for pass in 1..=passes {
+        for index in [0, 1] {
+            let test = with_one_relay(plant, index, amplitudes[index], controllers[1 - index], time)?;
+            let point = ultimate_point(&test, index);
+            let settings = point.map(|point| rule.settings(point));
+            steps.push(SequentialStep { pass, index, test, point, settings });
+            let Some(settings) = settings else { return Ok(steps) };
+            controllers[index] = settings.into();
+        }
+    }
+    Ok(steps)
+}
+
+/// An element with an integrator behind it, for the relay test that finds the point with −90° (Campestrini 2006, eqs. 51
+/// to 55): relay and integrator together oscillate where ∠F = −90°, with |F| = ω π a/(4 d) and a the swing at the relay.
+#[must_use]
+pub fn with_integrator(element: &TransferFunction) -> TransferFunction {
+    TransferFunction::new(vec![1.0], vec![0.0, 1.0], 0.0).map_or_else(|_| element.clone(), |i| element.times(&i))
+}
+
+/// The loop of the estimator that oscillates where `|H(jω)| = r`: `F/s` with `F = (H − r)/(H + r)` (Campestrini 2006,
+/// eqs. 56 to 59).
+///
+/// It rests on the describing function although F does not fall at high frequency: good while r is small beside |H(0)|
+/// (1.2 % at 0.2 on three equal lags), useless above 0.4 of it.
+///
+/// # Errors
+/// [`TuningError::OutOfRange`] for an r that is not positive, or a dead time, with which F is not rational;
+/// [`TuningError::UnstablePlant`] where F is not stable.
+pub fn modulus_estimator(element: &TransferFunction, r: f64) -> Result<TransferFunction, TuningError> {
+    positive("r", r)?;
+    if element.dead_time() != 0.0 {
+        return Err(TuningError::OutOfRange { field: "dead_time", value: element.dead_time() });
+    }
+    let combined = |sign: f64| -> Vec<f64> {
+        let (b, a) = (element.numerator(), element.denominator());
+        let at = |c: &[f64], k: usize| c.get(k).copied().unwrap_or(0.0);
+        (0..a.len().max(b.len())).map(|k| at(b, k) + sign * r * at(a, k)).collect()
+    };
+    let f = TransferFunction::new(combined(-1.0), combined(1.0), 0.0)?;
+    if let Some(pole) = f.poles()?.last().filter(|pole| pole.re >= 0.0) {
+        return Err(TuningError::UnstablePlant { real_part: pole.re });
+    }
+    Ok(with_integrator(&f))
+}
+
+/// A relay test of one element alone.
+///
+/// # Errors
+/// As [`relay_test`].
+pub fn single_loop_test(element: &TransferFunction, relay: Relay, time: TestTime) -> Result<RelayTest, TuningError> {
+    let path = Path { input: 0, output: 0, element: element.clone() };
+    relay_test(&mut DelayedPlant::new(&[path])?, [Some(relay), None], PidMatrix::default(), time)
+}
