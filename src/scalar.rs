@@ -29,6 +29,28 @@ pub fn sort_few<T>(values: &mut [T], order: impl Fn(&T, &T) -> Ordering) {
     }
 }
 
+/// Steps of a golden-section search: the interval shrinks to some 1e-8 of itself, and the minimum to its square.
+const GOLDEN_STEPS: u32 = 40;
+
+/// Where a function with one minimum between two points has it.
+pub fn golden_section(function: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+    let share = (5.0_f64.sqrt() - 1.0) / 2.0;
+    let (mut a, mut b) = (high - share * (high - low), low + share * (high - low));
+    let (mut at_a, mut at_b) = (function(a), function(b));
+    for _ in 0..GOLDEN_STEPS {
+        if at_a < at_b {
+            (high, b, at_b) = (b, a, at_a);
+            a = high - share * (high - low);
+            at_a = function(a);
+        } else {
+            (low, a, at_a) = (a, b, at_b);
+            b = low + share * (high - low);
+            at_b = function(b);
+        }
+    }
+    f64::midpoint(low, high)
+}
+
 /// `2^exponent`, exact. A general power of two brings a table of 4 KB along.
 pub fn power_of_two(exponent: i32) -> f64 {
     2.0_f64.powi(exponent)
@@ -56,6 +78,12 @@ mod tests {
         sort_few(&mut values, |x, y| x.0.cmp(&y.0));
         assert_eq!(values, [(1, 'b'), (1, 'e'), (2, 'd'), (3, 'a'), (3, 'c')]);
         sort_few(&mut [0.0; 0], f64::total_cmp);
+    }
+
+    #[test]
+    fn the_golden_section_finds_a_minimum() {
+        let found = golden_section(|x| (x - 0.3) * (x - 0.3), -1.0, 2.0);
+        assert!((found - 0.3).abs() < 1e-7);
     }
 
     #[test]

@@ -61,7 +61,15 @@ impl ParallelPid {
         Complex::new(self.proportional, -self.integral / frequency) + derivative / filter
     }
 
-    fn scaled(&self, factor: f64) -> Self {
+    fn plus(self, other: Self) -> Self {
+        Self {
+            proportional: self.proportional + other.proportional,
+            integral: self.integral + other.integral,
+            derivative: self.derivative + other.derivative,
+        }
+    }
+
+    fn scaled(self, factor: f64) -> Self {
         Self {
             proportional: factor * self.proportional,
             integral: factor * self.integral,
@@ -142,9 +150,18 @@ impl PidMatrix {
         Self([[first, none], [none, second]])
     }
 
+    /// Two controllers between constant matrices, `K = A diag(p1, p2) B` (Campestrini 2006, eq. 83).
+    pub fn between(a: &Matrix2<f64>, controllers: [ParallelPid; 2], b: &Matrix2<f64>) -> Self {
+        let entry = |row: usize, column: usize| {
+            let [first, second] = [0, 1].map(|k| controllers[k].scaled(a[(row, k)] * b[(k, column)]));
+            first.plus(second)
+        };
+        Self([[entry(0, 0), entry(0, 1)], [entry(1, 0), entry(1, 1)]])
+    }
+
     /// Two loops behind a static decoupler `u1 = v1 + K_I1 v2`, `u2 = v2 + K_I2 v1` (Campestrini 2006, eq. 72).
-    pub fn decoupled([first, second]: [ParallelPid; 2], [one, two]: [f64; 2]) -> Self {
-        Self([[first, second.scaled(one)], [first.scaled(two), second]])
+    pub fn decoupled(controllers: [ParallelPid; 2], [one, two]: [f64; 2]) -> Self {
+        Self::between(&Matrix2::new(1.0, one, two, 1.0), controllers, &Matrix2::identity())
     }
 
     /// Value at a frequency, with derivative filters.

@@ -7,11 +7,10 @@ use std::f64::consts::{PI, TAU};
 use nalgebra::Matrix2;
 
 use super::Complex;
+use crate::scalar::golden_section;
 
 /// Halvings of a cell of the frequency grid, down to the last bits.
 const HALVINGS: u32 = 48;
-/// Steps of a golden-section search: the cell shrinks to some 1e-8 of itself, and the minimum to its square.
-const GOLDEN_STEPS: u32 = 40;
 
 /// Values λ1, λ2 of both loci: the eigenvalues of the return ratio (Campestrini 2006, eqs. 68, 69 and 100).
 pub fn locus_values(ratio: &Matrix2<Complex>) -> [Complex; 2] {
@@ -67,6 +66,17 @@ pub struct Margins {
     pub phase: Option<f64>,
 }
 
+/// A point where a locus crosses a line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crossing {
+    /// Index of the branch.
+    pub branch: usize,
+    /// Frequency.
+    pub frequency: f64,
+    /// Value of the locus.
+    pub value: Complex,
+}
+
 impl Loci {
     /// Follows the loci of a loop over `points` frequencies with equal ratios.
     pub fn along(ratio: impl Fn(f64) -> Matrix2<Complex>, low: f64, high: f64, points: usize) -> Self {
@@ -90,27 +100,42 @@ impl Loci {
     pub fn margins(&self, ratio: impl Fn(f64) -> Matrix2<Complex>) -> Margins {
         let (distance, distance_frequency) = self.nearest_to_minus_one(&ratio);
         let mut margins = Margins { distance, distance_frequency, gain_up: None, gain_down: None, phase: None };
-        for branch in &self.branches {
-            for (cell, w) in branch.windows(2).zip(self.frequency.windows(2)) {
-                let solve = |side: &dyn Fn(Complex) -> f64| {
-                    (side(cell[0]) * side(cell[1]) < 0.0)
-                        .then(|| crossing(&ratio, [cell[0], cell[1]], [w[0], w[1]], side))
-                };
-                if let Some(at) = solve(&|x| x.im).filter(|at| at.re < 0.0) {
-                    let factor = -1.0 / at.re;
-                    if factor > 1.0 {
-                        margins.gain_up = Some(margins.gain_up.map_or(factor, |best| best.min(factor)));
-                    } else {
-                        margins.gain_down = Some(margins.gain_down.map_or(factor, |best| best.max(factor)));
-                    }
-                }
-                if let Some(at) = solve(&|x| x.norm() - 1.0) {
-                    let lag = (at.arg() + PI).rem_euclid(TAU);
-                    margins.phase = Some(margins.phase.map_or(lag, |best| best.min(lag)));
-                }
+        for crossing in self.crossings(&ratio, |x| x.im).filter(|crossing| crossing.value.re < 0.0) {
+            let factor = -1.0 / crossing.value.re;
+            if factor > 1.0 {
+                margins.gain_up = Some(margins.gain_up.map_or(factor, |best| best.min(factor)));
+            } else {
+                margins.gain_down = Some(margins.gain_down.map_or(factor, |best| best.max(factor)));
             }
         }
+        for crossing in self.crossings(&ratio, |x| x.norm() - 1.0) {
+            let lag = (crossing.value.arg() + PI).rem_euclid(TAU);
+            margins.phase = Some(margins.phase.map_or(lag, |best| best.min(lag)));
+        }
         margins
+    }
+
+    /// Where the loci cross the real axis, refined as [`margins`](Self::margins).
+    pub fn real_crossings(&self, ratio: impl Fn(f64) -> Matrix2<Complex>) -> Vec<Crossing> {
+        self.crossings(ratio, |x| x.im).collect()
+    }
+
+    /// Where `side` of a locus changes its sign.
+    fn crossings(
+        &self,
+        ratio: impl Fn(f64) -> Matrix2<Complex>,
+        side: impl Fn(Complex) -> f64,
+    ) -> impl Iterator<Item = Crossing> {
+        let cells = |branch: usize| (1..self.frequency.len()).map(move |k| (branch, k));
+        cells(0).chain(cells(1)).filter_map(move |(branch, k)| {
+            let values = [self.branches[branch][k - 1], self.branches[branch][k]];
+            let changes = side(values[0]) * side(values[1]) < 0.0;
+            let cell = [self.frequency[k - 1], self.frequency[k]];
+            changes.then(|| {
+                let (frequency, value) = crossing(&ratio, values, cell, &side);
+                Crossing { branch, frequency, value }
+            })
+        })
     }
 
     fn nearest_to_minus_one(&self, ratio: impl Fn(f64) -> Matrix2<Complex>) -> (f64, f64) {
@@ -142,13 +167,13 @@ fn nearest_order([a, b]: [Complex; 2], [first, second]: [Complex; 2]) -> [Comple
     if crossed < straight { [b, a] } else { [a, b] }
 }
 
-/// The value of a branch where `side` changes its sign in a cell.
+/// Frequency and value of a branch where `side` changes its sign in a cell.
 fn crossing(
     ratio: impl Fn(f64) -> Matrix2<Complex>,
     [mut left, mut right]: [Complex; 2],
     [mut low, mut high]: [f64; 2],
     side: impl Fn(Complex) -> f64,
-) -> Complex {
+) -> (f64, Complex) {
     let sign = side(left).signum();
     for _ in 0..HALVINGS {
         let middle = f64::midpoint(low, high);
@@ -161,26 +186,7 @@ fn crossing(
             (high, right) = (middle, value);
         }
     }
-    right
-}
-
-/// Where a function with one minimum between two points has it.
-fn golden_section(function: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
-    let share = (5.0_f64.sqrt() - 1.0) / 2.0;
-    let (mut a, mut b) = (high - share * (high - low), low + share * (high - low));
-    let (mut at_a, mut at_b) = (function(a), function(b));
-    for _ in 0..GOLDEN_STEPS {
-        if at_a < at_b {
-            (high, b, at_b) = (b, a, at_a);
-            a = high - share * (high - low);
-            at_a = function(a);
-        } else {
-            (low, a, at_a) = (a, b, at_b);
-            b = low + share * (high - low);
-            at_b = function(b);
-        }
-    }
-    f64::midpoint(low, high)
+    (high, right)
 }
 
 /// Stability of a loop of stable parts, by the number of encirclements of −1.
@@ -205,7 +211,7 @@ pub enum LoopStability {
 pub struct LoopOutline {
     /// Frequency below which only integral action moves.
     pub low: f64,
-    /// Frequency above which the loop gain only falls.
+    /// Frequency above which the size of the loop only falls.
     pub high: f64,
     /// Integrators in the loop: the order of the pole of det(I + L) at the origin.
     pub integrators: u32,
@@ -215,6 +221,10 @@ pub struct LoopOutline {
 
 /// Turn of det(I + L) between two frequencies of the count (rad) that is followed without a closer look.
 const QUIET_TURN: f64 = 0.4;
+/// Largest |det(I + L) − 1| that passes for near 1.
+const QUIET: f64 = 0.9;
+/// Steps of the count, relative to the frequency.
+const STRIDE: f64 = 0.03;
 /// Bisections of one step of the count; a turn that is not resolved by then goes through zero.
 const DEPTH: u32 = 40;
 /// Decades that the count goes beyond the outline on each side to find the limits.
@@ -227,46 +237,63 @@ impl LoopStability {
     /// its argument grows by Δ, and passing the pole of order n at the origin on its right side costs n π, so
     /// `Z = n/2 − Δ/π` poles of the closed loop are in the right half-plane (Campestrini 2006, Theorem 1, with P = 0).
     pub fn of(ratio: impl Fn(f64) -> Matrix2<Complex>, outline: &LoopOutline) -> Self {
-        let value = |w: f64| (Matrix2::identity() + ratio(w)).determinant();
+        let value = |w: f64| return_difference(&ratio(w));
         let integrators = outline.integrators;
         // Below all else det(I + L) is R/(jω)^n with a real R.
         let residue = |w: f64| value(w) * Complex::new(0.0, w).powu(integrators);
         let settled = |r: Complex| r.im.abs() <= 0.05 * r.re.abs();
-        let mut start = outline.low * 1e-3;
-        let mut limit = DECADES;
-        while !settled(residue(start)) && limit > 0 {
-            start *= 0.1;
-            limit -= 1;
+        let mut w = outline.low * 1e-3;
+        for _ in 0..DECADES {
+            if !settled(residue(w)) {
+                w *= 0.1;
+            }
         }
-        let first = residue(start);
+        let first = residue(w);
         if !settled(first) {
             return Self::Marginal { frequency: 0.0 };
         }
         let mut turn = if first.re > 0.0 { first.arg() } else { (-first).arg() };
-        let mut w = start;
-        let mut at = value(w);
-        let mut quiet = false;
-        // To where det(I + L) is 1 and stays there.
-        while w < outline.high || !quiet {
-            if w > outline.high * 10.0_f64.powi(6) {
-                break;
+        let loudest = outline.high * 10.0_f64.powi(i32::try_from(DECADES).unwrap_or(0));
+        let mut here = ratio(w);
+        while !(w > outline.high && is_quiet(&here)) && w < loudest {
+            let both_quiet = |next: &Matrix2<Complex>| is_quiet(&here) && is_quiet(next);
+            let stride = w * STRIDE;
+            let careful = if outline.dead_time > 0.0 { QUIET_TURN / outline.dead_time } else { f64::INFINITY };
+            let mut next = w + stride;
+            let mut there = ratio(next);
+            let (before, after);
+            if both_quiet(&there) {
+                // Near 1 the argument is its principal value, however often the dead time turns in between.
+                (before, after) = (return_difference(&here), return_difference(&there));
+                turn += after.arg() - before.arg();
+            } else {
+                if careful < stride {
+                    next = w + careful;
+                    there = ratio(next);
+                }
+                (before, after) = (return_difference(&here), return_difference(&there));
+                match turned(&value, (w, before), (next, after), DEPTH) {
+                    Ok(angle) => turn += angle,
+                    Err(frequency) => return Self::Marginal { frequency },
+                }
             }
-            let step =
-                (0.03 * w).min(if outline.dead_time > 0.0 { QUIET_TURN / outline.dead_time } else { f64::INFINITY });
-            // Where nothing is left to turn, in longer strides.
-            let next = if quiet && w > outline.high { w * 1.5 } else { w + step };
-            let after = value(next);
-            match turned(&value, (w, at), (next, after), DEPTH) {
-                Ok(angle) => turn += angle,
-                Err(frequency) => return Self::Marginal { frequency },
-            }
-            (w, at) = (next, after);
-            quiet = (at - 1.0).norm() < 0.1;
+            (w, here) = (next, there);
         }
-        turn -= at.arg();
+        turn -= return_difference(&here).arg();
         let poles = (f64::from(integrators) / 2.0 - turn / PI).round();
         if poles <= 0.0 { Self::Stable } else { Self::Unstable { poles: count(poles) } }
     }
+}
+
+/// det(I + L).
+fn return_difference(ratio: &Matrix2<Complex>) -> Complex {
+    (Matrix2::identity() + ratio).determinant()
+}
+
+/// Whether the size of the loop alone keeps det(I + L) near 1.
+fn is_quiet(ratio: &Matrix2<Complex>) -> bool {
+    let [a, b, c, d] = [(0, 0), (0, 1), (1, 0), (1, 1)].map(|at| ratio[at].norm());
+    a + d + a * d + b * c < QUIET
 }
 
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive number of poles")]

@@ -23,7 +23,7 @@ pub use discrete::DiscreteStateSpace;
 pub use eigen::eigenvalues;
 pub use error::LinearError;
 pub use lag_chain::MAX_ORDER;
-pub use loci::{Closure, Loci, LoopOutline, LoopStability, Margins, locus_values};
+pub use loci::{Closure, Crossing, Loci, LoopOutline, LoopStability, Margins, locus_values};
 pub use singular_values::singular_values;
 pub use state_space::StateSpace;
 pub use transfer::{TransferFunction, TransferMatrix};

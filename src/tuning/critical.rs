@@ -3,9 +3,9 @@ use std::f64::consts::TAU;
 use nalgebra::Matrix2;
 
 use crate::linear::{Complex, LinearError, TransferMatrix};
-use crate::scalar::sort_few;
+use crate::scalar::{golden_section, sort_few};
 
-/// Points of the frequency grid for each decade: fine enough that two crossings of a published plant never share a cell.
+/// Points of the frequency grid for each decade.
 const PER_DECADE: f64 = 400.0;
 /// Halvings of a cell of the grid: to the last bits of a frequency.
 const HALVINGS: u32 = 60;
@@ -106,7 +106,12 @@ impl Sample {
     /// The real equation; with one loop open that of a single loop, Im T = 0.
     fn equation(&self, direction: [f64; 2]) -> f64 {
         let (t, d) = self.trace_and_determinant(direction);
-        if direction.contains(&0.0) { t.im } else { d.im * d.im - t.re * t.im * d.im + d.re * t.im * t.im }
+        if direction.contains(&0.0) {
+            return t.im / t.norm();
+        }
+        // Relative to its terms: the gain of the plant falls over many decades.
+        let size = d.norm_sqr() + t.norm_sqr() * d.norm();
+        (d.im * d.im - t.re * t.im * d.im + d.re * t.im * t.im) / size
     }
 
     /// The factor a at a solution. Where one loop is open D vanishes, and `1 + a T = 0` is left.
@@ -130,16 +135,22 @@ impl<'a> CriticalSearch<'a> {
     /// same factor are a corner of the curve, where both loci pass through −1.
     pub fn crossings(&self, direction: [f64; 2]) -> Vec<CriticalPoint> {
         let mut points: Vec<CriticalPoint> = Vec::new();
-        for cell in self.grid.windows(2) {
-            let (low, high) = (cell[0].equation(direction), cell[1].equation(direction));
-            if low == 0.0 || low.signum() == high.signum() {
-                continue;
-            }
-            let solution = self.solve(cell[0], cell[1], direction);
+        let mut take = |low: Sample, high: Sample| {
+            let solution = self.solve(low, high, direction);
             let factor = solution.factor(direction);
             if factor > 0.0 && factor.is_finite() {
                 let gains = direction.map(|c| factor * c);
                 points.push(CriticalPoint { gains, factor, frequency: solution.frequency });
+            }
+        };
+        let values: Vec<f64> = self.grid.iter().map(|sample| sample.equation(direction)).collect();
+        for k in 1..values.len() {
+            let (low, high) = (self.grid[k - 1], self.grid[k]);
+            if values[k - 1] != 0.0 && values[k - 1].signum() != values[k].signum() {
+                take(low, high);
+            } else if let Some(between) = self.dip(&values, k, direction) {
+                take(self.grid[k - 1], between);
+                take(between, self.grid[k + 1]);
             }
         }
         sort_few(&mut points, |x, y| x.factor.total_cmp(&y.factor));
@@ -169,6 +180,21 @@ impl<'a> CriticalSearch<'a> {
         let discriminant = t.re * t.re - 4.0 * d.re;
         let largest = f64::midpoint(-t.re, discriminant.sqrt());
         (discriminant >= 0.0 && largest > 0.0).then(|| largest.recip())
+    }
+
+    /// Around grid point k: where the equation has the other sign between three points of the same sign, of which that one
+    /// is the nearest to zero. Two loops alike, with a dead time, have pairs of crossings closer than any grid.
+    fn dip(&self, values: &[f64], k: usize, direction: [f64; 2]) -> Option<Sample> {
+        let (before, at, after) = (values[k - 1], values[k], *values.get(k + 1)?);
+        let side = at.signum();
+        let alike = before.signum() == side && after.signum() == side;
+        if !(alike && at.abs() < before.abs() && at.abs() < after.abs()) {
+            return None;
+        }
+        let towards_zero = |w: f64| side * Sample::of(self.plant, w).equation(direction);
+        let lowest = golden_section(towards_zero, self.grid[k - 1].frequency, self.grid[k + 1].frequency);
+        let sample = Sample::of(self.plant, lowest);
+        (side * sample.equation(direction) < 0.0).then_some(sample)
     }
 
     fn solve(&self, mut low: Sample, mut high: Sample, direction: [f64; 2]) -> Sample {

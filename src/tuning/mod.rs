@@ -4,8 +4,10 @@
 
 mod critical;
 mod curve;
+mod design;
 mod error;
 mod experiment;
+mod identification;
 mod limit_cycle;
 mod placement;
 mod plants;
@@ -14,11 +16,13 @@ mod rules;
 
 pub use critical::{CriticalPoint, CriticalSearch, GainLimit, frequency_range, importance_direction};
 pub use curve::{Corner, CriticalCurve, CurvePoint};
+pub use design::Design;
 pub use error::TuningError;
 pub use experiment::{
     RelayTest, SequentialStep, TestTime, check_stable, independent_test, independent_tuning, modulus_estimator,
     relay_test, sequential_tuning, simultaneous_test, single_loop_test, ultimate_point, with_integrator,
 };
+pub use identification::{complete_response, sine_test};
 pub use limit_cycle::{LimitCycle, limit_cycles};
 pub use placement::{ControllerPair, integral_action_may_be_stable, place_both_loci, place_one_locus};
 pub use plants::{PublishedPlant, tank_transfer_matrix};
