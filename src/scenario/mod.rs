@@ -13,6 +13,7 @@ mod error;
 pub mod limits;
 mod link;
 mod margins;
+mod pack;
 mod path;
 mod presets;
 mod report;
