@@ -2,6 +2,7 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
 use super::path::path_at;
+use super::tuning::TuningScenario;
 use super::{Scenario, ScenarioError};
 
 /// Longest document that is read (bytes): far more than any scenario needs.
@@ -30,6 +31,43 @@ pub fn from_json(text: &str) -> Result<Scenario, ScenarioError> {
     };
     scenario.validate()?;
     Ok(scenario)
+}
+
+/// A document of any kind.
+#[derive(Clone, Debug, PartialEq)]
+
+pub enum Document {
+    /// A run of the quadruple tank, version 1.
+    Quadruple(Scenario),
+    /// A relay-tuning session, version 2.
+    Tuning(TuningScenario),
+}
+
+/// Reads a document of any kind from JSON.
+///
+/// # Errors
+/// As [`from_json`].
+pub fn document_from_json(text: &str) -> Result<Document, ScenarioError> {
+    match from_json(text) {
+        Err(ScenarioError::UnknownVersion { found: 2, .. }) => {
+            let scenario: TuningScenario = parse(text)?;
+            scenario.validate()?;
+            Ok(Document::Tuning(scenario))
+        }
+        Err(ScenarioError::UnknownVersion { found, .. }) => {
+            Err(ScenarioError::UnknownVersion { found, newest: TuningScenario::VERSION })
+        }
+        result => result.map(Document::Quadruple),
+    }
+}
+
+/// Writes a relay-tuning session as JSON, indented; all digits of all numbers are kept.
+///
+/// # Errors
+/// What [`TuningScenario::validate`] finds.
+pub fn tuning_to_json(scenario: &TuningScenario) -> Result<String, ScenarioError> {
+    scenario.validate()?;
+    serde_json::to_string_pretty(scenario).map_err(|error| malformed(DOCUMENT, &error))
 }
 
 /// Writes a scenario as JSON, indented; all digits of all numbers are kept.

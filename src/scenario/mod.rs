@@ -18,11 +18,12 @@ mod path;
 mod presets;
 mod report;
 mod run;
+pub mod tuning;
 mod validate;
 mod valve_map;
 
 pub use analyse::{Analysis, analyse};
-pub use codec::{DOCUMENT_LIMIT, from_json, to_json};
+pub use codec::{DOCUMENT_LIMIT, Document, document_from_json, from_json, to_json, tuning_to_json};
 pub use document::{OperatingPointSpec, PlantSpec, Scenario, Setup, View};
 pub use error::ScenarioError;
 pub use limits::Limits;

@@ -157,7 +157,7 @@ fn zigzag(place: usize, expected: usize) -> usize {
 }
 
 fn unzigzag(number: usize, expected: usize) -> Option<usize> {
-    if number % 2 == 0 { expected.checked_add(number / 2) } else { expected.checked_sub(number.div_ceil(2)) }
+    if number.is_multiple_of(2) { expected.checked_add(number / 2) } else { expected.checked_sub(number.div_ceil(2)) }
 }
 
 /// FNV-1a.

@@ -11,6 +11,7 @@ mod identification;
 mod limit_cycle;
 mod placement;
 mod plants;
+mod proposal;
 mod relay_test;
 mod rules;
 
@@ -26,6 +27,7 @@ pub use identification::{complete_response, sine_test};
 pub use limit_cycle::{LimitCycle, limit_cycles};
 pub use placement::{ControllerPair, integral_action_may_be_stable, place_both_loci, place_one_locus};
 pub use plants::{PublishedPlant, tank_transfer_matrix};
+pub use proposal::{Action, PlacementMethod, PlacementWarning, Proposal, dynamic_relative_gain, propose, response_at};
 pub use relay_test::{
     CurveDistance, Exciter, LoopMeasurement, Oscillation, RelayReading, RelayVerdict, distance_from_curve,
     read_relay_test,

@@ -1,0 +1,179 @@
+use std::f64::consts::TAU;
+
+use nalgebra::Matrix2;
+
+use crate::control::{IsaPid, ParallelPid, PidMatrix, Relay};
+use crate::interaction::{Decoupling, decoupled_paths, static_decoupler};
+use crate::linear::{Closure, Complex, DelayedPlant, LoopStability, Margins, Path, TransferMatrix};
+use crate::sim::{LoopTrace, TwoLoops, run_two_loops};
+use crate::tuning::{
+    CriticalCurve, CriticalSearch, CurveDistance, Design, GainLimit, PlacementWarning, RelayTest, SequentialStep,
+    TestTime, TuningError, check_stable, distance_from_curve, frequency_range, importance_direction, independent_test,
+    propose, relay_test, response_at, sequential_tuning, ultimate_point,
+};
+
+use super::{CriticalSpec, DecouplerSpec, DesignSpec, TestKind, TestSpec, TuningSetup};
+
+/// Directions of the critical curve.
+const DIRECTIONS: usize = 200;
+
+/// What a session finds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tuning {
+    /// G(0).
+    pub dc_gain: Matrix2<f64>,
+    /// The boundary of the stable gains.
+    pub curve: CriticalCurve,
+    /// The relay test.
+    pub test: Tested,
+    /// The controllers; `None` where the curve has no ultimate point in the direction asked for.
+    pub design: Option<Designed>,
+}
+
+/// Relay tests.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Tested {
+    /// One of each loop, with the settings by the rule.
+    Independent(Vec<(RelayTest, Option<IsaPid>)>),
+    /// The steps of a sequence.
+    Sequential(Vec<SequentialStep>),
+    /// One of both loops, with its distances from the curve by peaks and by first harmonics.
+    Simultaneous(Box<RelayTest>, [Option<CurveDistance>; 2]),
+}
+
+/// Both roots of a placement.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Designed {
+    /// Critical frequency.
+    pub frequency: f64,
+    /// G(jω) there.
+    pub g: Matrix2<Complex>,
+    /// Root 1, with the larger controller in loop 1, and root 2.
+    pub roots: [DesignRoot; 2],
+    /// The response with the chosen root.
+    pub response: LoopTrace,
+}
+
+/// One root with what it does to the loop, without a decoupler.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DesignRoot {
+    /// The controllers.
+    pub controllers: [ParallelPid; 2],
+    /// What to beware of.
+    pub warnings: Vec<PlacementWarning>,
+    /// Whether the loop is stable.
+    pub stability: LoopStability,
+    /// How far from −1.
+    pub margins: Margins,
+    /// How its loci close.
+    pub closure: Closure,
+}
+
+/// Runs a session.
+///
+/// # Errors
+/// [`TuningError::UnstablePlant`], [`TuningError::OutOfRange`] for what the methods refuse, or what is wrong with the plant.
+pub fn tune(setup: &TuningSetup) -> Result<Tuning, TuningError> {
+    let plant = setup.plant.transfer_matrix()?;
+    check_stable(&plant)?;
+    let (low, high) = frequency_range(&plant)?;
+    let search = CriticalSearch::new(&plant, low, high);
+    Ok(Tuning {
+        dc_gain: plant.dc_gain(),
+        curve: CriticalCurve::of(&plant, &search, DIRECTIONS),
+        test: test(&plant, &search, &setup.test)?,
+        design: design(&plant, &search, setup)?,
+    })
+}
+
+fn test(plant: &TransferMatrix, search: &CriticalSearch, spec: &TestSpec) -> Result<Tested, TuningError> {
+    let time = TestTime { duration: spec.duration, release: spec.release, step: spec.step };
+    match spec.kind {
+        TestKind::Independent => {
+            let of_loop = |index: usize| {
+                let test = independent_test(plant, index, spec.amplitudes[index], time)?;
+                let point = ultimate_point(&test, index);
+                let settings = point.map(|point| spec.rule.settings(point).detuned(spec.detuning[index]));
+                Ok::<_, TuningError>((test, settings))
+            };
+            Ok(Tested::Independent(vec![of_loop(0)?, of_loop(1)?]))
+        }
+        TestKind::Sequential => {
+            Ok(Tested::Sequential(sequential_tuning(plant, spec.amplitudes, spec.rule, spec.passes, time)?))
+        }
+        TestKind::Simultaneous => {
+            let gain = plant.dc_gain();
+            let relay = |i: usize| Relay {
+                hysteresis: spec.hysteresis[i],
+                bias: spec.bias[i],
+                ..Relay::ideal(spec.amplitudes[i], gain[(i, i)])
+            };
+            let relays = [Some(relay(0)), Some(relay(1))];
+            let test = relay_test(&mut DelayedPlant::new(&plant.paths())?, relays, PidMatrix::default(), time)?;
+            let distance = |gains: Option<[f64; 2]>, period| distance_from_curve(search, gains?, period);
+            let distances = test.reading.oscillation.map_or([None; 2], |o| {
+                [distance(o.gains_by_peak(), o.period), distance(o.gains_by_harmonic(), o.period)]
+            });
+            Ok(Tested::Simultaneous(Box::new(test), distances))
+        }
+    }
+}
+
+fn design(
+    plant: &TransferMatrix,
+    search: &CriticalSearch,
+    setup: &TuningSetup,
+) -> Result<Option<Designed>, TuningError> {
+    let spec = &setup.design;
+    let gain = plant.dc_gain();
+    let frequency = match spec.critical {
+        CriticalSpec::Point { period, .. } => TAU / period,
+        CriticalSpec::Importance(r) => match search.limit(importance_direction(&gain, r)) {
+            GainLimit::Oscillation(point) => point.frequency,
+            GainLimit::RealPole { .. } | GainLimit::None => return Ok(None),
+        },
+    };
+    let g = response_at(plant, frequency);
+    let [re, im] = spec.target;
+    let [one, two] = propose(&gain, &g, frequency, spec.method, spec.action, Complex::new(re, im))?;
+    let chosen = if spec.root == 2 { two.controllers } else { one.controllers };
+    let response = respond(plant, chosen, spec, setup)?;
+    let root = |controllers: [ParallelPid; 2], warnings: Vec<PlacementWarning>| {
+        let design = Design::new(plant, PidMatrix::decentralised(controllers))?;
+        let margins = design.margins(&design.loci());
+        let (stability, closure) = (design.stability(), design.closure());
+        Ok::<_, TuningError>(DesignRoot { controllers, warnings, stability, margins, closure })
+    };
+    let roots = [root(one.controllers, one.warnings)?, root(two.controllers, two.warnings)?];
+    Ok(Some(Designed { frequency, g, roots, response }))
+}
+
+fn respond(
+    plant: &TransferMatrix,
+    controllers: [ParallelPid; 2],
+    spec: &DesignSpec,
+    setup: &TuningSetup,
+) -> Result<LoopTrace, TuningError> {
+    let (paths, controllers): (Vec<Path>, PidMatrix) = match spec.decoupler {
+        DecouplerSpec::None => (plant.paths(), PidMatrix::decentralised(controllers)),
+        DecouplerSpec::Static => (plant.paths(), PidMatrix::decoupled(controllers, static_decoupler(plant)?)),
+        DecouplerSpec::Dynamic | DecouplerSpec::FirstOutput | DecouplerSpec::SecondOutput => {
+            let which = match spec.decoupler {
+                DecouplerSpec::FirstOutput => Decoupling::FirstOutput,
+                DecouplerSpec::SecondOutput => Decoupling::SecondOutput,
+                _ => Decoupling::Both,
+            };
+            (decoupled_paths(plant, which)?, PidMatrix::decentralised(controllers))
+        }
+    };
+    let response = &setup.response;
+    let loops = TwoLoops {
+        relays: [None; 2],
+        controllers,
+        references: response.references,
+        release: 0.0,
+        duration: response.duration,
+        step: response.step,
+    };
+    Ok(run_two_loops(&mut DelayedPlant::new(&paths)?, &loops))
+}

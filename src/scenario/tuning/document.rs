@@ -1,0 +1,310 @@
+use serde::{Deserialize, Serialize};
+
+use crate::control::Pairing;
+use crate::linear::{TransferFunction, TransferMatrix};
+use crate::plant::PresetId;
+use crate::scenario::ScenarioError;
+use crate::tuning::{Action, PlacementMethod, PublishedPlant, TuningError, TuningRule, tank_transfer_matrix};
+
+/// The longest record: rows.
+const MOST_ROWS: f64 = 100_000.0;
+/// Most passes of a sequence.
+const MOST_PASSES: usize = 20;
+/// Largest number anywhere, and smallest positive one.
+const LARGEST: f64 = 1e6;
+const SMALLEST: f64 = 1e-6;
+/// Longest list of coefficients.
+const MOST_COEFFICIENTS: usize = 8;
+
+/// An element `b(s)/a(s) e^(−θ s)` of a plant of one's own.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Element {
+    /// Coefficients of b by rising powers of s.
+    pub numerator: Vec<f64>,
+    /// Coefficients of a by rising powers of s.
+    pub denominator: Vec<f64>,
+    /// Dead time θ.
+    #[serde(default)]
+    pub dead_time: f64,
+}
+
+/// The plant that is tuned. Times are in its own unit.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum TuningPlant {
+    /// A plant of the literature.
+    Published(PublishedPlant),
+    /// The linear model of a published quadruple tank at its published pump voltages, from voltages to measured levels, s.
+    QuadrupleTank {
+        /// The rig.
+        preset: PresetId,
+        /// Valve fractions γ1, γ2; those of the rig where they are not given.
+        #[serde(default)]
+        valves: Option<[f64; 2]>,
+        /// Which pump each loop drives.
+        pairing: Pairing,
+        /// A dead time in every element (s).
+        #[serde(default)]
+        dead_time_s: f64,
+        /// A lag in every element (s), of pump or sensor.
+        #[serde(default)]
+        lag_s: f64,
+    },
+    /// Four elements, row by output.
+    Elements([[Element; 2]; 2]),
+}
+
+/// Which relay test is run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case")]
+pub enum TestKind {
+    /// One loop after the other, each alone.
+    Independent,
+    /// One loop after the other, those before closed by the rule.
+    Sequential,
+    /// Both at once.
+    Simultaneous,
+}
+
+/// A relay test.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct TestSpec {
+    /// Which one.
+    pub kind: TestKind,
+    /// Amplitudes d1, d2.
+    pub amplitudes: [f64; 2],
+    /// Half widths ε of the hysteresis; only of the simultaneous test.
+    #[serde(default)]
+    pub hysteresis: [f64; 2],
+    /// Means of the relay outputs; only of the simultaneous test.
+    #[serde(default)]
+    pub bias: [f64; 2],
+    /// The rule of independent and sequential tests.
+    pub rule: TuningRule,
+    /// Factors f by which independent tests are made weaker.
+    #[serde(default = "ones")]
+    pub detuning: [f64; 2],
+    /// Passes of a sequential test.
+    #[serde(default = "one_pass")]
+    pub passes: usize,
+    /// How long.
+    pub duration: f64,
+    /// When the relays begin to switch.
+    pub release: f64,
+    /// Time between rows.
+    pub step: f64,
+}
+
+fn ones() -> [f64; 2] {
+    [1.0; 2]
+}
+
+fn one_pass() -> usize {
+    1
+}
+
+/// The critical point that a design starts from.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum CriticalSpec {
+    /// The point of the curve where loop 2 has this importance r2.
+    Importance(f64),
+    /// A point as printed or measured.
+    Point {
+        /// Gains kc1, kc2.
+        gains: [f64; 2],
+        /// Period Tc.
+        period: f64,
+    },
+}
+
+/// What stands between controllers and plant.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case")]
+pub enum DecouplerSpec {
+    /// Nothing.
+    #[default]
+    None,
+    /// Constant gains.
+    Static,
+    /// Both cross paths removed.
+    Dynamic,
+    /// Only the way from loop 2 to output 1.
+    FirstOutput,
+    /// Only the way from loop 1 to output 2.
+    SecondOutput,
+}
+
+/// A placement of the critical point.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct DesignSpec {
+    /// From where.
+    pub critical: CriticalSpec,
+    /// Which loci.
+    pub method: PlacementMethod,
+    /// With which controllers.
+    pub action: Action,
+    /// Target λ: real and imaginary part.
+    pub target: [f64; 2],
+    /// Root 1 or 2; root 1 has the larger controller in loop 1.
+    pub root: usize,
+    /// Decoupler of the response.
+    #[serde(default)]
+    pub decoupler: DecouplerSpec,
+}
+
+/// Steps of the references.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct ResponseSpec {
+    /// References of both loops, from the start on.
+    pub references: [f64; 2],
+    /// How long.
+    pub duration: f64,
+    /// Sampling time of the controllers.
+    pub step: f64,
+}
+
+/// Everything that a tuning session depends on.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct TuningSetup {
+    /// The plant.
+    pub plant: TuningPlant,
+    /// The relay test.
+    pub test: TestSpec,
+    /// The controllers.
+    pub design: DesignSpec,
+    /// The response.
+    pub response: ResponseSpec,
+}
+
+/// A relay-tuning session.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct TuningScenario {
+    /// Version of the document: 2. It is checked before anything else is read.
+    pub version: u32,
+    /// The session.
+    pub tuning: TuningSetup,
+}
+
+impl TuningScenario {
+    /// The version of these documents.
+    pub const VERSION: u32 = 2;
+
+    /// Checks every number and the lengths of all lists.
+    ///
+    /// # Errors
+    /// [`ScenarioError::OutOfRange`] or [`ScenarioError::TooMany`] for the first field that is not allowed.
+    pub fn validate(&self) -> Result<(), ScenarioError> {
+        let TuningSetup { plant, test, design, response } = &self.tuning;
+        check_plant(plant)?;
+        for i in [0, 1] {
+            within(test.amplitudes[i], SMALLEST, LARGEST, || format!("tuning.test.amplitudes[{i}]"))?;
+            within(test.hysteresis[i], 0.0, LARGEST, || format!("tuning.test.hysteresis[{i}]"))?;
+            within(test.bias[i], -LARGEST, LARGEST, || format!("tuning.test.bias[{i}]"))?;
+            within(test.detuning[i], SMALLEST, LARGEST, || format!("tuning.test.detuning[{i}]"))?;
+            within(design.target[i], -LARGEST, LARGEST, || format!("tuning.design.target[{i}]"))?;
+            within(response.references[i], -LARGEST, LARGEST, || format!("tuning.response.references[{i}]"))?;
+        }
+        within(test.passes as f64, 1.0, MOST_PASSES as f64, || "tuning.test.passes".to_owned())?;
+        within(test.release, 0.0, test.duration, || "tuning.test.release".to_owned())?;
+        check_time(test.duration, test.step, "tuning.test")?;
+        check_time(response.duration, response.step, "tuning.response")?;
+        within(design.root as f64, 1.0, 2.0, || "tuning.design.root".to_owned())?;
+        match design.critical {
+            CriticalSpec::Importance(r) => {
+                within(r, SMALLEST, LARGEST, || "tuning.design.critical.importance".to_owned())
+            }
+            CriticalSpec::Point { gains, period } => {
+                within(period, SMALLEST, LARGEST, || "tuning.design.critical.point.period".to_owned())?;
+                gains.iter().enumerate().try_for_each(|(i, &gain)| {
+                    within(gain, -LARGEST, LARGEST, || format!("tuning.design.critical.point.gains[{i}]"))
+                })
+            }
+        }
+    }
+}
+
+fn check_time(duration: f64, step: f64, path: &str) -> Result<(), ScenarioError> {
+    within(duration, SMALLEST, LARGEST, || format!("{path}.duration"))?;
+    within(step, duration / MOST_ROWS, duration, || format!("{path}.step"))
+}
+
+fn check_plant(plant: &TuningPlant) -> Result<(), ScenarioError> {
+    match plant {
+        TuningPlant::Published(_) => Ok(()),
+        TuningPlant::QuadrupleTank { valves, dead_time_s, lag_s, .. } => {
+            let path = "tuning.plant.quadruple_tank";
+            for (i, &valve) in valves.iter().flatten().enumerate() {
+                within(valve, 0.0, 1.0, || format!("{path}.valves[{i}]"))?;
+            }
+            within(*dead_time_s, 0.0, LARGEST, || format!("{path}.dead_time_s"))?;
+            within(*lag_s, 0.0, LARGEST, || format!("{path}.lag_s"))
+        }
+        TuningPlant::Elements(rows) => rows.as_flattened().iter().enumerate().try_for_each(|(k, element)| {
+            let path = format!("tuning.plant.elements[{}][{}]", k / 2, k % 2);
+            for (name, list) in [("numerator", &element.numerator), ("denominator", &element.denominator)] {
+                if list.len() > MOST_COEFFICIENTS {
+                    let field = format!("{path}.{name}");
+                    return Err(ScenarioError::TooMany { field, count: list.len(), max: MOST_COEFFICIENTS });
+                }
+                list.iter()
+                    .enumerate()
+                    .try_for_each(|(i, &c)| within(c, -1e12, 1e12, || format!("{path}.{name}[{i}]")))?;
+            }
+            within(element.dead_time, 0.0, LARGEST, || format!("{path}.dead_time"))
+        }),
+    }
+}
+
+fn within(value: f64, min: f64, max: f64, field: impl Fn() -> String) -> Result<(), ScenarioError> {
+    if value >= min && value <= max {
+        Ok(())
+    } else {
+        Err(ScenarioError::OutOfRange { field: field(), value, min, max })
+    }
+}
+
+impl TuningPlant {
+    /// As transfer functions.
+    ///
+    /// # Errors
+    /// [`TuningError::Linear`] for coefficients that are no transfer function.
+    pub fn transfer_matrix(&self) -> Result<TransferMatrix, TuningError> {
+        match self {
+            Self::Published(plant) => Ok(plant.transfer_matrix()?),
+            Self::QuadrupleTank { preset, valves, pairing, dead_time_s, lag_s } => {
+                let rig = preset.preset();
+                let plant = rig.plant.with_valves(valves.unwrap_or(rig.plant.valves));
+                let jacobian = plant.linearise(&plant.free_equilibrium(rig.pump_voltage));
+                let behind = TransferFunction::lags(1.0, &[*lag_s], *dead_time_s)?;
+                let transfer = tank_transfer_matrix(&jacobian)?.followed_by(&behind);
+                Ok(match pairing {
+                    Pairing::Diagonal => transfer,
+                    Pairing::Swapped => transfer.swapped(),
+                })
+            }
+            Self::Elements(rows) => {
+                let element =
+                    |e: &Element| TransferFunction::new(e.numerator.clone(), e.denominator.clone(), e.dead_time);
+                let [[g11, g12], [g21, g22]] = rows;
+                Ok(TransferMatrix([[element(g11)?, element(g12)?], [element(g21)?, element(g22)?]]))
+            }
+        }
+    }
+}

@@ -1,0 +1,12 @@
+//! The document of a relay-tuning session, version 2, and what follows from it.
+
+mod answer;
+mod document;
+mod published;
+
+pub use answer::{DesignRoot, Designed, Tested, Tuning, tune};
+pub use document::{
+    CriticalSpec, DecouplerSpec, DesignSpec, Element, ResponseSpec, TestKind, TestSpec, TuningPlant, TuningScenario,
+    TuningSetup,
+};
+pub use published::PublishedCase;

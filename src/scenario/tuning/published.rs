@@ -1,0 +1,132 @@
+use crate::tuning::{Action, PlacementMethod, PublishedPlant, TuningRule};
+
+use super::{
+    CriticalSpec, DecouplerSpec, DesignSpec, ResponseSpec, TestKind, TestSpec, TuningPlant, TuningScenario, TuningSetup,
+};
+
+/// A published case of Campestrini (2006): a table, and its row where it has several.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PublishedCase {
+    /// Number of the table.
+    pub table: u32,
+    /// Row, from 1.
+    pub row: usize,
+}
+
+/// Plant, critical point (kc1, kc2, Tc), method, action, λ and root of a row.
+type Row = (PublishedPlant, [f64; 3], PlacementMethod, Action, [f64; 2], usize);
+
+impl PublishedCase {
+    /// All cases with printed controllers by placement, in the order of the thesis. With method A the root is the one that has
+    /// the sign of the plant.
+    pub const ALL: [Self; 22] = {
+        const fn of(table: u32, row: usize) -> PublishedCase {
+            PublishedCase { table, row }
+        }
+        [
+            of(5, 1),
+            of(6, 1),
+            of(6, 2),
+            of(8, 1),
+            of(8, 2),
+            of(9, 1),
+            of(10, 1),
+            of(10, 2),
+            of(11, 1),
+            of(11, 2),
+            of(12, 1),
+            of(12, 2),
+            of(12, 3),
+            of(12, 4),
+            of(14, 1),
+            of(14, 2),
+            of(14, 3),
+            of(14, 4),
+            of(15, 1),
+            of(15, 2),
+            of(16, 1),
+            of(16, 2),
+        ]
+    };
+
+    /// Its name on the command line: `table-12-row-3`.
+    pub fn name(self) -> String {
+        format!("table-{}-row-{}", self.table, self.row)
+    }
+
+    /// The case with a name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|case| case.name() == name)
+    }
+
+    fn parts(self) -> Row {
+        use Action::{Pi, Pid};
+        use PlacementMethod::{BothLoci, OneLocus};
+        use PublishedPlant::{ProcessTwo, WoodBerry};
+        let wood_berry = |point: usize| -> [f64; 3] {
+            match point {
+                1 => [0.096, -0.417, 11.57],
+                2 => [0.710, -0.264, 12.70],
+                3 => [1.270, -0.252, 12.25],
+                _ => [1.900, -0.253, 12.00],
+            }
+        };
+        let process_two = |point: usize| -> [f64; 3] {
+            match point {
+                1 => [1.250, 1.082, 1.46],
+                2 => [0.100, 2.110, 1.35],
+                _ => [5.000, 0.494, 1.17],
+            }
+        };
+        let [re, im] = [TuningRule::TyreusLuybenPid.target().re, TuningRule::TyreusLuybenPid.target().im];
+        match (self.table, self.row) {
+            (5, _) => (WoodBerry, [0.450, -0.290, 12.90], OneLocus, Pi, [-0.40, 0.08], 2),
+            (6, root) => (WoodBerry, wood_berry(1), BothLoci, Pid, [-0.60, -0.28], root),
+            (8, point) => (WoodBerry, wood_berry(point), OneLocus, Pi, [-0.3, 0.08], 2),
+            (9, _) => (WoodBerry, wood_berry(1), OneLocus, Pid, [0.2, -0.5], 1),
+            (10, point) => (WoodBerry, wood_berry(point), BothLoci, Pi, [-0.2, 0.01], 2),
+            (11, root) => (WoodBerry, wood_berry(2), BothLoci, Pid, [re, im], root),
+            (12, point) => (WoodBerry, wood_berry(point), BothLoci, Pid, [-0.2, -0.3], 2),
+            (14, 4) => (ProcessTwo, process_two(3), OneLocus, Pi, [-0.4, 0.15], 2),
+            (14, point) => (ProcessTwo, process_two(point), OneLocus, Pi, [-0.3, 0.1], 2),
+            (15, point) => (ProcessTwo, process_two(point), BothLoci, Pi, [-0.2, 0.01], 2),
+            (_, point) => (ProcessTwo, process_two(point), BothLoci, Pid, [-0.3, -0.3], 2),
+        }
+    }
+
+    /// The session of a case, with a simultaneous test of equal amplitudes beside it.
+    pub fn scenario(self) -> TuningScenario {
+        let (plant, [kc1, kc2, period], method, action, target, root) = self.parts();
+        let (duration, step, response) = match plant {
+            PublishedPlant::WoodBerry => (400.0, 0.05, 200.0),
+            PublishedPlant::ProcessTwo => (40.0, 0.005, 20.0),
+        };
+        TuningScenario {
+            version: TuningScenario::VERSION,
+            tuning: TuningSetup {
+                plant: TuningPlant::Published(plant),
+                test: TestSpec {
+                    kind: TestKind::Simultaneous,
+                    amplitudes: [1.0; 2],
+                    hysteresis: [0.0; 2],
+                    bias: [0.0; 2],
+                    rule: TuningRule::ZieglerNicholsPi,
+                    detuning: [1.0; 2],
+                    passes: 1,
+                    duration,
+                    release: 0.01 * duration,
+                    step,
+                },
+                design: DesignSpec {
+                    critical: CriticalSpec::Point { gains: [kc1, kc2], period },
+                    method,
+                    action,
+                    target,
+                    root,
+                    decoupler: DecouplerSpec::None,
+                },
+                response: ResponseSpec { references: [1.0, 0.0], duration: response, step: 2.0 * step },
+            },
+        }
+    }
+}
