@@ -210,7 +210,7 @@ fn a_broken_scenario_ends_with_code_2_and_names_the_field() {
     for (broken, message) in [
         (with("/setup/valves/0", json!(1.5)), "setup.valves[0]: 1.5 is outside 0 to 1"),
         (with("/setup/controller/loops/1/gain", json!("high")), "setup.controller.loops[1].gain: invalid type: string"),
-        (with("/version", json!(7)), "version: 7 is unknown, this program reads 1 to 1"),
+        (with("/version", json!(7)), "version: 7 is unknown, this program reads 1 to 2"),
         (good.replace("3000.0", "1e999").into_bytes(), "setup.experiment.duration_s: number out of range"),
         (singular, "setup.operating_point: the plant is singular at steady state: gamma1 + gamma2 = 1"),
         (vec![b'['; 100_000], "the document is longer than 65536 bytes"),
@@ -289,4 +289,94 @@ fn the_examples_of_the_readme_work() {
         let output = Command::new("sh").args(["-c", command]).current_dir(&folder).env("PATH", &path).output().unwrap();
         assert!(output.status.success() && output.stderr.is_empty(), "{command}\n{}", stderr(&output));
     }
+}
+
+fn case(name: &str) -> String {
+    stdout(&run(&["cases", name]))
+}
+
+#[test]
+fn cases_lists_every_published_case_and_tune_gives_its_gains() {
+    let list = stdout(&run(&["cases"]));
+    assert_eq!(list.lines().count(), 22);
+    // Table 6, root 1.
+    let report: Value = serde_json::from_str(&stdout(&pipe(&["tune", "-"], case("table-6-row-1").as_bytes()))).unwrap();
+    let root = &report["design"]["roots"][0];
+    let printed = [("kp", 0.567, -0.102), ("ki", 0.336, -0.018), ("kd", 0.239, -0.144)];
+    for (name, first, second) in printed {
+        assert_relative_eq!(root["controllers"][0][name].as_f64().unwrap(), first, epsilon = 6e-4);
+        assert_relative_eq!(root["controllers"][1][name].as_f64().unwrap(), second, epsilon = 6e-4);
+    }
+    assert_eq!(root["stability"]["stable"], json!(true));
+    assert_eq!(report["test"]["reading"]["verdict"], json!("unimodal"));
+    let unknown = run(&["cases", "table-99-row-1"]);
+    assert_eq!(unknown.status.code(), Some(2));
+    assert!(stderr(&unknown).contains("table-99-row-1"));
+}
+
+#[test]
+fn every_command_takes_a_relay_tuning_session() {
+    let session = case("table-14-row-1");
+    let analysis: Value = serde_json::from_str(&stdout(&pipe(&["analyse", "-"], session.as_bytes()))).unwrap();
+    // λ11 = 0.5455 and NI = 1.8333 of Process II, recomputed.
+    assert_relative_eq!(analysis["rga_11"].as_f64().unwrap(), 0.5455, epsilon = 5.1e-5);
+    assert_relative_eq!(analysis["niederlinski_diagonal"].as_f64().unwrap(), 1.8333, epsilon = 5.1e-5);
+    let response = stdout(&pipe(&["simulate", "-"], session.as_bytes()));
+    assert!(response.starts_with("time,output_1,output_2,input_1,input_2\n"));
+    let last: Vec<f64> = response.lines().last().unwrap().split(',').map(|x| x.parse().unwrap()).collect();
+    assert!((last[1] - 1.0).abs() < 0.01 && last[2].abs() < 0.01, "{last:?}");
+    let record = stdout(&pipe(&["tune", "-", "--format", "csv"], session.as_bytes()));
+    assert!(record.lines().count() > 8000);
+    for picture in ["test", "curve", "loci", "response"] {
+        let svg = stdout(&pipe(&["plot", "-", "--svg", "-", "--picture", picture], session.as_bytes()));
+        let document = roxmltree::Document::parse(&svg).unwrap();
+        assert!(document.descendants().filter(|node| node.has_tag_name("path")).count() > 2, "{picture}");
+    }
+    let schema: Value = serde_json::from_str(&stdout(&run(&["schema", "--version", "2"]))).unwrap();
+    assert_described(&schema, &schema, &serde_json::from_str(&session).unwrap());
+}
+
+#[test]
+fn sequential_and_independent_tests_report_every_loop() {
+    let mut session: Value = serde_json::from_str(&case("table-14-row-1")).unwrap();
+    session["tuning"]["test"]["kind"] = json!("sequential");
+    session["tuning"]["test"]["passes"] = json!(2);
+    let report = |session: &Value| -> Value {
+        serde_json::from_str(&stdout(&pipe(&["tune", "-"], session.to_string().as_bytes()))).unwrap()
+    };
+    let steps = report(&session)["test"]["steps"].as_array().unwrap().clone();
+    assert_eq!(steps.iter().map(|step| step["loop"].as_u64().unwrap()).collect::<Vec<_>>(), [1, 2, 1, 2]);
+    session["tuning"]["test"]["kind"] = json!("independent");
+    let loops = report(&session)["test"]["loops"].as_array().unwrap().clone();
+    // 0.4 Kc of the diagonal elements, Kc = 9.000 and 2.278, which relays meet within 3 %.
+    for (of_loop, gain) in loops.iter().zip([9.0, 2.278]) {
+        assert_relative_eq!(of_loop["settings"]["gain"].as_f64().unwrap(), 0.4 * gain, max_relative = 0.03);
+    }
+}
+
+#[test]
+fn what_relay_tuning_refuses_is_said() {
+    let refused = |change: &dyn Fn(&mut Value)| {
+        let mut session: Value = serde_json::from_str(&case("table-5-row-1")).unwrap();
+        change(&mut session["tuning"]);
+        let output = pipe(&["tune", "-"], session.to_string().as_bytes());
+        assert_eq!(output.status.code(), Some(2));
+        stderr(&output)
+    };
+    assert!(refused(&|t| t["test"]["amplitudes"][0] = json!(0)).contains("tuning.test.amplitudes[0]: 0"));
+    assert!(refused(&|t| t["design"]["target"] = json!([0, 0])).contains("tuning: target = 0"));
+    let element =
+        |dead_time: f64, slope: f64| json!({ "numerator": [1.0], "denominator": [1.0, slope], "dead_time": dead_time });
+    let plant = |g: [Value; 4]| {
+        let [a, b, c, d] = g;
+        json!({ "elements": [[a, b], [c, d]] })
+    };
+    let unstable = plant([element(1.0, 1.0), element(1.0, 2.0), element(1.0, 1.0), element(1.0, -3.0)]);
+    assert!(refused(&|t| t["plant"] = unstable.clone()).contains("a pole with the real part 0.333"));
+    let singular = plant([element(1.0, 1.0), element(1.0, 2.0), element(1.0, 1.0), element(1.0, 3.0)]);
+    assert!(refused(&|t| t["plant"] = singular.clone()).contains("singular"));
+    let run_of_the_tank = preset(PresetId::JohanssonMinimumPhase);
+    let output = pipe(&["tune", "-"], run_of_the_tank.as_bytes());
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("version 2"));
 }

@@ -2,7 +2,7 @@
 //!
 //! A picture is made in three steps that know little of each other:
 //!
-//! 1. A builder ([`valve_plane`], [`pole_zero`], [`responses`]) turns numbers and words into [`Chart`]s: axes and
+//! 1. A builder ([`valve_plane`], [`pole_zero`], [`responses`], [`critical_curve`] …) turns numbers and words into [`Chart`]s: axes and
 //!    layers, in the units of the axes. The words come from the caller; this room knows no language.
 //! 2. [`layout`] says where on the page each chart stands. Its [`Frame`]s map data to CSS pixels and back; the painter
 //!    uses them, and so does the app for cursors and handles.
@@ -27,6 +27,7 @@ mod responses;
 mod svg;
 mod table;
 mod trace;
+mod tuning;
 mod valve_plane;
 
 pub use axis::{Axis, Tick};
@@ -39,4 +40,5 @@ pub use pole_zero::{PoleZero, PoleZeroTexts, pole_zero};
 pub use responses::{ResponseTexts, Responses, RunColumns, responses};
 pub use svg::to_svg;
 pub use table::{Summary, Table, table};
+pub use tuning::{CurveChart, LociChart, LoopsChart, characteristic_loci, critical_curve, two_loops};
 pub use valve_plane::{ValvePlane, ValvePlaneTexts, valve_plane};

@@ -50,7 +50,12 @@ impl<'a> Design<'a> {
         Loci::along(|w| self.ratio(w), self.range.0, self.range.1, POINTS)
     }
 
-    /// Margins of these.
+    /// The loci between two frequencies, for a picture: far beyond the critical one a dead time winds them round the origin.
+    pub fn loci_between(&self, low: f64, high: f64) -> Loci {
+        Loci::along(|w| self.ratio(w), low, high, POINTS)
+    }
+
+    /// Margins of [`loci`](Self::loci).
     pub fn margins(&self, loci: &Loci) -> Margins {
         loci.margins(|w| self.ratio(w))
     }

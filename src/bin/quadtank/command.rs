@@ -7,13 +7,17 @@ use std::process::ExitCode;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Parser, Subcommand, ValueEnum};
 use quadtank::plant::PresetId;
+use quadtank::scenario::tuning::{PublishedCase, TuningScenario, TuningSetup};
 use quadtank::scenario::{
-    AnalysisReport, DOCUMENT_LIMIT, Scenario, ScenarioError, Setup, analyse, from_json, run, setup_of, to_json,
+    AnalysisReport, DOCUMENT_LIMIT, Document, Scenario, ScenarioError, Setup, analyse, document_from_json, run,
+    setup_of, to_json, tuning_to_json,
 };
+use quadtank::tuning::TuningError;
 use serde::Serialize;
 use thiserror::Error;
 
 mod plot;
+mod tune;
 
 /// The quadruple-tank laboratory without a screen.
 ///
@@ -48,9 +52,12 @@ enum Command {
         /// File to write, or - for standard output
         #[arg(long, value_name = "OUT")]
         svg: PathBuf,
-        /// What to draw
+        /// What to draw of a run of the quadruple tank (version 1)
         #[arg(long, value_enum, default_value_t = plot::Chart::Responses)]
         chart: plot::Chart,
+        /// What to draw of a relay-tuning session (version 2)
+        #[arg(long, value_enum, default_value_t = tune::Picture::Loci)]
+        picture: tune::Picture,
         /// Colours
         #[arg(long, value_enum, default_value_t = plot::Colours::Light)]
         theme: plot::Colours,
@@ -61,8 +68,26 @@ enum Command {
         #[arg(value_parser = preset_parser())]
         name: Option<PresetId>,
     },
+    /// Run the relay test and the design of a relay-tuning session (version 2)
+    Tune {
+        /// Scenario file (JSON), or - for standard input
+        file: PathBuf,
+        /// json: readings, both roots, stability and margins; csv: the record of the relay test
+        #[arg(long, value_enum, default_value_t = Format::Json)]
+        format: Format,
+    },
+    /// List the published relay-tuning cases of Campestrini (2006), or print the scenario of one
+    Cases {
+        /// Name of a case
+        #[arg(value_parser = case_of)]
+        name: Option<PublishedCase>,
+    },
     /// Print the JSON Schema of the scenario
-    Schema,
+    Schema {
+        /// Version of the document: 1 for the quadruple tank, 2 for relay tuning
+        #[arg(long, default_value_t = Scenario::VERSION, value_parser = clap::value_parser!(u32).range(1..=2))]
+        version: u32,
+    },
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -76,11 +101,19 @@ fn preset_parser() -> impl TypedValueParser<Value = PresetId> {
         .try_map(|name| PresetId::from_name(&name).ok_or("unknown rig"))
 }
 
+fn case_of(name: &str) -> Result<PublishedCase, &'static str> {
+    PublishedCase::from_name(name).ok_or("unknown case; `quadtank cases` lists them")
+}
+
 /// Why a command was not carried out.
 #[derive(Debug, Error)]
 enum Failure {
     #[error("{file}: {error}")]
     Scenario { file: String, error: ScenarioError },
+    #[error("{file}: tuning: {error}")]
+    Tuning { file: String, error: TuningError },
+    #[error("{file}: this command needs a relay-tuning session, version 2; a run of the quadruple tank is version 1")]
+    NoTuning { file: String },
     #[error("{file}: not UTF-8 text, so not JSON")]
     NotText { file: String },
     #[error("{file}: {error}")]
@@ -90,7 +123,9 @@ enum Failure {
 impl Failure {
     fn exit_code(&self) -> ExitCode {
         match self {
-            Self::Scenario { .. } | Self::NotText { .. } => ExitCode::from(2),
+            Self::Scenario { .. } | Self::Tuning { .. } | Self::NoTuning { .. } | Self::NotText { .. } => {
+                ExitCode::from(2)
+            }
             Self::File { .. } => ExitCode::from(1),
         }
     }
@@ -110,20 +145,48 @@ pub fn main() -> ExitCode {
 
 fn execute(command: Command) -> Result<(), Failure> {
     match command {
-        Command::Analyse { file } => {
-            let analysis = compute(&file, analyse)?;
-            print_json(&AnalysisReport::from(&analysis))
+        Command::Analyse { file } => answer(
+            &file,
+            |setup| print_json(&AnalysisReport::from(&told(&file, analyse(setup))?)),
+            |session| print_json(&tuned(&file, tune::analysis(session))?),
+        ),
+        Command::Simulate { file, format } => answer(
+            &file,
+            |setup| {
+                let run = told(&file, run(setup))?;
+                match format {
+                    Format::Csv => print(&run.to_csv()),
+                    Format::Json => print_json(&run),
+                }
+            },
+            |session| match format {
+                Format::Csv => print(&tuned(&file, tune::response_csv(session))?),
+                Format::Json => print_json(&tuned(&file, tune::report(session))?),
+            },
+        ),
+        Command::Plot { file, svg, chart, picture, theme } => {
+            let style = theme.style();
+            let write = |drawing: String| {
+                if is_standard_stream(&svg) { print(&drawing) } else { write_file(&svg, &drawing) }
+            };
+            answer(
+                &file,
+                |setup| write(told(&file, plot::svg(setup, chart, &style))?),
+                |session| write(tuned(&file, tune::svg(session, picture, &style))?),
+            )
         }
-        Command::Simulate { file, format } => {
-            let run = compute(&file, run)?;
-            match format {
-                Format::Csv => print(&run.to_csv()),
-                Format::Json => print_json(&run),
-            }
-        }
-        Command::Plot { file, svg, chart, theme } => {
-            let drawing = compute(&file, |setup| plot::svg(setup, chart, theme))?;
-            if is_standard_stream(&svg) { print(&drawing) } else { write_file(&svg, &drawing) }
+        Command::Tune { file, format } => answer(
+            &file,
+            |_| Err(Failure::NoTuning { file: file_name(&file) }),
+            |session| match format {
+                Format::Json => print_json(&tuned(&file, tune::report(session))?),
+                Format::Csv => print(&tuned(&file, tune::test_csv(session))?),
+            },
+        ),
+        Command::Cases { name: None } => print(&list_of_cases()),
+        Command::Cases { name: Some(case) } => {
+            let text = tuning_to_json(&case.scenario());
+            print(&(text.map_err(|error| Failure::Scenario { file: case.name(), error })? + "\n"))
         }
         Command::Presets { name: None } => print(&list_of_presets()),
         Command::Presets { name: Some(id) } => {
@@ -131,16 +194,29 @@ fn execute(command: Command) -> Result<(), Failure> {
             let text = to_json(&scenario).map_err(|error| Failure::Scenario { file: id.name().to_owned(), error })?;
             print(&(text + "\n"))
         }
-        Command::Schema => print_json(&schemars::schema_for!(Scenario)),
+        Command::Schema { version: Scenario::VERSION } => print_json(&schemars::schema_for!(Scenario)),
+        Command::Schema { .. } => print_json(&schemars::schema_for!(TuningScenario)),
     }
 }
 
-/// Reads a scenario and asks something about its setup.
-fn compute<T>(file: &Path, ask: impl Fn(&Setup) -> Result<T, ScenarioError>) -> Result<T, Failure> {
-    let text = read(file)?;
-    from_json(&text)
-        .and_then(|scenario| ask(&scenario.setup))
-        .map_err(|error| Failure::Scenario { file: file_name(file), error })
+/// Reads a document and answers for its kind.
+fn answer(
+    file: &Path,
+    of_run: impl Fn(&Setup) -> Result<(), Failure>,
+    of_session: impl Fn(&TuningSetup) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    match told(file, document_from_json(&read(file)?))? {
+        Document::Quadruple(scenario) => of_run(&scenario.setup),
+        Document::Tuning(scenario) => of_session(&scenario.tuning),
+    }
+}
+
+fn told<T>(file: &Path, result: Result<T, ScenarioError>) -> Result<T, Failure> {
+    result.map_err(|error| Failure::Scenario { file: file_name(file), error })
+}
+
+fn tuned<T>(file: &Path, result: Result<T, TuningError>) -> Result<T, Failure> {
+    result.map_err(|error| Failure::Tuning { file: file_name(file), error })
 }
 
 /// Reads a file or standard input, but not much more than a scenario may have.
@@ -192,6 +268,14 @@ fn list_of_presets() -> String {
         let name = preset.id.name();
         // Writing to a String cannot fail.
         let _ = writeln!(list, "{name:<33} γ = {gamma_1:.2}, {gamma_2:.2}   {}, {}", preset.source, preset.table);
+        list
+    })
+}
+
+fn list_of_cases() -> String {
+    PublishedCase::ALL.iter().fold(String::new(), |mut list, case| {
+        // Writing to a String cannot fail.
+        let _ = writeln!(list, "{:<16} Campestrini (2006), Table {}, row {}", case.name(), case.table, case.row);
         list
     })
 }

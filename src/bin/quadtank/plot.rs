@@ -23,17 +23,23 @@ pub enum Colours {
     Dark,
 }
 
+impl Colours {
+    /// How charts are painted with these.
+    pub fn style(self) -> Style {
+        let palette = match self {
+            Self::Light => Palette::LIGHT,
+            Self::Dark => Palette::DARK,
+        };
+        Style { palette, decimal: '.', scale: 8 }
+    }
+}
+
 /// Draws a chart of a setup as an SVG document.
-pub fn svg(setup: &Setup, chart: Chart, colours: Colours) -> Result<String, ScenarioError> {
-    let palette = match colours {
-        Colours::Light => Palette::LIGHT,
-        Colours::Dark => Palette::DARK,
-    };
-    let style = Style { palette, decimal: '.', scale: 8 };
+pub fn svg(setup: &Setup, chart: Chart, style: &Style) -> Result<String, ScenarioError> {
     match chart {
-        Chart::Responses => responses(setup, &style),
-        Chart::ValvePlane => valve_plane(setup, &style),
-        Chart::PoleZero => pole_zero(setup, &style),
+        Chart::Responses => responses(setup, style),
+        Chart::ValvePlane => valve_plane(setup, style),
+        Chart::PoleZero => pole_zero(setup, style),
     }
 }
 

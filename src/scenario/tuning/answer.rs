@@ -44,6 +44,8 @@ pub enum Tested {
 /// Both roots of a placement.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Designed {
+    /// Gains of the critical point.
+    pub critical_gains: [f64; 2],
     /// Critical frequency.
     pub frequency: f64,
     /// G(jω) there.
@@ -126,10 +128,10 @@ fn design(
 ) -> Result<Option<Designed>, TuningError> {
     let spec = &setup.design;
     let gain = plant.dc_gain();
-    let frequency = match spec.critical {
-        CriticalSpec::Point { period, .. } => TAU / period,
+    let (critical_gains, frequency) = match spec.critical {
+        CriticalSpec::Point { gains, period } => (gains, TAU / period),
         CriticalSpec::Importance(r) => match search.limit(importance_direction(&gain, r)) {
-            GainLimit::Oscillation(point) => point.frequency,
+            GainLimit::Oscillation(point) => (point.gains, point.frequency),
             GainLimit::RealPole { .. } | GainLimit::None => return Ok(None),
         },
     };
@@ -145,7 +147,7 @@ fn design(
         Ok::<_, TuningError>(DesignRoot { controllers, warnings, stability, margins, closure })
     };
     let roots = [root(one.controllers, one.warnings)?, root(two.controllers, two.warnings)?];
-    Ok(Some(Designed { frequency, g, roots, response }))
+    Ok(Some(Designed { critical_gains, frequency, g, roots, response }))
 }
 
 fn respond(

@@ -1,0 +1,305 @@
+//! Relay tuning without a screen: what a session finds, as JSON, CSV or a picture.
+
+use std::fmt::Write as _;
+
+use clap::ValueEnum;
+use nalgebra::DMatrix;
+use quadtank::control::{IsaPid, ParallelPid, PidMatrix};
+use quadtank::figure::{
+    CurveChart, LociChart, LoopsChart, Size, Style, characteristic_loci, critical_curve, to_svg, two_loops,
+};
+use quadtank::interaction::{niederlinski, relative_gain_array};
+use quadtank::linear::{Closure, Complex, LoopStability};
+use quadtank::scenario::tuning::{DesignRoot, Designed, Tested, Tuning, TuningSetup, tune};
+use quadtank::sim::{Halt, LoopTrace};
+use quadtank::tuning::{
+    CurveDistance, Design, GainLimit, RelayReading, RelayTest, RelayVerdict, TuningError, dynamic_relative_gain,
+};
+use serde_json::{Value, json};
+
+/// What can be drawn of a session.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Picture {
+    /// The relay test over time
+    Test,
+    /// The critical curve in normalised gains, with estimates
+    Curve,
+    /// Both characteristic loci of the design, and at the critical gains
+    Loci,
+    /// Outputs and inputs after a step of the references
+    Response,
+}
+
+fn complex(value: Complex) -> Value {
+    json!({ "re": value.re, "im": value.im })
+}
+
+/// A 2 × 2 matrix by rows.
+fn rows<T>(entry: impl Fn(usize, usize) -> T) -> [[T; 2]; 2] {
+    [[entry(0, 0), entry(0, 1)], [entry(1, 0), entry(1, 1)]]
+}
+
+/// What follows from the plant alone.
+pub fn analysis(setup: &TuningSetup) -> Result<Value, TuningError> {
+    let found = tune(setup)?;
+    let gain = DMatrix::from_fn(2, 2, |row, column| found.dc_gain[(row, column)]);
+    let relative = relative_gain_array(&gain).map(|array| array[(0, 0)]).ok();
+    let points: Vec<Value> = found
+        .curve
+        .points
+        .iter()
+        .map(|point| json!({ "angle_rad": point.angle, "limit": limit(&point.limit) }))
+        .collect();
+    let corners: Vec<Value> = found
+        .curve
+        .corners
+        .iter()
+        .map(|corner| {
+            let [slow, quick] = corner.points;
+            json!({ "importance": corner.importance, "gains": slow.gains, "periods": [slow.period(), quick.period()] })
+        })
+        .collect();
+    Ok(json!({
+        "dc_gain": rows(|row, column| gain[(row, column)]),
+        "rga_11": relative,
+        "niederlinski_diagonal": niederlinski(&gain)[0],
+        "critical_curve": points,
+        "corners": corners,
+    }))
+}
+
+fn limit(limit: &GainLimit) -> Value {
+    match limit {
+        GainLimit::Oscillation(point) => {
+            json!({ "kind": "oscillation", "gains": point.gains, "period": point.period() })
+        }
+        GainLimit::RealPole { gains, .. } => json!({ "kind": "real-pole", "gains": gains }),
+        GainLimit::None => json!({ "kind": "none" }),
+    }
+}
+
+/// What test and design find.
+pub fn report(setup: &TuningSetup) -> Result<Value, TuningError> {
+    let found = tune(setup)?;
+    let design = found.design.as_ref().map(|design| designed(design, setup));
+    Ok(json!({ "test": tested(&found.test), "design": design }))
+}
+
+fn tested(test: &Tested) -> Value {
+    match test {
+        Tested::Simultaneous(test, [by_peak, by_harmonic]) => json!({
+            "kind": "simultaneous",
+            "reading": reading(&test.reading),
+            "distance_by_peak": by_peak.map(distance),
+            "distance_by_harmonic": by_harmonic.map(distance),
+        }),
+        Tested::Independent(loops) => {
+            let of_loop = |(test, settings): &(RelayTest, Option<IsaPid>)| json!({ "reading": reading(&test.reading), "settings": settings.map(isa) });
+            json!({ "kind": "independent", "loops": loops.iter().map(of_loop).collect::<Vec<_>>() })
+        }
+        Tested::Sequential(steps) => {
+            let steps: Vec<Value> = steps
+                .iter()
+                .map(|step| {
+                    json!({
+                        "pass": step.pass,
+                        "loop": step.index + 1,
+                        "reading": reading(&step.test.reading),
+                        "settings": step.settings.map(isa),
+                    })
+                })
+                .collect();
+            json!({ "kind": "sequential", "steps": steps })
+        }
+    }
+}
+
+fn reading(reading: &RelayReading) -> Value {
+    let (verdict, detail) = match reading.verdict {
+        RelayVerdict::Unimodal => ("unimodal", Value::Null),
+        RelayVerdict::Multimodal { switches } => ("multimodal", json!({ "switches_per_period": switches })),
+        RelayVerdict::NotPeriodic => ("not-periodic", Value::Null),
+        RelayVerdict::Chattering { relay } => ("chattering", json!({ "loop": relay + 1 })),
+        RelayVerdict::NoOscillation => ("none", Value::Null),
+        RelayVerdict::Diverged => ("diverged", Value::Null),
+    };
+    let oscillation = reading.oscillation.map(|o| {
+        json!({
+            "period": o.period,
+            "amplitudes": o.loops.map(|l| l.amplitude),
+            "gains_by_peak": o.loops.map(|l| l.gain_by_peak),
+            "gains_by_harmonic": o.loops.map(|l| l.gain_by_harmonic),
+            "turn_rad": o.loops.map(|l| l.turn),
+            "is_proportional": o.is_proportional(),
+        })
+    });
+    json!({ "verdict": verdict, "detail": detail, "oscillation": oscillation })
+}
+
+fn distance(distance: CurveDistance) -> Value {
+    json!({ "excess": distance.excess, "curve_period": distance.period, "same_branch": distance.same_branch })
+}
+
+fn isa(pid: IsaPid) -> Value {
+    let integral_time = pid.integral_time.is_finite().then_some(pid.integral_time);
+    json!({ "gain": pid.gain, "integral_time": integral_time, "derivative_time": pid.derivative_time })
+}
+
+fn designed(design: &Designed, setup: &TuningSetup) -> Value {
+    json!({
+        "frequency": design.frequency,
+        "g": rows(|row, column| complex(design.g[(row, column)])),
+        "dynamic_relative_gain_11": complex(dynamic_relative_gain(&design.g)),
+        "roots": design.roots.each_ref().map(root),
+        "chosen": setup.design.root,
+        "response_halted": design.response.halt.map(halt),
+    })
+}
+
+fn root(root: &DesignRoot) -> Value {
+    let gains = |pid: ParallelPid| json!({ "kp": pid.proportional, "ki": pid.integral, "kd": pid.derivative });
+    let stability = match root.stability {
+        LoopStability::Stable => json!({ "stable": true }),
+        LoopStability::Unstable { poles } => json!({ "stable": false, "right_half_plane_poles": poles }),
+        LoopStability::Marginal { frequency } => json!({ "stable": false, "marginal_at": frequency }),
+    };
+    json!({
+        "controllers": root.controllers.map(gains),
+        "warnings": root.warnings,
+        "stability": stability,
+        "distance_from_minus_one": root.margins.distance,
+        "gain_margin": root.margins.gain_up,
+        "lower_gain_margin": root.margins.gain_down,
+        "phase_margin_rad": root.margins.phase,
+        "closure": match root.closure { Closure::Separate => "separate", Closure::Joint => "joint" },
+    })
+}
+
+fn halt(halt: Halt) -> Value {
+    match halt {
+        Halt::Chattering { relay, time } => json!({ "kind": "chattering", "loop": relay + 1, "time": time }),
+        Halt::Diverged { time } => json!({ "kind": "diverged", "time": time }),
+    }
+}
+
+/// The record of the relay test; of several tests the last.
+fn record(test: &Tested) -> Option<&LoopTrace> {
+    match test {
+        Tested::Simultaneous(test, _) => Some(&test.trace),
+        Tested::Independent(loops) => loops.last().map(|(test, _)| &test.trace),
+        Tested::Sequential(steps) => steps.last().map(|step| &step.test.trace),
+    }
+}
+
+/// The response of the design, one row per sample.
+pub fn response_csv(setup: &TuningSetup) -> Result<String, TuningError> {
+    let found = tune(setup)?;
+    Ok(found.design.map(|design| csv(&design.response)).unwrap_or_default())
+}
+
+/// The record of the relay test, one row per step, switch and arrival.
+pub fn test_csv(setup: &TuningSetup) -> Result<String, TuningError> {
+    Ok(record(&tune(setup)?.test).map(csv).unwrap_or_default())
+}
+
+fn csv(trace: &LoopTrace) -> String {
+    let mut text = "time,output_1,output_2,input_1,input_2\n".to_owned();
+    for (row, time) in trace.time.iter().enumerate() {
+        let ([y1, y2], [u1, u2]) = (&trace.outputs, &trace.inputs);
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "{time},{},{},{},{}", y1[row], y2[row], u1[row], u2[row]);
+    }
+    text
+}
+
+/// Draws a picture of a session as an SVG document.
+pub fn svg(setup: &TuningSetup, picture: Picture, style: &Style) -> Result<String, TuningError> {
+    let found = tune(setup)?;
+    let size = Size { width: 720.0, height: 560.0 };
+    let empty = LoopTrace::default();
+    let (title, description) = match picture {
+        Picture::Test => ("Relay test", "Outputs and relay outputs of both loops over time."),
+        Picture::Curve => ("Critical curve", "The boundary of the stable gains of two proportional loops."),
+        Picture::Loci => ("Characteristic loci", "Both characteristic loci with the point −1 and the target."),
+        Picture::Response => ("Response", "Outputs and inputs after a step of the references."),
+    };
+    Ok(match picture {
+        Picture::Test => {
+            let trace = record(&found.test).unwrap_or(&empty);
+            to_svg(&two_loops(&loops(trace, None)), size, style, title, description)
+        }
+        Picture::Response => {
+            let trace = found.design.as_ref().map_or(&empty, |design| &design.response);
+            to_svg(&two_loops(&loops(trace, Some(setup.response.references))), size, style, title, description)
+        }
+        Picture::Curve => curve(&found, |chart| to_svg(&[critical_curve(chart)], size, style, title, description)),
+        Picture::Loci => {
+            loci(&found, setup, |chart| to_svg(&[characteristic_loci(chart)], size, style, title, description))?
+        }
+    })
+}
+
+fn loops(trace: &LoopTrace, references: Option<[f64; 2]>) -> LoopsChart<'_> {
+    LoopsChart {
+        time: &trace.time,
+        outputs: trace.outputs.each_ref().map(Vec::as_slice),
+        inputs: trace.inputs.each_ref().map(Vec::as_slice),
+        references,
+        axes: ["time", "output", "input"],
+        texts: ["loop 1", "loop 2"],
+    }
+}
+
+fn curve<T>(found: &Tuning, draw: impl Fn(&CurveChart) -> T) -> T {
+    let scale = [found.dc_gain[(0, 0)], found.dc_gain[(1, 1)]];
+    let normal = |gains: [f64; 2]| (gains[0] * scale[0], gains[1] * scale[1]);
+    let point = |limit: &GainLimit| match limit {
+        GainLimit::Oscillation(point) => normal(point.gains),
+        GainLimit::RealPole { gains, .. } => normal(*gains),
+        GainLimit::None => (f64::NAN, f64::NAN),
+    };
+    let (x, y): (Vec<f64>, Vec<f64>) = found.curve.points.iter().map(|at| point(&at.limit)).unzip();
+    let corners: Vec<(f64, f64)> = found.curve.corners.iter().map(|corner| normal(corner.points[0].gains)).collect();
+    let estimates: Vec<(f64, f64)> = match &found.test {
+        Tested::Simultaneous(test, _) => test.reading.oscillation.and_then(|o| o.gains_by_harmonic()).map(normal),
+        Tested::Independent(_) | Tested::Sequential(_) => None,
+    }
+    .into_iter()
+    .collect();
+    let chosen = found.design.as_ref().map(|design| normal(design.critical_gains));
+    draw(&CurveChart {
+        curve: [&x, &y],
+        corners: &corners,
+        estimates: &estimates,
+        chosen,
+        axes: ["k1 g11(0)", "k2 g22(0)"],
+        texts: ["critical curve", "relay test, first harmonics"],
+    })
+}
+
+fn loci<T>(found: &Tuning, setup: &TuningSetup, draw: impl Fn(&LociChart) -> T) -> Result<T, TuningError> {
+    let plant = setup.plant.transfer_matrix()?;
+    let critical = found.design.as_ref().map_or(1.0, |design| design.frequency);
+    // Real and imaginary parts of both loci.
+    let columns = |controllers: [ParallelPid; 2]| -> Result<[[Vec<f64>; 2]; 2], TuningError> {
+        let loci =
+            Design::new(&plant, PidMatrix::decentralised(controllers))?.loci_between(0.02 * critical, 6.0 * critical);
+        Ok(loci.branches.map(|branch| {
+            let (re, im) = branch.into_iter().map(|x| (x.re, x.im)).unzip();
+            [re, im]
+        }))
+    };
+    let nothing = [ParallelPid::default(); 2];
+    let chosen = found.design.as_ref().map_or(nothing, |design| design.roots[setup.design.root - 1].controllers);
+    let gains = found.design.as_ref().map_or([0.0; 2], |design| design.critical_gains);
+    let proportional = gains.map(|proportional| ParallelPid { proportional, ..ParallelPid::default() });
+    let (after, before) = (columns(chosen)?, columns(proportional)?);
+    let [re, im] = setup.design.target;
+    Ok(draw(&LociChart {
+        loci: after.each_ref().map(|parts| parts.each_ref().map(Vec::as_slice)),
+        before: before.each_ref().map(|parts| parts.each_ref().map(Vec::as_slice)),
+        target: (re, im),
+        axes: ["real part", "imaginary part"],
+        texts: ["locus 1", "locus 2", "at the critical gains"],
+    }))
+}
