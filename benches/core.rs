@@ -1,13 +1,19 @@
-//! The pieces of one slider tick on the home bench, natively: `cargo bench --no-default-features`.
+//! The pieces of one slider tick on the home bench, and of relay tuning, natively: `cargo bench --no-default-features`.
 
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use quadtank::control::{AntiWindup, DecentralisedPi, LoopMode, Pairing, PiSettings};
+use quadtank::control::{AntiWindup, DecentralisedPi, LoopMode, Pairing, ParallelPid, PiSettings, PidMatrix};
 use quadtank::interaction::relative_gain_array;
-use quadtank::linear::{StateSpace, transmission_zeros};
+use quadtank::linear::{DelayedPlant, StateSpace, transmission_zeros};
 use quadtank::plant::{OperatingPoint, PresetId, QuadrupleTank};
-use quadtank::sim::{Experiment, Measurement, SetPointStep, closed_loop, loop_metrics, simulate, simulate_linear};
+use quadtank::sim::{
+    Experiment, Measurement, SetPointStep, TwoLoops, closed_loop, loop_metrics, run_two_loops, simulate,
+    simulate_linear,
+};
+use quadtank::tuning::{
+    CriticalCurve, CriticalSearch, Design, PublishedPlant, TestTime, frequency_range, simultaneous_test,
+};
 
 /// Johansson (2000), P−, with its published controllers: 3000 s at one sample per second, a step of 5 % of each
 /// reference.
@@ -79,5 +85,38 @@ fn runs(c: &mut Criterion) {
     c.bench_function("metrics", |t| t.iter(|| loop_metrics(black_box(&run), rig, law, experiment)));
 }
 
-criterion_group!(benches, theory, runs);
+/// Relay tuning of Wood and Berry: the pieces of one drag of the target.
+fn relay_tuning(c: &mut Criterion) {
+    let plant = PublishedPlant::WoodBerry.transfer_matrix().expect("printed parameters");
+    let (low, high) = frequency_range(&plant).expect("poles of lags");
+    let search = CriticalSearch::new(&plant, low, high);
+    let table_6 = [pid(0.567, 0.336, 0.239), pid(-0.102, -0.018, -0.144)];
+    let controllers = PidMatrix::decentralised(table_6);
+    let design = Design::new(&plant, controllers).expect("a stable plant");
+    let test = TestTime { duration: 400.0, release: 4.0, step: 0.05 };
+    let response =
+        TwoLoops { relays: [None; 2], controllers, references: [1.0, 0.0], release: 0.0, duration: 200.0, step: 0.1 };
+    c.bench_function("critical search, grid", |t| t.iter(|| CriticalSearch::new(black_box(&plant), low, high)));
+    c.bench_function("critical curve, 200 directions", |t| {
+        t.iter(|| CriticalCurve::of(black_box(&plant), &search, 200));
+    });
+    c.bench_function("both loci, 600 frequencies", |t| t.iter(|| black_box(&design).loci()));
+    c.bench_function("encirclements", |t| t.iter(|| black_box(&design).stability()));
+    c.bench_function("margins", |t| {
+        let loci = design.loci();
+        t.iter(|| black_box(&design).margins(&loci));
+    });
+    c.bench_function("simultaneous relay test, 400", |t| {
+        t.iter(|| simultaneous_test(black_box(&plant), [1.0; 2], test));
+    });
+    c.bench_function("step of two PID loops, 200", |t| {
+        t.iter(|| DelayedPlant::new(&plant.paths()).map(|mut held| run_two_loops(&mut held, black_box(&response))));
+    });
+}
+
+fn pid(proportional: f64, integral: f64, derivative: f64) -> ParallelPid {
+    ParallelPid { proportional, integral, derivative }
+}
+
+criterion_group!(benches, theory, runs, relay_tuning);
 criterion_main!(benches);

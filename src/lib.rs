@@ -7,12 +7,12 @@
 //! | 1 | [`plant`] | what is really there: tanks, outlets, pumps, valves, sensors, and their nonlinear equations |
 //! | 1 | [`linear`] | what a linear model says: poles, transmission zeros and directions, frequency response |
 //! | 2 | [`interaction`] | what couples the loops: relative gain array, Niederlinski index, pairing |
-//! | 2 | [`control`] | what acts: the sampled PI controller and two of them, decentralised |
-//! | 3 | [`tuning`] | how gains are found: ultimate points, critical curve, rules |
+//! | 2 | [`control`] | what acts: sampled PI and PID controllers, alone, decentralised or as a matrix; relays |
 //! | 3 | [`sim`] | plant + controller + experiment → trajectories, events, metrics |
-//! | 4 | [`scenario`] | the document that describes an experiment, its links, and what follows from it |
-//! | 4 | [`figure`] | charts as data, and how to paint them on any plotters backend |
-//! | 5 | `app` | the Leptos user interface (feature `app`) |
+//! | 4 | [`tuning`] | how gains are found: relay tests, ultimate points, critical curve, rules, placement |
+//! | 5 | [`scenario`] | the document that describes an experiment, its links, and what follows from it |
+//! | 5 | [`figure`] | charts as data, and how to paint them on any plotters backend |
+//! | 6 | `app` | the Leptos user interface (feature `app`) |
 //!
 //! Under all of them lies `scalar`, a few private operations on numbers.
 //!

@@ -117,7 +117,7 @@ fn roots_that_the_sign_does_not_choose_differ_in_stability() {
 #[test]
 fn distances_from_minus_one() {
     // Recomputed on a grid of 400,000 frequencies, for Process II to three digits: λ = −0.2 + 0.01j, PI, at point 2 of Wood and Berry; λ = −0.45 − 0.42j, PID, at point 1 of
-    // Process II (pp. 77 and 85). Both roots of method B.
+    // Process II (Figs. 44 and 55). Both roots of method B.
     let pairs = |plant: PublishedPlant, period: f64, re: f64, im: f64| {
         let transfer = plant.transfer_matrix().unwrap();
         place_both_loci(&transfer.at(Complex::new(0.0, TAU / period)), Complex::new(re, im))

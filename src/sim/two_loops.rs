@@ -2,6 +2,7 @@
 
 use crate::control::{PidMatrix, Relay};
 use crate::linear::DelayedPlant;
+use crate::scalar::root;
 
 /// A plant whose inputs are held between changes, in deviations from its rest.
 pub trait HeldPlant {
@@ -102,8 +103,6 @@ pub struct LoopTrace {
 const SWITCHES_PER_STEP: u32 = 12;
 /// Outputs beyond this many times the excitation have diverged.
 const DIVERGED: f64 = 1e6;
-/// Steps of the root search; each adds about half as many digits again.
-const ROOT_STEPS: u32 = 60;
 /// Rows at most.
 const MAX_ROWS: usize = 400_000;
 
@@ -219,8 +218,13 @@ impl<'a, P: HeldPlant> Run<'a, P> {
             let sign = if self.positive[i] { 1.0 } else { -1.0 };
             let stay = |outputs: [f64; 2]| sign * (self.errors(outputs)[i] - threshold);
             if stay(ends) < 0.0 {
-                let instant =
-                    root(|h| stay(self.plant.outputs_after(h)), stay(self.plant.outputs()), piece, stay(ends));
+                let now = stay(self.plant.outputs());
+                // At once, where it is past its threshold already.
+                let instant = if now <= 0.0 {
+                    0.0
+                } else {
+                    root(|h| stay(self.plant.outputs_after(h)), (0.0, now), (piece, stay(ends)))
+                };
                 if first.is_none_or(|(_, earlier)| instant < earlier) {
                     first = Some((i, instant));
                 }
@@ -228,40 +232,6 @@ impl<'a, P: HeldPlant> Run<'a, P> {
         }
         first
     }
-}
-
-/// Where a smooth function that falls from `at_start` at 0 to a negative `at_end` passes zero: regula falsi with the
-/// correction of Illinois. The start where it is not positive even there.
-fn root(function: impl Fn(f64) -> f64, at_start: f64, end: f64, at_end: f64) -> f64 {
-    if at_start <= 0.0 {
-        return 0.0;
-    }
-    let (mut low, mut at_low, mut high, mut at_high) = (0.0, at_start, end, at_end);
-    let mut side = 0;
-    for _ in 0..ROOT_STEPS {
-        let middle = (low * at_high - high * at_low) / (at_high - at_low);
-        if !(middle > low && middle < high) || high - low <= 1e-15 * end {
-            break;
-        }
-        let at_middle = function(middle);
-        if at_middle > 0.0 {
-            (low, at_low) = (middle, at_middle);
-            if side == 1 {
-                at_high *= 0.5;
-            }
-            side = 1;
-        } else {
-            (high, at_high) = (middle, at_middle);
-            if at_middle == 0.0 {
-                break;
-            }
-            if side == -1 {
-                at_low *= 0.5;
-            }
-            side = -1;
-        }
-    }
-    high
 }
 
 #[cfg(test)]

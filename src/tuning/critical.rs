@@ -3,12 +3,10 @@ use std::f64::consts::TAU;
 use nalgebra::Matrix2;
 
 use crate::linear::{Complex, LinearError, TransferMatrix};
-use crate::scalar::{golden_section, sort_few};
+use crate::scalar::{golden_section, root, sort_few};
 
 /// Points of the frequency grid for each decade.
 const PER_DECADE: f64 = 400.0;
-/// Halvings of a cell of the grid: to the last bits of a frequency.
-const HALVINGS: u32 = 60;
 
 /// Gains of two proportional loops at which the closed loop oscillates, and how.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -92,6 +90,11 @@ struct Sample {
     determinant: Complex,
 }
 
+/// |x|, without the care of `hypot` for numbers that no plant has.
+fn size_of(x: Complex) -> f64 {
+    x.norm_sqr().sqrt()
+}
+
 impl Sample {
     fn of(plant: &TransferMatrix, frequency: f64) -> Self {
         let g = plant.at(Complex::new(0.0, frequency));
@@ -107,11 +110,20 @@ impl Sample {
     fn equation(&self, direction: [f64; 2]) -> f64 {
         let (t, d) = self.trace_and_determinant(direction);
         if direction.contains(&0.0) {
-            return t.im / t.norm();
+            return t.im / size_of(t);
         }
         // Relative to its terms: the gain of the plant falls over many decades.
-        let size = d.norm_sqr() + t.norm_sqr() * d.norm();
+        let size = d.norm_sqr() + t.norm_sqr() * size_of(d);
         (d.im * d.im - t.re * t.im * d.im + d.re * t.im * t.im) / size
+    }
+
+    /// No factor at a solution near here is much smaller: `1 + a T + a² D = 0` needs `a |T| + a² |D| ≥ 1`. With a tenth of slack
+    /// for the cell.
+    fn least_factor(&self, direction: [f64; 2]) -> f64 {
+        let (t, d) = self.trace_and_determinant(direction);
+        let (t, d) = (size_of(t), size_of(d));
+        // The positive root, without cancellation.
+        0.9 * 2.0 / (t + (t * t + 4.0 * d).sqrt())
     }
 
     /// The factor a at a solution. Where one loop is open D vanishes, and `1 + a T = 0` is left.
@@ -119,6 +131,12 @@ impl Sample {
         let (t, d) = self.trace_and_determinant(direction);
         if d == Complex::ZERO { -1.0 / t.re } else { -t.im / d.im }
     }
+}
+
+/// Whether the second of three values of the same sign is the nearest to zero. Two loops alike, with a dead time, have pairs of
+/// crossings closer than any grid: there may be one between.
+fn is_dip(before: f64, at: f64, after: f64) -> bool {
+    before.signum() == at.signum() && at.signum() == after.signum() && at.abs() < before.abs() && at.abs() < after.abs()
 }
 
 impl<'a> CriticalSearch<'a> {
@@ -134,32 +152,54 @@ impl<'a> CriticalSearch<'a> {
     /// All critical points in a direction `(c1, c2)`, nearest first. Only the nearest bounds the stable gains; two at the
     /// same factor are a corner of the curve, where both loci pass through −1.
     pub fn crossings(&self, direction: [f64; 2]) -> Vec<CriticalPoint> {
-        let mut points: Vec<CriticalPoint> = Vec::new();
-        let mut take = |low: Sample, high: Sample| {
-            let solution = self.solve(low, high, direction);
-            let factor = solution.factor(direction);
-            if factor > 0.0 && factor.is_finite() {
-                let gains = direction.map(|c| factor * c);
-                points.push(CriticalPoint { gains, factor, frequency: solution.frequency });
-            }
-        };
-        let values: Vec<f64> = self.grid.iter().map(|sample| sample.equation(direction)).collect();
-        for k in 1..values.len() {
-            let (low, high) = (self.grid[k - 1], self.grid[k]);
-            if values[k - 1] != 0.0 && values[k - 1].signum() != values[k].signum() {
-                take(low, high);
-            } else if let Some(between) = self.dip(&values, k, direction) {
-                take(self.grid[k - 1], between);
-                take(between, self.grid[k + 1]);
-            }
-        }
+        let mut points = Vec::new();
+        self.visit(direction, |point| {
+            points.push(point);
+            f64::INFINITY
+        });
         sort_few(&mut points, |x, y| x.factor.total_cmp(&y.factor));
         points
     }
 
     /// The nearest critical point in a direction; `None` where there is none.
     pub fn nearest(&self, direction: [f64; 2]) -> Option<CriticalPoint> {
-        self.crossings(direction).into_iter().next()
+        let mut nearest: Option<CriticalPoint> = None;
+        self.visit(direction, |point| {
+            let best = nearest.filter(|best| best.factor <= point.factor).unwrap_or(point);
+            nearest = Some(best);
+            best.factor
+        });
+        nearest
+    }
+
+    /// Solves every critical point of a direction by rising frequency. `take` says up to which factor more are wanted, which
+    /// saves those of high frequencies, where a dead time makes many and the gain of the plant is small.
+    fn visit(&self, direction: [f64; 2], mut take: impl FnMut(CriticalPoint) -> f64) {
+        let mut wanted = f64::INFINITY;
+        let mut solve = |low: Sample, high: Sample, wanted: &mut f64| {
+            let solution = self.solve(low, high, direction);
+            let factor = solution.factor(direction);
+            if factor > 0.0 && factor.is_finite() {
+                let gains = direction.map(|c| factor * c);
+                *wanted = take(CriticalPoint { gains, factor, frequency: solution.frequency });
+            }
+        };
+        let value = |k: usize| self.grid.get(k).map_or(f64::NAN, |sample| sample.equation(direction));
+        let (mut before, mut at) = (value(0), value(1));
+        for k in 1..self.grid.len() {
+            let after = value(k + 1);
+            let (low, high) = (self.grid[k - 1], self.grid[k]);
+            let changes = before != 0.0 && before.signum() != at.signum();
+            if (changes || is_dip(before, at, after)) && high.least_factor(direction) <= wanted {
+                if changes {
+                    solve(low, high, &mut wanted);
+                } else if let Some(between) = self.dip(k, at.signum(), direction) {
+                    solve(low, between, &mut wanted);
+                    solve(between, self.grid[k + 1], &mut wanted);
+                }
+            }
+            (before, at) = (at, after);
+        }
     }
 
     /// What bounds the stable gains in a direction: an oscillation or a real pole, whichever is nearer.
@@ -182,27 +222,17 @@ impl<'a> CriticalSearch<'a> {
         (discriminant >= 0.0 && largest > 0.0).then(|| largest.recip())
     }
 
-    /// Around grid point k: where the equation has the other sign between three points of the same sign, of which that one
-    /// is the nearest to zero. Two loops alike, with a dead time, have pairs of crossings closer than any grid.
-    fn dip(&self, values: &[f64], k: usize, direction: [f64; 2]) -> Option<Sample> {
-        let (before, at, after) = (values[k - 1], values[k], *values.get(k + 1)?);
-        let side = at.signum();
-        let alike = before.signum() == side && after.signum() == side;
-        if !(alike && at.abs() < before.abs() && at.abs() < after.abs()) {
-            return None;
-        }
+    /// Where the equation has the other sign than at the grid points around k, all of which have the same.
+    fn dip(&self, k: usize, side: f64, direction: [f64; 2]) -> Option<Sample> {
         let towards_zero = |w: f64| side * Sample::of(self.plant, w).equation(direction);
         let lowest = golden_section(towards_zero, self.grid[k - 1].frequency, self.grid[k + 1].frequency);
         let sample = Sample::of(self.plant, lowest);
         (side * sample.equation(direction) < 0.0).then_some(sample)
     }
 
-    fn solve(&self, mut low: Sample, mut high: Sample, direction: [f64; 2]) -> Sample {
-        let side = low.equation(direction).signum();
-        for _ in 0..HALVINGS {
-            let middle = Sample::of(self.plant, f64::midpoint(low.frequency, high.frequency));
-            if middle.equation(direction).signum() == side { low = middle } else { high = middle }
-        }
-        high
+    fn solve(&self, low: Sample, high: Sample, direction: [f64; 2]) -> Sample {
+        let equation = |w: f64| Sample::of(self.plant, w).equation(direction);
+        let ends = [low, high].map(|sample| (sample.frequency, sample.equation(direction)));
+        Sample::of(self.plant, root(equation, ends[0], ends[1]))
     }
 }
