@@ -81,6 +81,9 @@ pub struct CriticalSearch<'a> {
     grid: Vec<Sample>,
 }
 
+/// Largest angle to the real axis (rad) at which a locus counts as on it.
+const SLANT: f64 = 1e-6;
+
 /// What the search needs of G(jω).
 #[derive(Clone, Copy, Debug)]
 struct Sample {
@@ -126,10 +129,19 @@ impl Sample {
         0.9 * 2.0 / (t + (t * t + 4.0 * d).sqrt())
     }
 
-    /// The factor a at a solution. Where one loop is open D vanishes, and `1 + a T = 0` is left.
+    /// The factor a at a solution: −1/λ for the locus λ of G diag c that is on the negative real axis. `−Im T/Im D` would lose
+    /// its digits where D is nearly real. Negative where that locus is positive.
     fn factor(&self, direction: [f64; 2]) -> f64 {
         let (t, d) = self.trace_and_determinant(direction);
-        if d == Complex::ZERO { -1.0 / t.re } else { -t.im / d.im }
+        let root = (t * t - d * 4.0).sqrt();
+        let [one, two] = [t + root, t - root].map(|double| double * 0.5);
+        // With one loop open one locus is zero.
+        let slant = |locus: Complex| {
+            if locus.norm() <= f64::EPSILON * t.norm() { f64::INFINITY } else { (locus.im / locus.norm()).abs() }
+        };
+        let real = if slant(one) <= slant(two) { one } else { two };
+        // T and D may also be real at once with complex loci: then the equation vanishes without a crossing.
+        if slant(real) > SLANT { f64::NAN } else { -real.norm().recip().copysign(real.re) }
     }
 }
 

@@ -52,7 +52,10 @@ impl ParallelPid {
             return None;
         }
         let slope = 2.0 * p.im / p.re;
-        let integral_time = (slope + slope.hypot(2.0)) / frequency;
+        let length = slope.hypot(2.0);
+        // The positive root, without cancellation: the other one is −4 over it.
+        let x = if slope < 0.0 { 4.0 / (length - slope) } else { length + slope };
+        let integral_time = x / frequency;
         Some(Self { proportional: p.re, integral: p.re / integral_time, derivative: p.re * integral_time / 4.0 })
     }
 }
