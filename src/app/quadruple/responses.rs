@@ -328,7 +328,14 @@ fn of_metrics(lab: Lab, index: usize, metrics: &LoopMetrics) -> Option<String> {
     let (level, other) = (index + 1, 2 - index);
     Some(match metrics.settling_2_percent? {
         Settling::After { time_s } => {
-            let overshoot = format!("{}\u{a0}%", style.fixed(100.0 * metrics.overshoot.unwrap_or(0.0), 0));
+            // As many digits as in the table below.
+            let percent = 100.0 * metrics.overshoot.unwrap_or(0.0);
+            let overshoot = if percent < 0.05 {
+                tr!(lab, responses.without_overshoot).to_string()
+            } else {
+                let share = format!("{}\u{a0}%", style.fixed(percent, 1));
+                tr!(lab, responses.with_overshoot, share = share).to_string()
+            };
             let time = style.significant(time_s, 3);
             tr!(
                 lab,
