@@ -5,7 +5,7 @@
 use approx::assert_relative_eq;
 use quadtank::linear::TransferMatrix;
 use quadtank::tuning::{
-    CriticalCurve, CriticalSearch, GainLimit, PublishedPlant, TuningRule, UltimatePoint, frequency_range,
+    CriticalCurve, CriticalSearch, GainLimit, PublishedPlant, TuningRule, USOL, UltimatePoint, frequency_range,
     importance_direction,
 };
 
@@ -202,4 +202,20 @@ fn a_critical_point_puts_a_locus_on_minus_one() {
             }
         });
     }
+}
+
+#[test]
+fn the_record_of_usol() {
+    let point = USOL.ultimate_point();
+    within(point.gain, USOL.printed_gain, 0.05);
+    let pi = TuningRule::TyreusLuybenPi.settings(point);
+    let pid = TuningRule::TyreusLuybenPid.settings(point);
+    let [kp, ti, td] = USOL.printed_pid;
+    // Called PID, but kp is that of the PI row; Ti agrees with both.
+    within(pi.gain, kp, 0.5);
+    assert!((pid.gain - kp).abs() > 7.0);
+    within(pid.integral_time, ti, 0.5);
+    // Td = Tc/6.3 is 0.357 min; printed is 4 min, ten times as much.
+    within(pid.derivative_time, 0.357, 5e-4);
+    assert!(td / pid.derivative_time > 10.0);
 }

@@ -355,6 +355,48 @@ fn sequential_and_independent_tests_report_every_loop() {
 }
 
 #[test]
+fn a_single_test_finds_a_point_and_the_nonlinear_tank_swings() {
+    let report = |session: &Value| -> Value {
+        serde_json::from_str(&stdout(&pipe(&["tune", "-"], session.to_string().as_bytes()))).unwrap()
+    };
+    let mut session: Value = serde_json::from_str(&case("table-14-row-1")).unwrap();
+    let test = &mut session["tuning"]["test"];
+    test["kind"] = json!("single");
+    test["behind"] = json!("integrator");
+    let found = report(&session)["test"]["found"].clone();
+    // 0.5/((0.1 s + 1)² (0.2 s + 1)²) has −90° where 0.3 ω = 1 − 0.02 ω².
+    let frequency = (0.17_f64.sqrt() - 0.3) / 0.04;
+    assert_relative_eq!(found["frequency"].as_f64().unwrap(), frequency, max_relative = 0.02);
+    let (re, im) = (found["response"]["re"].as_f64().unwrap(), found["response"]["im"].as_f64().unwrap());
+    assert_relative_eq!(found["modulus"].as_f64().unwrap(), re.hypot(im), max_relative = 0.05);
+
+    // P+ with the swapped pairing, and hysteresis instead of a dead time.
+    let tuning = &mut session["tuning"];
+    let tank = json!({ "preset": "johansson-2000-non-minimum-phase", "pairing": "swapped", "nonlinear": true });
+    tuning["plant"] = json!({ "quadruple_tank": tank });
+    tuning["test"] = json!({
+        "kind": "simultaneous", "amplitudes": [0.3, 0.3], "hysteresis": [0.05, 0.05], "rule": "ziegler-nichols-pi",
+        "duration": 6000, "release": 60, "step": 0.5,
+    });
+    tuning["design"] = json!({
+        "critical": { "importance": 1.0 }, "method": "both-loci", "action": "pid", "target": [-0.3, -0.3], "root": 1,
+    });
+    tuning["response"] = json!({ "references": [0.1, 0.0], "duration": 3000, "step": 1.0 });
+    let report = report(&session);
+    assert!(report["test"]["reading"]["oscillation"].is_object(), "{}", report["test"]["reading"]);
+    // The published gains of this design are those of the linear models with rounded time constants: within 3 %.
+    let first = &report["design"]["roots"][0];
+    assert_eq!(first["stability"]["stable"], json!(true));
+    assert_relative_eq!(first["distance_from_minus_one"].as_f64().unwrap(), 0.658, max_relative = 0.03);
+    let settled = report["design"]["figures"][0]["settling_time_2_percent"].as_f64().unwrap();
+    assert!((50.0..2500.0).contains(&settled), "{settled}");
+    let mut with_dead_time = session.clone();
+    with_dead_time["tuning"]["plant"]["quadruple_tank"]["dead_time_s"] = json!(5);
+    let refused = pipe(&["tune", "-"], with_dead_time.to_string().as_bytes());
+    assert!(stderr(&refused).contains("tuning.plant.quadruple_tank.dead_time_s: 5"));
+}
+
+#[test]
 fn what_relay_tuning_refuses_is_said() {
     let refused = |change: &dyn Fn(&mut Value)| {
         let mut session: Value = serde_json::from_str(&case("table-5-row-1")).unwrap();

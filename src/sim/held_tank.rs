@@ -1,16 +1,18 @@
 //! The nonlinear plant under inputs that are held, in deviations from an operating point.
 
+use crate::control::Pairing;
 use crate::plant::{Disturbance, OperatingPoint, QuadrupleTank};
 
 use super::integrate::{Hydraulics, Watch};
 use super::two_loops::HeldPlant;
 
-/// The quadruple tank as a [`HeldPlant`]: inputs are deviations of the pump voltages (V), outputs deviations of the measured
-/// levels 1 and 2 (V). Voltages beyond the limits of a pump are cut there; levels stay within the walls.
+/// The quadruple tank as a [`HeldPlant`]: inputs are deviations of the voltages (V) of the pumps that loops 1 and 2 drive,
+/// outputs deviations of the measured levels 1 and 2 (V). Voltages beyond the limits of a pump are cut there; levels stay within the walls.
 #[derive(Clone, Debug)]
 pub struct HeldTank<'a> {
     plant: &'a QuadrupleTank,
     op: OperatingPoint,
+    pairing: Pairing,
     water: Hydraulics,
 }
 
@@ -24,8 +26,8 @@ impl Watch for Unwatched {
 
 impl<'a> HeldTank<'a> {
     /// The plant at rest at an operating point.
-    pub fn new(plant: &'a QuadrupleTank, op: &OperatingPoint) -> Self {
-        let mut tank = Self { plant, op: *op, water: Hydraulics::new(plant, &op.levels) };
+    pub fn new(plant: &'a QuadrupleTank, op: &OperatingPoint, pairing: Pairing) -> Self {
+        let mut tank = Self { plant, op: *op, pairing, water: Hydraulics::new(plant, &op.levels) };
         tank.set_inputs([0.0; 2]);
         tank
     }
@@ -47,6 +49,7 @@ impl HeldPlant for HeldTank<'_> {
     }
 
     fn set_inputs(&mut self, inputs: [f64; 2]) {
+        let inputs = self.pairing.by_pump(inputs);
         let voltage = [0, 1].map(|i| {
             let pump = &self.plant.pumps[i];
             (self.op.pump_voltage[i] + inputs[i]).max(pump.voltage_min).min(pump.voltage_max)
@@ -82,7 +85,7 @@ mod tests {
     fn at_rest_nothing_moves_and_small_steps_are_linear() {
         let preset = PresetId::JohanssonMinimumPhase.preset();
         let op = preset.plant.free_equilibrium(preset.pump_voltage);
-        let mut tank = HeldTank::new(&preset.plant, &op);
+        let mut tank = HeldTank::new(&preset.plant, &op, Pairing::Diagonal);
         tank.advance(500.0);
         assert!(tank.outputs().iter().all(|y| y.abs() < 1e-9));
         tank.set_inputs([1e-4, 0.0]);
@@ -110,7 +113,7 @@ mod tests {
             duration: 600.0,
             step: 0.5,
         };
-        let trace = run_two_loops(&mut HeldTank::new(&preset.plant, &op), &loops);
+        let trace = run_two_loops(&mut HeldTank::new(&preset.plant, &op, Pairing::Diagonal), &loops);
         assert_eq!(trace.halt, None);
         for i in 0..2 {
             assert!(trace.switches[i].len() > 10);

@@ -13,6 +13,7 @@ mod noise;
 mod open_loop;
 mod poles;
 mod response;
+mod step_figures;
 mod trajectory;
 mod two_loops;
 
@@ -24,5 +25,6 @@ pub use linear_loop::simulate_linear;
 pub use metrics::{LoopMetrics, loop_metrics};
 pub use poles::{ClosedLoop, Stability, UNIT_CIRCLE_TOLERANCE, closed_loop};
 pub use response::Settling;
+pub use step_figures::StepFigures;
 pub use trajectory::{Event, EventKind, Trajectory};
 pub use two_loops::{Halt, HeldPlant, LoopTrace, TwoLoops, run_two_loops};

@@ -14,6 +14,7 @@ mod plants;
 mod proposal;
 mod relay_test;
 mod rules;
+mod usol;
 
 pub use critical::{CriticalPoint, CriticalSearch, GainLimit, frequency_range, importance_direction};
 pub use curve::{Corner, CriticalCurve, CurvePoint};
@@ -33,3 +34,4 @@ pub use relay_test::{
     read_relay_test,
 };
 pub use rules::{TuningRule, UltimatePoint};
+pub use usol::{USOL, UsolRecord};

@@ -11,7 +11,7 @@ use quadtank::figure::{
 use quadtank::interaction::{niederlinski, relative_gain_array};
 use quadtank::linear::{Closure, Complex, LoopStability};
 use quadtank::scenario::tuning::{DesignRoot, Designed, Tested, Tuning, TuningSetup, tune};
-use quadtank::sim::{Halt, LoopTrace};
+use quadtank::sim::{Halt, LoopTrace, StepFigures};
 use quadtank::tuning::{
     CurveDistance, Design, GainLimit, RelayReading, RelayTest, RelayVerdict, TuningError, dynamic_relative_gain,
 };
@@ -87,6 +87,12 @@ pub fn report(setup: &TuningSetup) -> Result<Value, TuningError> {
 
 fn tested(test: &Tested) -> Value {
     match test {
+        Tested::Single(test, found) => {
+            let found = found.map(|point| {
+                json!({ "frequency": point.frequency, "modulus": point.modulus, "response": complex(point.response) })
+            });
+            json!({ "kind": "single", "reading": reading(&test.reading), "found": found })
+        }
         Tested::Simultaneous(test, [by_peak, by_harmonic]) => json!({
             "kind": "simultaneous",
             "reading": reading(&test.reading),
@@ -152,6 +158,7 @@ fn designed(design: &Designed, setup: &TuningSetup) -> Value {
         "dynamic_relative_gain_11": complex(dynamic_relative_gain(&design.g)),
         "roots": design.roots.each_ref().map(root),
         "chosen": setup.design.root,
+        "figures": design.figures.map(figures),
         "response_halted": design.response.halt.map(halt),
     })
 }
@@ -175,6 +182,10 @@ fn root(root: &DesignRoot) -> Value {
     })
 }
 
+fn figures(of: StepFigures) -> Value {
+    json!({ "overshoot": of.overshoot, "settling_time_2_percent": of.settling_time, "peak": of.peak, "iae": of.iae })
+}
+
 fn halt(halt: Halt) -> Value {
     match halt {
         Halt::Chattering { relay, time } => json!({ "kind": "chattering", "loop": relay + 1, "time": time }),
@@ -185,7 +196,7 @@ fn halt(halt: Halt) -> Value {
 /// The record of the relay test; of several tests the last.
 fn record(test: &Tested) -> Option<&LoopTrace> {
     match test {
-        Tested::Simultaneous(test, _) => Some(&test.trace),
+        Tested::Single(test, _) | Tested::Simultaneous(test, _) => Some(&test.trace),
         Tested::Independent(loops) => loops.last().map(|(test, _)| &test.trace),
         Tested::Sequential(steps) => steps.last().map(|step| &step.test.trace),
     }
@@ -262,7 +273,7 @@ fn curve<T>(found: &Tuning, draw: impl Fn(&CurveChart) -> T) -> T {
     let corners: Vec<(f64, f64)> = found.curve.corners.iter().map(|corner| normal(corner.points[0].gains)).collect();
     let estimates: Vec<(f64, f64)> = match &found.test {
         Tested::Simultaneous(test, _) => test.reading.oscillation.and_then(|o| o.gains_by_harmonic()).map(normal),
-        Tested::Independent(_) | Tested::Sequential(_) => None,
+        Tested::Single(..) | Tested::Independent(_) | Tested::Sequential(_) => None,
     }
     .into_iter()
     .collect();

@@ -2,17 +2,19 @@ use std::f64::consts::TAU;
 
 use nalgebra::Matrix2;
 
-use crate::control::{IsaPid, ParallelPid, PidMatrix, Relay};
+use crate::control::{IsaPid, Pairing, ParallelPid, PidMatrix, Relay};
 use crate::interaction::{Decoupling, decoupled_paths, static_decoupler};
 use crate::linear::{Closure, Complex, DelayedPlant, LoopStability, Margins, Path, TransferMatrix};
-use crate::sim::{LoopTrace, TwoLoops, run_two_loops};
+use crate::plant::{OperatingPoint, QuadrupleTank};
+use crate::sim::{HeldTank, LoopTrace, StepFigures, TwoLoops, run_two_loops};
 use crate::tuning::{
     CriticalCurve, CriticalSearch, CurveDistance, Design, GainLimit, PlacementWarning, RelayTest, SequentialStep,
     TestTime, TuningError, check_stable, distance_from_curve, frequency_range, importance_direction, independent_test,
-    propose, relay_test, response_at, sequential_tuning, ultimate_point,
+    modulus_estimator, propose, relay_test, response_at, sequential_tuning, single_loop_test, ultimate_point,
+    with_integrator,
 };
 
-use super::{CriticalSpec, DecouplerSpec, DesignSpec, TestKind, TestSpec, TuningSetup};
+use super::{Behind, CriticalSpec, DecouplerSpec, DesignSpec, TestKind, TestSpec, TuningPlant, TuningSetup};
 
 /// Directions of the critical curve.
 const DIRECTIONS: usize = 200;
@@ -33,12 +35,25 @@ pub struct Tuning {
 /// Relay tests.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Tested {
+    /// One of a single element, and its frequency response where it oscillated.
+    Single(Box<RelayTest>, Option<FoundPoint>),
     /// One of each loop, with the settings by the rule.
     Independent(Vec<(RelayTest, Option<IsaPid>)>),
     /// The steps of a sequence.
     Sequential(Vec<SequentialStep>),
     /// One of both loops, with its distances from the curve by peaks and by first harmonics.
     Simultaneous(Box<RelayTest>, [Option<CurveDistance>; 2]),
+}
+
+/// A point of a frequency response as a relay found it, and as it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FoundPoint {
+    /// Frequency of the oscillation.
+    pub frequency: f64,
+    /// Modulus by the describing function.
+    pub modulus: f64,
+    /// The response of the element there.
+    pub response: Complex,
 }
 
 /// Both roots of a placement.
@@ -54,6 +69,8 @@ pub struct Designed {
     pub roots: [DesignRoot; 2],
     /// The response with the chosen root.
     pub response: LoopTrace,
+    /// Figures of both outputs in it.
+    pub figures: [StepFigures; 2],
 }
 
 /// One root with what it does to the loop, without a decoupler.
@@ -83,14 +100,16 @@ pub fn tune(setup: &TuningSetup) -> Result<Tuning, TuningError> {
     Ok(Tuning {
         dc_gain: plant.dc_gain(),
         curve: CriticalCurve::of(&plant, &search, DIRECTIONS),
-        test: test(&plant, &search, &setup.test)?,
+        test: test(&plant, &search, setup)?,
         design: design(&plant, &search, setup)?,
     })
 }
 
-fn test(plant: &TransferMatrix, search: &CriticalSearch, spec: &TestSpec) -> Result<Tested, TuningError> {
+fn test(plant: &TransferMatrix, search: &CriticalSearch, setup: &TuningSetup) -> Result<Tested, TuningError> {
+    let spec = &setup.test;
     let time = TestTime { duration: spec.duration, release: spec.release, step: spec.step };
     match spec.kind {
+        TestKind::Single => single(plant, spec, time),
         TestKind::Independent => {
             let of_loop = |index: usize| {
                 let test = independent_test(plant, index, spec.amplitudes[index], time)?;
@@ -111,13 +130,70 @@ fn test(plant: &TransferMatrix, search: &CriticalSearch, spec: &TestSpec) -> Res
                 ..Relay::ideal(spec.amplitudes[i], gain[(i, i)])
             };
             let relays = [Some(relay(0)), Some(relay(1))];
-            let test = relay_test(&mut DelayedPlant::new(&plant.paths())?, relays, PidMatrix::default(), time)?;
+            let controllers = PidMatrix::default();
+            let test = match nonlinear(&setup.plant) {
+                Some(rig) => relay_test(&mut rig.held(), relays, controllers, time)?,
+                None => relay_test(&mut DelayedPlant::new(&plant.paths())?, relays, controllers, time)?,
+            };
             let distance = |gains: Option<[f64; 2]>, period| distance_from_curve(search, gains?, period);
             let distances = test.reading.oscillation.map_or([None; 2], |o| {
                 [distance(o.gains_by_peak(), o.period), distance(o.gains_by_harmonic(), o.period)]
             });
             Ok(Tested::Simultaneous(Box::new(test), distances))
         }
+    }
+}
+
+/// A relay on one element of the diagonal, with what stands behind it.
+fn single(plant: &TransferMatrix, spec: &TestSpec, time: TestTime) -> Result<Tested, TuningError> {
+    let index = spec.number - 1;
+    let element = &plant.0[index][index];
+    let with = match spec.behind {
+        Behind::Nothing => element.clone(),
+        Behind::Integrator => with_integrator(element),
+        Behind::Modulus(r) => modulus_estimator(element, r)?,
+    };
+    let relay = Relay {
+        hysteresis: spec.hysteresis[index],
+        bias: spec.bias[index],
+        ..Relay::ideal(spec.amplitudes[index], element.dc_gain())
+    };
+    let test = single_loop_test(&with, relay, time)?;
+    let found = test.reading.oscillation.and_then(|oscillation| {
+        let frequency = oscillation.frequency();
+        let gain = oscillation.loops[0].gain_by_peak?.abs();
+        let modulus = match spec.behind {
+            Behind::Nothing => gain.recip(),
+            Behind::Integrator => frequency / gain,
+            Behind::Modulus(r) => r,
+        };
+        Some(FoundPoint { frequency, modulus, response: element.at(Complex::new(0.0, frequency)) })
+    });
+    Ok(Tested::Single(Box::new(test), found))
+}
+
+/// The nonlinear rig that a session runs on, at rest.
+struct Rig {
+    plant: QuadrupleTank,
+    op: OperatingPoint,
+    pairing: Pairing,
+}
+
+impl Rig {
+    fn held(&self) -> HeldTank<'_> {
+        HeldTank::new(&self.plant, &self.op, self.pairing)
+    }
+}
+
+fn nonlinear(plant: &TuningPlant) -> Option<Rig> {
+    match plant {
+        TuningPlant::QuadrupleTank { preset, valves, pairing, nonlinear: true, .. } => {
+            let rig = preset.preset();
+            let plant = rig.plant.with_valves(valves.unwrap_or(rig.plant.valves));
+            let op = plant.free_equilibrium(rig.pump_voltage);
+            Some(Rig { plant, op, pairing: *pairing })
+        }
+        _ => None,
     }
 }
 
@@ -147,7 +223,8 @@ fn design(
         Ok::<_, TuningError>(DesignRoot { controllers, warnings, stability, margins, closure })
     };
     let roots = [root(one.controllers, one.warnings)?, root(two.controllers, two.warnings)?];
-    Ok(Some(Designed { critical_gains, frequency, g, roots, response }))
+    let figures = response.step_figures(setup.response.references);
+    Ok(Some(Designed { critical_gains, frequency, g, roots, response, figures }))
 }
 
 fn respond(
@@ -177,5 +254,9 @@ fn respond(
         duration: response.duration,
         step: response.step,
     };
-    Ok(run_two_loops(&mut DelayedPlant::new(&paths)?, &loops))
+    // A dynamic decoupler is part of the paths, so it is simulated with the linear plant.
+    match nonlinear(&setup.plant).filter(|_| matches!(spec.decoupler, DecouplerSpec::None | DecouplerSpec::Static)) {
+        Some(rig) => Ok(run_two_loops(&mut rig.held(), &loops)),
+        None => Ok(run_two_loops(&mut DelayedPlant::new(&paths)?, &loops)),
+    }
 }

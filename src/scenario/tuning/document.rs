@@ -52,6 +52,9 @@ pub enum TuningPlant {
         /// A lag in every element (s), of pump or sensor.
         #[serde(default)]
         lag_s: f64,
+        /// Whether simultaneous relays and the response run on the nonlinear plant, which has neither dead time nor lag.
+        #[serde(default)]
+        nonlinear: bool,
     },
     /// Four elements, row by output.
     Elements([[Element; 2]; 2]),
@@ -62,12 +65,28 @@ pub enum TuningPlant {
 #[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum TestKind {
+    /// One element of the diagonal alone, perhaps with something behind the relay.
+    Single,
     /// One loop after the other, each alone.
     Independent,
     /// One loop after the other, those before closed by the rule.
     Sequential,
     /// Both at once.
     Simultaneous,
+}
+
+/// What stands behind the relay of a single test, and which point of the frequency response it finds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case")]
+pub enum Behind {
+    /// Nothing: the point with −180°.
+    #[default]
+    Nothing,
+    /// An integrator: the point with −90°.
+    Integrator,
+    /// The estimator of the point with this modulus r.
+    Modulus(f64),
 }
 
 /// A relay test.
@@ -77,6 +96,12 @@ pub enum TestKind {
 pub struct TestSpec {
     /// Which one.
     pub kind: TestKind,
+    /// Number of the loop of a single test, 1 or 2.
+    #[serde(default = "one")]
+    pub number: usize,
+    /// What stands behind the relay of a single test.
+    #[serde(default)]
+    pub behind: Behind,
     /// Amplitudes d1, d2.
     pub amplitudes: [f64; 2],
     /// Half widths ε of the hysteresis; only of the simultaneous test.
@@ -91,7 +116,7 @@ pub struct TestSpec {
     #[serde(default = "ones")]
     pub detuning: [f64; 2],
     /// Passes of a sequential test.
-    #[serde(default = "one_pass")]
+    #[serde(default = "one")]
     pub passes: usize,
     /// How long.
     pub duration: f64,
@@ -105,7 +130,7 @@ fn ones() -> [f64; 2] {
     [1.0; 2]
 }
 
-fn one_pass() -> usize {
+fn one() -> usize {
     1
 }
 
@@ -221,6 +246,10 @@ impl TuningScenario {
             within(design.target[i], -LARGEST, LARGEST, || format!("tuning.design.target[{i}]"))?;
             within(response.references[i], -LARGEST, LARGEST, || format!("tuning.response.references[{i}]"))?;
         }
+        within(test.number as f64, 1.0, 2.0, || "tuning.test.number".to_owned())?;
+        if let Behind::Modulus(r) = test.behind {
+            within(r, SMALLEST, LARGEST, || "tuning.test.behind.modulus".to_owned())?;
+        }
         within(test.passes as f64, 1.0, MOST_PASSES as f64, || "tuning.test.passes".to_owned())?;
         within(test.release, 0.0, test.duration, || "tuning.test.release".to_owned())?;
         check_time(test.duration, test.step, "tuning.test")?;
@@ -248,8 +277,12 @@ fn check_time(duration: f64, step: f64, path: &str) -> Result<(), ScenarioError>
 fn check_plant(plant: &TuningPlant) -> Result<(), ScenarioError> {
     match plant {
         TuningPlant::Published(_) => Ok(()),
-        TuningPlant::QuadrupleTank { valves, dead_time_s, lag_s, .. } => {
+        TuningPlant::QuadrupleTank { valves, dead_time_s, lag_s, nonlinear, .. } => {
             let path = "tuning.plant.quadruple_tank";
+            if *nonlinear {
+                within(*dead_time_s, 0.0, 0.0, || format!("{path}.dead_time_s"))?;
+                within(*lag_s, 0.0, 0.0, || format!("{path}.lag_s"))?;
+            }
             for (i, &valve) in valves.iter().flatten().enumerate() {
                 within(valve, 0.0, 1.0, || format!("{path}.valves[{i}]"))?;
             }
@@ -288,7 +321,7 @@ impl TuningPlant {
     pub fn transfer_matrix(&self) -> Result<TransferMatrix, TuningError> {
         match self {
             Self::Published(plant) => Ok(plant.transfer_matrix()?),
-            Self::QuadrupleTank { preset, valves, pairing, dead_time_s, lag_s } => {
+            Self::QuadrupleTank { preset, valves, pairing, dead_time_s, lag_s, .. } => {
                 let rig = preset.preset();
                 let plant = rig.plant.with_valves(valves.unwrap_or(rig.plant.valves));
                 let jacobian = plant.linearise(&plant.free_equilibrium(rig.pump_voltage));

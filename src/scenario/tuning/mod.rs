@@ -4,9 +4,9 @@ mod answer;
 mod document;
 mod published;
 
-pub use answer::{DesignRoot, Designed, Tested, Tuning, tune};
+pub use answer::{DesignRoot, Designed, FoundPoint, Tested, Tuning, tune};
 pub use document::{
-    CriticalSpec, DecouplerSpec, DesignSpec, Element, ResponseSpec, TestKind, TestSpec, TuningPlant, TuningScenario,
-    TuningSetup,
+    Behind, CriticalSpec, DecouplerSpec, DesignSpec, Element, ResponseSpec, TestKind, TestSpec, TuningPlant,
+    TuningScenario, TuningSetup,
 };
 pub use published::PublishedCase;

@@ -1,7 +1,8 @@
 use crate::tuning::{Action, PlacementMethod, PublishedPlant, TuningRule};
 
 use super::{
-    CriticalSpec, DecouplerSpec, DesignSpec, ResponseSpec, TestKind, TestSpec, TuningPlant, TuningScenario, TuningSetup,
+    Behind, CriticalSpec, DecouplerSpec, DesignSpec, ResponseSpec, TestKind, TestSpec, TuningPlant, TuningScenario,
+    TuningSetup,
 };
 
 /// A published case of Campestrini (2006): a table, and its row where it has several.
@@ -107,6 +108,8 @@ impl PublishedCase {
                 plant: TuningPlant::Published(plant),
                 test: TestSpec {
                     kind: TestKind::Simultaneous,
+                    number: 1,
+                    behind: Behind::Nothing,
                     amplitudes: [1.0; 2],
                     hysteresis: [0.0; 2],
                     bias: [0.0; 2],
