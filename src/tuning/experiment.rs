@@ -5,7 +5,7 @@ use crate::linear::{DelayedPlant, Path, TransferFunction, TransferMatrix};
 use crate::sim::{HeldPlant, LoopTrace, TwoLoops, run_two_loops};
 
 use super::error::positive;
-use super::relay_test::{Exciter, RelayReading, read_relay_test};
+use super::relay_reading::{Exciter, RelayReading, read_relay_test};
 use super::{TuningError, TuningRule, UltimatePoint};
 
 /// Length and fineness of a test.

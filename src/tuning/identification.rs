@@ -9,7 +9,7 @@ use crate::linear::{Complex, DelayedPlant, TransferMatrix};
 
 use super::TuningError;
 use super::error::positive;
-use super::relay_test::Oscillation;
+use super::relay_reading::Oscillation;
 
 /// Steps of the held sine in a period. Its harmonics are at multiples of that frequency, where plants pass little.
 const STEPS: u32 = 256;

@@ -12,7 +12,7 @@ mod limit_cycle;
 mod placement;
 mod plants;
 mod proposal;
-mod relay_test;
+mod relay_reading;
 mod rules;
 mod usol;
 
@@ -29,7 +29,7 @@ pub use limit_cycle::{LimitCycle, limit_cycles};
 pub use placement::{ControllerPair, integral_action_may_be_stable, place_both_loci, place_one_locus};
 pub use plants::{PublishedPlant, tank_transfer_matrix};
 pub use proposal::{Action, PlacementMethod, PlacementWarning, Proposal, dynamic_relative_gain, propose, response_at};
-pub use relay_test::{
+pub use relay_reading::{
     CurveDistance, Exciter, LoopMeasurement, Oscillation, RelayReading, RelayVerdict, distance_from_curve,
     read_relay_test,
 };
