@@ -6,9 +6,9 @@ use approx::assert_relative_eq;
 use quadtank::control::Relay;
 use quadtank::linear::{Complex, TransferFunction};
 use quadtank::tuning::{
-    CriticalSearch, CurveDistance, LimitCycle, PublishedPlant, RelayTest, RelayVerdict, TestTime, TuningError,
+    CriticalSearch, CurveDistance, Exciter, LimitCycle, PublishedPlant, RelayTest, RelayVerdict, TestTime, TuningError,
     TuningRule, distance_from_curve, frequency_range, independent_tuning, limit_cycles, modulus_estimator,
-    sequential_tuning, simultaneous_test, single_loop_test, with_integrator,
+    read_relay_test, sequential_tuning, simultaneous_test, single_loop_test, with_integrator,
 };
 
 /// Plants of the exact test: 1/(s+1)³, 1/(s+1)⁴, and both diagonal elements of Process II.
@@ -174,6 +174,11 @@ fn the_estimator_oscillates_where_the_modulus_is_r_if_r_is_small() {
         let modulus = plant.at(Complex::new(0.0, oscillation.frequency())).norm();
         assert!((lowest..=highest).contains(&(modulus / r)), "{r}: {modulus}");
     }
+    // The same for an element with negative gain.
+    let turned = modulus_estimator(&plant.scaled(-1.0), 0.3).unwrap();
+    let straight = modulus_estimator(plant, 0.3).unwrap();
+    let s = Complex::new(0.0, 1.1);
+    assert_relative_eq!((turned.at(s) - straight.at(s)).norm(), 0.0, epsilon = 1e-14);
     let [no_dead_time, no_modulus] = [(1.0, 0.5), (0.0, -1.0)]
         .map(|(dead_time, r)| modulus_estimator(&TransferFunction::lags(1.0, &[1.0], dead_time).unwrap(), r).err());
     assert_eq!(no_dead_time, Some(TuningError::OutOfRange { field: "dead_time", value: 1.0 }));
@@ -185,7 +190,8 @@ fn independent_tests_see_single_loops_and_detuning_weakens_them() {
     let plant = PublishedPlant::WoodBerry.transfer_matrix().unwrap();
     let time = TestTime { duration: 300.0, release: 3.0, step: 0.02 };
     let rule = TuningRule::ZieglerNicholsPi;
-    let [one, two] = independent_tuning(&plant, [1.0, 1.0], rule, [1.0, 2.0], time).unwrap().unwrap();
+    let tuned = independent_tuning(&plant, [1.0, 1.0], rule, [1.0, 2.0], time).unwrap();
+    let [one, two] = tuned.map(|(_, settings)| settings.unwrap());
     // Single loops: Kc 2.0994 and −0.4221, Tc 3.907 and 11.132; the relay is within 3 %.
     assert_relative_eq!(one.gain, 0.4 * 2.0994, max_relative = 0.03);
     assert_relative_eq!(one.integral_time, 0.8 * 3.907, max_relative = 0.03);
@@ -205,4 +211,33 @@ fn a_sequence_of_tests_converges_on_process_two() {
         assert!(change(3, i) < 0.01, "{gains:?}");
         assert!(change(3, i) < change(1, i), "{gains:?}");
     }
+}
+
+#[test]
+fn a_relay_that_has_stuck_is_not_read_as_an_oscillation() {
+    let plant = &plants()[0];
+    let cycle = only_cycle(plant);
+    let time = TestTime { duration: 40.0 * cycle.period, release: cycle.period, step: cycle.period / 100.0 };
+    let test = single_loop_test(plant, Relay::ideal(1.0, 1.0), time).unwrap();
+    let exciters = [Some(Exciter { amplitude: 1.0, reversed: false }), None];
+    let mut trace = test.trace.clone();
+    assert_eq!(read_relay_test(&trace, exciters).verdict, RelayVerdict::Unimodal);
+    // The record goes on, the switches do not.
+    let half = trace.switches[0].len() / 2;
+    trace.switches[0].truncate(half);
+    assert_eq!(read_relay_test(&trace, exciters).verdict, RelayVerdict::NotPeriodic);
+}
+
+#[test]
+fn coarse_rows_lose_no_switch_and_are_no_chattering() {
+    let plant = PublishedPlant::WoodBerry.transfer_matrix().unwrap();
+    let read = |step: f64| {
+        let time = TestTime { duration: 400.0, release: 4.0, step };
+        simultaneous_test(&plant, [1.0, 0.05], time).unwrap()
+    };
+    let (fine, coarse) = (read(0.05), read(40.0));
+    assert_eq!(coarse.trace.halt, None);
+    assert_eq!(coarse.reading.verdict, fine.reading.verdict);
+    let period = |test: &RelayTest| test.reading.oscillation.unwrap().period;
+    assert_relative_eq!(period(&coarse), period(&fine), max_relative = 1e-6);
 }

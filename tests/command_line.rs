@@ -417,6 +417,22 @@ fn what_relay_tuning_refuses_is_said() {
     assert!(refused(&|t| t["plant"] = unstable.clone()).contains("a pole with the real part 0.333"));
     let singular = plant([element(1.0, 1.0), element(1.0, 2.0), element(1.0, 1.0), element(1.0, 3.0)]);
     assert!(refused(&|t| t["plant"] = singular.clone()).contains("singular"));
+    // Documents that would ask for more steps than anyone waits for, and a product that would vanish.
+    let tank = |more: Value| {
+        let mut tank = json!({ "preset": "johansson-2000-minimum-phase", "pairing": "diagonal" });
+        tank.as_object_mut().unwrap().extend(more.as_object().unwrap().clone());
+        json!({ "quadruple_tank": tank })
+    };
+    assert!(refused(&|t| t["plant"] = tank(json!({ "lag_s": 1e-20 }))).contains("quickest pole * duration"));
+    let quick = plant([element(1e6, 1e-6), element(1.0, 2.0), element(1.0, 1.0), element(1.0, 3.0)]);
+    assert!(refused(&|t| t["plant"] = quick.clone()).contains("quickest pole * "));
+    let mut tiny = plant([element(1.0, 1.0), element(1.0, 2.0), element(1.0, 1.0), element(1.0, 3.0)]);
+    tiny["elements"][0][1]["numerator"] = json!([1e-200]);
+    assert!(refused(&|t| t["plant"] = tiny.clone()).contains("tuning.plant.elements[0][1].numerator[0]: "));
+    let greedy = json!(20);
+    assert!(refused(&|t| (t["test"]["passes"], t["test"]["step"]) = (greedy.clone(), json!(0.004))).contains("passes"));
+    // No way from pump 1 to level 1: nothing to tune with this pairing.
+    assert!(refused(&|t| t["plant"] = tank(json!({ "valves": [0.0, 0.6] }))).contains("singular"));
     let run_of_the_tank = preset(PresetId::JohanssonMinimumPhase);
     let output = pipe(&["tune", "-"], run_of_the_tank.as_bytes());
     assert_eq!(output.status.code(), Some(2));

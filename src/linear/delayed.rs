@@ -39,6 +39,7 @@ pub struct DelayedPlant {
     /// Changes of each input: time and new value.
     changes: [Vec<(f64, f64)>; 2],
     time: f64,
+    pace: f64,
 }
 
 impl DelayedPlant {
@@ -56,8 +57,9 @@ impl DelayedPlant {
             let (input, output) = (path.input, path.output);
             Ok(Moving { input, output, dead_time, motion, state: [0.0; MAX_ORDER], acting: 0.0, awaited: 0 })
         };
-        let paths = paths.iter().map(moving).collect::<Result<_, LinearError>>()?;
-        Ok(Self { paths, inputs: [0.0; 2], changes: [Vec::new(), Vec::new()], time: 0.0 })
+        let paths = paths.iter().map(moving).collect::<Result<Vec<_>, LinearError>>()?;
+        let pace = paths.iter().map(|path| 0.5 * path.motion.unit()).fold(f64::INFINITY, f64::min);
+        Ok(Self { paths, inputs: [0.0; 2], changes: [Vec::new(), Vec::new()], time: 0.0, pace })
     }
 
     /// Time since the start.
@@ -89,6 +91,11 @@ impl DelayedPlant {
     /// How long nothing arrives: until the next change of an input has passed a dead time. Infinite when none is on its way.
     pub fn quiet(&self) -> f64 {
         self.paths.iter().filter_map(|path| self.arrival(path)).fold(f64::INFINITY, f64::min) - self.time
+    }
+
+    /// A time within which no path turns there and back: half its mean time constant.
+    pub fn pace(&self) -> f64 {
+        self.pace
     }
 
     /// Moves on, over any number of arrivals.

@@ -32,6 +32,8 @@ pub struct LoopOutline {
     pub high: f64,
     /// Integrators in the loop: the order of the pole of det(I + L) at the origin.
     pub integrators: u32,
+    /// Smallest damping ratio of a resonance, 1 where there is none.
+    pub damping: f64,
     /// Sum of the longest dead times of both loops: how fast det(I + L) turns.
     pub dead_time: f64,
 }
@@ -40,6 +42,8 @@ pub struct LoopOutline {
 const QUIET_TURN: f64 = 0.4;
 /// Largest |det(I + L) − 1| that passes for near 1.
 const QUIET: f64 = 0.9;
+/// Resonances narrower than this are taken for so narrow.
+const LEAST_DAMPING: f64 = 1e-4;
 /// Steps of the count, relative to the frequency.
 const STRIDE: f64 = 0.03;
 /// Bisections of one step of the count; a turn that is not resolved by then goes through zero.
@@ -74,7 +78,7 @@ impl LoopStability {
         let mut here = ratio(w);
         while !(w > outline.high && is_quiet(&here)) && w < loudest {
             let both_quiet = |next: &Matrix2<Complex>| is_quiet(&here) && is_quiet(next);
-            let stride = w * STRIDE;
+            let stride = w * STRIDE.min(0.25 * outline.damping.max(LEAST_DAMPING));
             let careful = if outline.dead_time > 0.0 { QUIET_TURN / outline.dead_time } else { f64::INFINITY };
             let mut next = w + stride;
             let mut there = ratio(next);
@@ -156,7 +160,7 @@ mod tests {
         }
     }
 
-    const OUTLINE: LoopOutline = LoopOutline { low: 0.01, high: 100.0, integrators: 0, dead_time: 0.0 };
+    const OUTLINE: LoopOutline = LoopOutline { low: 0.01, high: 100.0, integrators: 0, damping: 1.0, dead_time: 0.0 };
 
     #[test]
     fn a_triple_lag_is_stable_up_to_eight() {
@@ -171,6 +175,17 @@ mod tests {
     }
 
     #[test]
+    fn a_narrow_resonance_is_not_passed_over() {
+        // 0.02 e^(−s)/(s² + 0.002 s + 1): the locus reaches far beyond −1 within a thousandth of its frequency.
+        let resonance = |w: f64| {
+            let s = Complex::new(0.0, w);
+            diagonal(Complex::cis(-w) * 0.02 / (s * s + s * 0.002 + 1.0), Complex::cis(-w) * 0.02 / (s + 1.0))
+        };
+        let outline = LoopOutline { damping: 1e-3, dead_time: 2.0, ..OUTLINE };
+        assert_eq!(LoopStability::of(resonance, &outline), LoopStability::Unstable { poles: 2 });
+    }
+
+    #[test]
     fn integrators_and_dead_time_are_counted() {
         // k e^(−s)/s is stable up to π/2; in both loops it counts twice.
         let delayed = |k: f64| {
@@ -179,7 +194,7 @@ mod tests {
                 diagonal(g, g)
             }
         };
-        let outline = LoopOutline { low: 0.01, high: 100.0, integrators: 2, dead_time: 2.0 };
+        let outline = LoopOutline { low: 0.01, high: 100.0, integrators: 2, damping: 1.0, dead_time: 2.0 };
         assert_eq!(LoopStability::of(delayed(1.5), &outline), LoopStability::Stable);
         assert_eq!(LoopStability::of(delayed(1.65), &outline), LoopStability::Unstable { poles: 4 });
         // Far beyond: pairs of poles cross at (4 n + 1) π/2.

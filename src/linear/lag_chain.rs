@@ -31,7 +31,10 @@ impl Motion {
     /// is beyond [`MAX_ORDER`].
     pub(super) fn new(element: &TransferFunction) -> Result<Self, LinearError> {
         let (numerator, denominator) = (trimmed(element.numerator()), trimmed(element.denominator()));
-        let order = denominator.len() - 1;
+        // A product of tiny coefficients may have vanished.
+        let Some(order) = denominator.len().checked_sub(1) else {
+            return Err(LinearError::OutOfRange { field: "denominator", value: 0.0 });
+        };
         if !numerator.is_empty() && numerator.len() > order {
             let value = order as f64 - (numerator.len() as f64 - 1.0);
             return Err(LinearError::OutOfRange { field: "relative_degree", value });
@@ -54,6 +57,11 @@ impl Motion {
         }
         let norm = alpha.iter().map(|a| a.abs()).sum::<f64>().max(1.0);
         Ok(Self { order, alpha, beta, unit, step: 1.0 / norm })
+    }
+
+    /// Mean time constant on a logarithmic scale.
+    pub(super) fn unit(&self) -> f64 {
+        self.unit
     }
 
     /// Output y of a state.

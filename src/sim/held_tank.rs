@@ -16,6 +16,9 @@ pub struct HeldTank<'a> {
     water: Hydraulics,
 }
 
+/// Tanks of a laboratory take longer than this to turn there and back (s).
+const PACE_S: f64 = 1.0;
+
 /// Walls are left to whoever looks at the levels.
 struct Unwatched;
 
@@ -69,6 +72,10 @@ impl HeldPlant for HeldTank<'_> {
 
     fn advance(&mut self, duration: f64) {
         self.water.advance(0.0, duration, &mut Unwatched);
+    }
+
+    fn pace(&self) -> f64 {
+        PACE_S
     }
 }
 

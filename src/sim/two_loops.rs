@@ -16,6 +16,8 @@ pub trait HeldPlant {
     fn outputs_after(&self, duration: f64) -> [f64; 2];
     /// Moves on by at most [`quiet`](Self::quiet).
     fn advance(&mut self, duration: f64);
+    /// A time within which an output does not turn there and back.
+    fn pace(&self) -> f64;
 }
 
 impl HeldPlant for DelayedPlant {
@@ -37,6 +39,10 @@ impl HeldPlant for DelayedPlant {
 
     fn advance(&mut self, duration: f64) {
         self.advance(duration);
+    }
+
+    fn pace(&self) -> f64 {
+        self.pace()
     }
 }
 
@@ -81,6 +87,11 @@ pub enum Halt {
         /// When.
         time: f64,
     },
+    /// The record is as long as a record may be.
+    Full {
+        /// When.
+        time: f64,
+    },
 }
 
 /// What a run of [`TwoLoops`] left behind. Rows are at multiples of the step, at switches and at arrivals of what a dead
@@ -99,10 +110,12 @@ pub struct LoopTrace {
     pub halt: Option<Halt>,
 }
 
-/// Switches of one relay within one step that are taken for chattering.
-const SWITCHES_PER_STEP: u32 = 12;
+/// Switches in a row, each after next to nothing, that are taken for chattering, and what is next to nothing, as a share of the
+/// pace of the plant.
+const HASTY_SWITCHES: u32 = 12;
+const HASTY: f64 = 1e-6;
 /// Outputs beyond this many times the excitation have diverged.
-const DIVERGED: f64 = 1e6;
+const DIVERGED: f64 = 1e12;
 /// Rows at most.
 const MAX_ROWS: usize = 400_000;
 
@@ -110,7 +123,7 @@ const MAX_ROWS: usize = 400_000;
 pub fn run_two_loops(plant: &mut impl HeldPlant, loops: &TwoLoops) -> LoopTrace {
     let mut run = Run::new(plant, loops);
     let mut sample = 0_u32;
-    while run.trace.halt.is_none() && run.time < loops.duration && run.trace.time.len() < MAX_ROWS {
+    while run.trace.halt.is_none() && run.time < loops.duration {
         run.take_sample();
         sample += 1;
         run.pass_until((f64::from(sample) * loops.step).min(loops.duration));
@@ -129,6 +142,8 @@ struct Run<'a, P> {
     positive: [bool; 2],
     inputs: [f64; 2],
     time: f64,
+    /// Switches in a row that came at once after the one before.
+    hasty: u32,
     trace: LoopTrace,
 }
 
@@ -138,7 +153,7 @@ impl<'a, P: HeldPlant> Run<'a, P> {
         let positive = [0, 1].map(|i| loops.references[i] - outputs[i] >= 0.0);
         let controllers = loops.controllers.start(loops.step);
         let trace = LoopTrace::default();
-        Self { plant, loops, controllers, held: [0.0; 2], positive, inputs: [0.0; 2], time: 0.0, trace }
+        Self { plant, loops, controllers, held: [0.0; 2], positive, inputs: [0.0; 2], time: 0.0, hasty: 0, trace }
     }
 
     fn errors(&self, outputs: [f64; 2]) -> [f64; 2] {
@@ -150,6 +165,10 @@ impl<'a, P: HeldPlant> Run<'a, P> {
         let bound = DIVERGED * self.loops.excitation();
         if outputs.iter().any(|y| y.is_nan() || y.abs() > bound) {
             self.trace.halt = Some(Halt::Diverged { time: self.time });
+            return;
+        }
+        if self.trace.time.len() >= MAX_ROWS {
+            self.trace.halt = Some(Halt::Full { time: self.time });
             return;
         }
         self.held = self.controllers.step(self.errors(outputs));
@@ -176,31 +195,33 @@ impl<'a, P: HeldPlant> Run<'a, P> {
 
     /// Until the next sample, over switches and arrivals.
     fn pass_until(&mut self, end: f64) {
-        let mut switches = 0;
         while self.time < end && self.trace.halt.is_none() {
-            let left = end - self.time;
-            let quiet = self.plant.quiet();
-            let piece = if quiet < left { quiet } else { left };
-            let Some((relay, instant)) = self.first_switch(piece) else {
-                self.plant.advance(piece);
-                if quiet < left {
-                    self.time += piece;
-                    self.row();
-                } else {
-                    self.time = end;
-                }
+            let (left, quiet) = (end - self.time, self.plant.quiet());
+            let held_back = if self.time < self.loops.release { self.loops.release - self.time } else { f64::INFINITY };
+            let piece = [quiet, self.plant.pace(), held_back].into_iter().fold(left, f64::min);
+            if let Some((relay, instant)) = self.first_switch(piece) {
+                self.switch(relay, instant);
                 continue;
-            };
-            self.plant.advance(instant);
-            self.time += instant;
-            self.positive[relay] = !self.positive[relay];
-            self.trace.switches[relay].push((self.time, self.positive[relay]));
-            self.act();
-            self.row();
-            switches += 1;
-            if switches > SWITCHES_PER_STEP {
-                self.trace.halt = Some(Halt::Chattering { relay, time: self.time });
             }
+            self.plant.advance(piece);
+            // Exactly, or the last piece would leave a rounding error to go.
+            self.time = if piece == left { end } else { self.time + piece };
+            if piece == quiet && piece < left {
+                self.row();
+            }
+        }
+    }
+
+    fn switch(&mut self, relay: usize, instant: f64) {
+        self.plant.advance(instant);
+        self.time += instant;
+        self.positive[relay] = !self.positive[relay];
+        self.hasty = if instant <= HASTY * self.plant.pace() { self.hasty + 1 } else { 0 };
+        self.trace.switches[relay].push((self.time, self.positive[relay]));
+        self.act();
+        self.row();
+        if self.hasty >= HASTY_SWITCHES {
+            self.trace.halt = Some(Halt::Chattering { relay, time: self.time });
         }
     }
 

@@ -61,6 +61,21 @@ pub fn frequency_range(plant: &TransferMatrix) -> Result<(f64, f64), LinearError
     Ok(if quickest > 0.0 { (slowest * 0.01, quickest * 100.0) } else { (0.01, 100.0) })
 }
 
+/// Smallest damping ratio of the poles of a plant, 1 for one without complex poles: how narrow its resonances are, in shares of
+/// their frequency.
+///
+/// # Errors
+/// As [`frequency_range`].
+pub fn least_damping(plant: &TransferMatrix) -> Result<f64, LinearError> {
+    let mut least = 1.0_f64;
+    for element in plant.0.as_flattened() {
+        for pole in element.poles()?.into_iter().filter(|pole| pole.im != 0.0) {
+            least = least.min(pole.re.abs() / pole.norm());
+        }
+    }
+    Ok(least)
+}
+
 /// Direction `(k1, k2)` in which loop 2 has the importance r2 relative to loop 1,
 /// `r2 = kc2 g22(0)/(kc1 g11(0))` (Campestrini 2006, eq. 94).
 pub fn importance_direction(dc_gain: &Matrix2<f64>, importance: f64) -> [f64; 2] {
@@ -83,6 +98,9 @@ pub struct CriticalSearch<'a> {
 
 /// Largest angle to the real axis (rad) at which a locus counts as on it.
 const SLANT: f64 = 1e-6;
+
+/// Resonances narrower than this are taken for so narrow.
+const LEAST_DAMPING: f64 = 1e-3;
 
 /// What the search needs of G(jω).
 #[derive(Clone, Copy, Debug)]
@@ -155,7 +173,10 @@ impl<'a> CriticalSearch<'a> {
     /// A search from the lowest to the highest frequency (rad per unit of time), both positive.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of points")]
     pub fn new(plant: &'a TransferMatrix, lowest: f64, highest: f64) -> Self {
-        let cells = ((highest / lowest).log10() * PER_DECADE).ceil().clamp(1.0, 1e5) as usize;
+        // Some cells across the narrowest resonance.
+        let damping = least_damping(plant).unwrap_or(1.0).max(LEAST_DAMPING);
+        let per_decade = (4.0 * std::f64::consts::LN_10 / damping).max(PER_DECADE);
+        let cells = ((highest / lowest).log10() * per_decade).ceil().max(1.0) as usize;
         let ratio = (highest / lowest).ln() / cells as f64;
         let grid = (0..=cells).map(|k| Sample::of(plant, lowest * (ratio * k as f64).exp())).collect();
         Self { plant, at_rest: Sample::of(plant, 0.0), grid }

@@ -89,7 +89,8 @@ fn corner(
             (low, first) = (middle, point);
         }
     }
-    let last = last?;
+    // A steep but smooth change of frequency ends in one point, not in two.
+    let last = last.filter(|last| jumps(&first, last))?;
     let points = if first.frequency < last.frequency { [first, last] } else { [last, first] };
     Some(Corner { importance: low.tan(), points })
 }

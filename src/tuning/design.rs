@@ -6,7 +6,7 @@ use crate::control::{ParallelPid, PidMatrix};
 use crate::linear::{Closure, Complex, Loci, LoopOutline, LoopStability, Margins, TransferFunction, TransferMatrix};
 
 use super::TuningError;
-use super::critical::frequency_range;
+use super::critical::{frequency_range, least_damping};
 use super::experiment::check_stable;
 
 /// Points of the loci where nothing else is asked for.
@@ -18,6 +18,7 @@ pub struct Design<'a> {
     plant: &'a TransferMatrix,
     controllers: PidMatrix,
     range: (f64, f64),
+    damping: f64,
 }
 
 impl<'a> Design<'a> {
@@ -25,7 +26,7 @@ impl<'a> Design<'a> {
     /// [`TuningError::UnstablePlant`], or as [`frequency_range`].
     pub fn new(plant: &'a TransferMatrix, controllers: PidMatrix) -> Result<Self, TuningError> {
         check_stable(plant)?;
-        Ok(Self { plant, controllers, range: frequency_range(plant)? })
+        Ok(Self { plant, controllers, range: frequency_range(plant)?, damping: least_damping(plant)? })
     }
 
     /// Return ratio G(jω) K(jω), with derivative filters.
@@ -40,8 +41,10 @@ impl<'a> Design<'a> {
         let quickest = filters.map(f64::recip).fold(0.0, f64::max);
         let dead_time = self.plant.0.as_flattened().iter().map(TransferFunction::dead_time).fold(0.0, f64::max);
         let integrators = self.controllers.integrators();
+        let damping = self.damping;
         // Two loops turn at most as quickly as the longest dead time twice.
-        let outline = LoopOutline { low, high: high.max(10.0 * quickest), integrators, dead_time: 2.0 * dead_time };
+        let outline =
+            LoopOutline { low, high: high.max(10.0 * quickest), integrators, damping, dead_time: 2.0 * dead_time };
         LoopStability::of(|w| self.ratio(w), &outline)
     }
 

@@ -120,8 +120,10 @@ pub fn ultimate_point(test: &RelayTest, index: usize) -> Option<UltimatePoint> {
     Some(UltimatePoint { gain: oscillation.loops[index].gain_by_harmonic?, period: oscillation.period })
 }
 
-/// Independent tests of both loops and a rule, detuned by a factor f for each loop (Campestrini 2006, eqs. 92, 93). `None`
-/// where a test did not end periodically.
+/// A test with the settings that a rule makes of it; `None` where it did not end periodically.
+pub type TestAndSettings = (RelayTest, Option<IsaPid>);
+
+/// Independent tests of both loops and a rule, detuned by a factor f for each loop (Campestrini 2006, eqs. 92, 93).
 ///
 /// # Errors
 /// As [`simultaneous_test`]; [`TuningError::OutOfRange`] for a factor that is not positive.
@@ -131,14 +133,14 @@ pub fn independent_tuning(
     rule: TuningRule,
     detuning: [f64; 2],
     time: TestTime,
-) -> Result<Option<[IsaPid; 2]>, TuningError> {
-    let mut found = [None; 2];
-    for index in [0, 1] {
+) -> Result<[TestAndSettings; 2], TuningError> {
+    let of_loop = |index: usize| {
         positive("detuning", detuning[index])?;
         let test = independent_test(plant, index, amplitudes[index], time)?;
-        found[index] = ultimate_point(&test, index).map(|point| rule.settings(point).detuned(detuning[index]));
-    }
-    Ok(found[0].zip(found[1]).map(|(first, second)| [first, second]))
+        let settings = ultimate_point(&test, index).map(|point| rule.settings(point).detuned(detuning[index]));
+        Ok::<_, TuningError>((test, settings))
+    };
+    Ok([of_loop(0)?, of_loop(1)?])
 }
 
 /// One step of a sequential tuning.
@@ -191,7 +193,7 @@ pub fn with_integrator(element: &TransferFunction) -> TransferFunction {
 }
 
 /// The loop of the estimator that oscillates where `|H(jω)| = r`: `F/s` with `F = (H − r)/(H + r)` (Campestrini 2006,
-/// eqs. 56 to 59).
+/// eqs. 56 to 59); for an element with negative gain, of −H. The gain of the loop is positive.
 ///
 /// It rests on the describing function although F does not fall at high frequency: good while r is small beside |H(0)|
 /// (1.2 % at 0.2 on three equal lags), useless above 0.4 of it.
@@ -204,6 +206,7 @@ pub fn modulus_estimator(element: &TransferFunction, r: f64) -> Result<TransferF
     if element.dead_time() != 0.0 {
         return Err(TuningError::OutOfRange { field: "dead_time", value: element.dead_time() });
     }
+    let r = r.copysign(element.dc_gain());
     let combined = |sign: f64| -> Vec<f64> {
         let (b, a) = (element.numerator(), element.denominator());
         let at = |c: &[f64], k: usize| c.get(k).copied().unwrap_or(0.0);

@@ -30,7 +30,7 @@ impl LimitCycle {
         self.multipliers.iter().all(|m| m.norm() < 1.0)
     }
 
-    /// Ultimate gain by the describing function, `4d/(π a)` (eq. 47).
+    /// Ultimate gain by the describing function, `4d/(π a)` (eq. 48).
     pub fn gain_by_peak(&self) -> f64 {
         4.0 / (PI * self.amplitude)
     }
@@ -43,7 +43,7 @@ impl LimitCycle {
 
 /// All unimodal limit cycles with half periods between two bounds, quickest first.
 ///
-/// The plant must not have a dead time. Such a cycle exists exactly where `f(h) = C x*(h) = 0` (eq. 19) with
+/// The plant must have positive gain and no dead time. Such a cycle exists exactly where `f(h) = C x*(h) = 0` (eq. 19) with
 /// `x* = (e^{Ah} + I)⁻¹ ∫₀ʰ e^{As} B ds` (eq. 21) and the output keeps its sign in between (eq. 20). The integral stands for
 /// `(e^{Ah} − I) A⁻¹ B`, which an integrating plant does not have.
 ///

@@ -16,13 +16,14 @@ mod relay_reading;
 mod rules;
 mod usol;
 
-pub use critical::{CriticalPoint, CriticalSearch, GainLimit, frequency_range, importance_direction};
+pub use critical::{CriticalPoint, CriticalSearch, GainLimit, frequency_range, importance_direction, least_damping};
 pub use curve::{Corner, CriticalCurve, CurvePoint};
 pub use design::Design;
 pub use error::TuningError;
 pub use experiment::{
-    RelayTest, SequentialStep, TestTime, check_stable, independent_test, independent_tuning, modulus_estimator,
-    relay_test, sequential_tuning, simultaneous_test, single_loop_test, ultimate_point, with_integrator,
+    RelayTest, SequentialStep, TestAndSettings, TestTime, check_stable, independent_test, independent_tuning,
+    modulus_estimator, relay_test, sequential_tuning, simultaneous_test, single_loop_test, ultimate_point,
+    with_integrator,
 };
 pub use identification::{complete_response, sine_test};
 pub use limit_cycle::{LimitCycle, limit_cycles};

@@ -115,7 +115,7 @@ pub fn read_relay_test(trace: &LoopTrace, exciters: [Option<Exciter>; 2]) -> Rel
     match trace.halt {
         Some(Halt::Chattering { relay, .. }) => return nothing(RelayVerdict::Chattering { relay }),
         Some(Halt::Diverged { .. }) => return nothing(RelayVerdict::Diverged),
-        None => (),
+        Some(Halt::Full { .. }) | None => (),
     }
     let active: Vec<usize> = (0..2).filter(|&i| exciters[i].is_some()).collect();
     if active.is_empty() || active.iter().any(|&i| trace.switches[i].len() < 4) {
@@ -139,26 +139,28 @@ pub fn read_relay_test(trace: &LoopTrace, exciters: [Option<Exciter>; 2]) -> Rel
 /// The shortest period after which the switches of all relays come again, and the last switch up of the first of them.
 fn common_period(trace: &LoopTrace, active: &[usize]) -> Option<(f64, f64)> {
     let ups: Vec<f64> = trace.switches[active[0]].iter().filter(|(_, up)| *up).map(|(time, _)| *time).collect();
-    let &end = ups.last()?;
+    let (&end, &begin, &close) = (ups.last()?, trace.time.first()?, trace.time.last()?);
     (1..=MODES).find_map(|modes| {
-        let begin = ups.len().checked_sub(1 + modes)?;
-        let period = end - ups[begin];
+        let period = end - ups[ups.len().checked_sub(1 + modes)?];
         let first = end - ALIKE * period;
-        let again = first >= *trace.time.first()?
-            && active.iter().all(|&i| comes_again(&trace.switches[i], period, first, end));
+        // A relay that has stuck for longer than a period does not oscillate any more.
+        let goes_on = close - end <= period * (1.0 + TOLERANCE);
+        let again =
+            first >= begin && goes_on && active.iter().all(|&i| comes_again(&trace.switches[i], period, first, end));
         again.then_some((period, end))
     })
 }
 
-/// Whether every switch of the last periods has one like it a period earlier, and there is at least one.
+/// Whether every switch of the last periods has one like it a period earlier and a period later, as far as the window goes, and
+/// there is at least one.
 fn comes_again(switches: &[(f64, bool)], period: f64, first: f64, end: f64) -> bool {
     let slack = TOLERANCE * period;
-    let mut late =
-        switches.iter().filter(|(time, _)| *time >= first + period + slack && *time <= end + slack).peekable();
+    let like = |time: f64, up: bool| switches.iter().any(|&(at, other)| other == up && (time - at).abs() <= slack);
+    let within = |from: f64, to: f64| switches.iter().filter(move |(at, _)| *at >= from + slack && *at <= to + slack);
+    let mut late = within(first + period, end).peekable();
     late.peek().is_some()
-        && late.all(|(time, up)| {
-            switches.iter().any(|(earlier, direction)| direction == up && (time - period - earlier).abs() <= slack)
-        })
+        && late.all(|&(at, up)| like(at - period, up))
+        && within(first, end - period - 2.0 * slack).all(|&(at, up)| like(at + period, up))
 }
 
 /// Amplitude and first harmonics of one loop over the last three periods.

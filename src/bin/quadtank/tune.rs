@@ -13,7 +13,7 @@ use quadtank::linear::{Closure, Complex, LoopStability};
 use quadtank::scenario::tuning::{DesignRoot, Designed, Tested, Tuning, TuningSetup, tune};
 use quadtank::sim::{Halt, LoopTrace, StepFigures};
 use quadtank::tuning::{
-    CurveDistance, Design, GainLimit, RelayReading, RelayTest, RelayVerdict, TuningError, dynamic_relative_gain,
+    CurveDistance, Design, GainLimit, RelayReading, RelayVerdict, TestAndSettings, TuningError, dynamic_relative_gain,
 };
 use serde_json::{Value, json};
 
@@ -100,7 +100,7 @@ fn tested(test: &Tested) -> Value {
             "distance_by_harmonic": by_harmonic.map(distance),
         }),
         Tested::Independent(loops) => {
-            let of_loop = |(test, settings): &(RelayTest, Option<IsaPid>)| json!({ "reading": reading(&test.reading), "settings": settings.map(isa) });
+            let of_loop = |(test, settings): &TestAndSettings| json!({ "reading": reading(&test.reading), "settings": settings.map(isa) });
             json!({ "kind": "independent", "loops": loops.iter().map(of_loop).collect::<Vec<_>>() })
         }
         Tested::Sequential(steps) => {
@@ -190,6 +190,7 @@ fn halt(halt: Halt) -> Value {
     match halt {
         Halt::Chattering { relay, time } => json!({ "kind": "chattering", "loop": relay + 1, "time": time }),
         Halt::Diverged { time } => json!({ "kind": "diverged", "time": time }),
+        Halt::Full { time } => json!({ "kind": "full", "time": time }),
     }
 }
 
@@ -202,7 +203,7 @@ fn record(test: &Tested) -> Option<&LoopTrace> {
     }
 }
 
-/// The response of the design, one row per sample.
+/// The response of the design, one row per sample and per arrival of what a dead time had held back.
 pub fn response_csv(setup: &TuningSetup) -> Result<String, TuningError> {
     let found = tune(setup)?;
     Ok(found.design.map(|design| csv(&design.response)).unwrap_or_default())

@@ -2,15 +2,15 @@ use std::f64::consts::TAU;
 
 use nalgebra::Matrix2;
 
-use crate::control::{IsaPid, Pairing, ParallelPid, PidMatrix, Relay};
+use crate::control::{Pairing, ParallelPid, PidMatrix, Relay};
 use crate::interaction::{Decoupling, decoupled_paths, static_decoupler};
-use crate::linear::{Closure, Complex, DelayedPlant, LoopStability, Margins, Path, TransferMatrix};
+use crate::linear::{Closure, Complex, DelayedPlant, LinearError, LoopStability, Margins, Path, TransferMatrix};
 use crate::plant::{OperatingPoint, QuadrupleTank};
 use crate::sim::{HeldTank, LoopTrace, StepFigures, TwoLoops, run_two_loops};
 use crate::tuning::{
     CriticalCurve, CriticalSearch, CurveDistance, Design, GainLimit, PlacementWarning, RelayTest, SequentialStep,
-    TestTime, TuningError, check_stable, distance_from_curve, frequency_range, importance_direction, independent_test,
-    modulus_estimator, propose, relay_test, response_at, sequential_tuning, single_loop_test, ultimate_point,
+    TestAndSettings, TestTime, TuningError, check_stable, distance_from_curve, frequency_range, importance_direction,
+    independent_tuning, modulus_estimator, propose, relay_test, response_at, sequential_tuning, single_loop_test,
     with_integrator,
 };
 
@@ -38,7 +38,7 @@ pub enum Tested {
     /// One of a single element, and its frequency response where it oscillated.
     Single(Box<RelayTest>, Option<FoundPoint>),
     /// One of each loop, with the settings by the rule.
-    Independent(Vec<(RelayTest, Option<IsaPid>)>),
+    Independent(Box<[TestAndSettings; 2]>),
     /// The steps of a sequence.
     Sequential(Vec<SequentialStep>),
     /// One of both loops, with its distances from the curve by peaks and by first harmonics.
@@ -93,8 +93,16 @@ pub struct DesignRoot {
 /// # Errors
 /// [`TuningError::UnstablePlant`], [`TuningError::OutOfRange`] for what the methods refuse, or what is wrong with the plant.
 pub fn tune(setup: &TuningSetup) -> Result<Tuning, TuningError> {
+    let numbers = [("test.number", setup.test.number), ("design.root", setup.design.root)];
+    if let Some((field, number)) = numbers.into_iter().find(|(_, number)| !(1..=2).contains(number)) {
+        return Err(TuningError::OutOfRange { field, value: number as f64 });
+    }
     let plant = setup.plant.transfer_matrix()?;
     check_stable(&plant)?;
+    // Importance, signs and normalised gains all rest on the diagonal of G(0).
+    if plant.dc_gain().diagonal().iter().any(|&g| g == 0.0 || !g.is_finite()) {
+        return Err(LinearError::SingularGain { reciprocal_condition: 0.0 }.into());
+    }
     let (low, high) = frequency_range(&plant)?;
     let search = CriticalSearch::new(&plant, low, high);
     Ok(Tuning {
@@ -111,13 +119,8 @@ fn test(plant: &TransferMatrix, search: &CriticalSearch, setup: &TuningSetup) ->
     match spec.kind {
         TestKind::Single => single(plant, spec, time),
         TestKind::Independent => {
-            let of_loop = |index: usize| {
-                let test = independent_test(plant, index, spec.amplitudes[index], time)?;
-                let point = ultimate_point(&test, index);
-                let settings = point.map(|point| spec.rule.settings(point).detuned(spec.detuning[index]));
-                Ok::<_, TuningError>((test, settings))
-            };
-            Ok(Tested::Independent(vec![of_loop(0)?, of_loop(1)?]))
+            let tuned = independent_tuning(plant, spec.amplitudes, spec.rule, spec.detuning, time)?;
+            Ok(Tested::Independent(Box::new(tuned)))
         }
         TestKind::Sequential => {
             Ok(Tested::Sequential(sequential_tuning(plant, spec.amplitudes, spec.rule, spec.passes, time)?))
@@ -153,10 +156,11 @@ fn single(plant: &TransferMatrix, spec: &TestSpec, time: TestTime) -> Result<Tes
         Behind::Integrator => with_integrator(element),
         Behind::Modulus(r) => modulus_estimator(element, r)?,
     };
+    let gain = if matches!(spec.behind, Behind::Modulus(_)) { 1.0 } else { element.dc_gain() };
     let relay = Relay {
         hysteresis: spec.hysteresis[index],
         bias: spec.bias[index],
-        ..Relay::ideal(spec.amplitudes[index], element.dc_gain())
+        ..Relay::ideal(spec.amplitudes[index], gain)
     };
     let test = single_loop_test(&with, relay, time)?;
     let found = test.reading.oscillation.and_then(|oscillation| {

@@ -1,7 +1,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::control::Pairing;
-use crate::linear::{TransferFunction, TransferMatrix};
+use crate::linear::{Complex, TransferFunction, TransferMatrix};
 use crate::plant::PresetId;
 use crate::scenario::ScenarioError;
 use crate::tuning::{Action, PlacementMethod, PublishedPlant, TuningError, TuningRule, tank_transfer_matrix};
@@ -10,9 +10,16 @@ use crate::tuning::{Action, PlacementMethod, PublishedPlant, TuningError, Tuning
 const MOST_ROWS: f64 = 100_000.0;
 /// Most passes of a sequence.
 const MOST_PASSES: usize = 20;
-/// Largest number anywhere, and smallest positive one.
+/// Rows of all records of a sequence together.
+const MOST_ROWS_OF_ALL: f64 = 500_000.0;
+/// Largest number of most fields, and smallest where only positive ones make sense.
 const LARGEST: f64 = 1e6;
 const SMALLEST: f64 = 1e-6;
+/// Largest coefficient, and smallest that is not zero: products of them stay numbers.
+const COEFFICIENT: f64 = 1e12;
+/// How much quicker than a record, and than a dead time, the quickest part of a plant may be.
+const QUICKEST_IN_RECORD: f64 = 2e6;
+const QUICKEST_IN_DEAD_TIME: f64 = 1e4;
 /// Longest list of coefficients.
 const MOST_COEFFICIENTS: usize = 8;
 
@@ -80,7 +87,7 @@ pub enum TestKind {
 #[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum Behind {
-    /// Nothing: the point with −180°.
+    /// Nothing: the point with −180°, if the relay has no hysteresis.
     #[default]
     Nothing,
     /// An integrator: the point with −90°.
@@ -104,10 +111,10 @@ pub struct TestSpec {
     pub behind: Behind,
     /// Amplitudes d1, d2.
     pub amplitudes: [f64; 2],
-    /// Half widths ε of the hysteresis; only of the simultaneous test.
+    /// Half widths ε of the hysteresis; of simultaneous and single tests.
     #[serde(default)]
     pub hysteresis: [f64; 2],
-    /// Means of the relay outputs; only of the simultaneous test.
+    /// Means of the relay outputs; of simultaneous and single tests.
     #[serde(default)]
     pub bias: [f64; 2],
     /// The rule of independent and sequential tests.
@@ -254,6 +261,9 @@ impl TuningScenario {
         within(test.release, 0.0, test.duration, || "tuning.test.release".to_owned())?;
         check_time(test.duration, test.step, "tuning.test")?;
         check_time(response.duration, response.step, "tuning.response")?;
+        let rows = test.passes as f64 * test.duration / test.step;
+        within(rows, 0.0, MOST_ROWS_OF_ALL, || "tuning.test: passes * duration / step".to_owned())?;
+        check_pace(plant, test.duration.max(response.duration))?;
         within(design.root as f64, 1.0, 2.0, || "tuning.design.root".to_owned())?;
         match design.critical {
             CriticalSpec::Importance(r) => {
@@ -272,6 +282,18 @@ impl TuningScenario {
 fn check_time(duration: f64, step: f64, path: &str) -> Result<(), ScenarioError> {
     within(duration, SMALLEST, LARGEST, || format!("{path}.duration"))?;
     within(step, duration / MOST_ROWS, duration, || format!("{path}.step"))
+}
+
+/// A part that is far quicker than everything else asks for more steps than anyone waits for. A plant that is none is told
+/// when it is used.
+fn check_pace(plant: &TuningPlant, duration: f64) -> Result<(), ScenarioError> {
+    let Ok(transfer) = plant.transfer_matrix() else { return Ok(()) };
+    let elements = transfer.0.as_flattened();
+    let quickest = elements.iter().filter_map(|g| g.poles().ok()).flatten().map(Complex::norm).fold(0.0, f64::max);
+    let dead_time = elements.iter().map(TransferFunction::dead_time).fold(0.0, f64::max);
+    let field = |what: &str| format!("tuning.plant: quickest pole * {what}");
+    within(quickest * duration, 0.0, QUICKEST_IN_RECORD, || field("duration"))?;
+    within(quickest * dead_time, 0.0, QUICKEST_IN_DEAD_TIME, || field("dead time"))
 }
 
 fn check_plant(plant: &TuningPlant) -> Result<(), ScenarioError> {
@@ -296,9 +318,10 @@ fn check_plant(plant: &TuningPlant) -> Result<(), ScenarioError> {
                     let field = format!("{path}.{name}");
                     return Err(ScenarioError::TooMany { field, count: list.len(), max: MOST_COEFFICIENTS });
                 }
-                list.iter()
-                    .enumerate()
-                    .try_for_each(|(i, &c)| within(c, -1e12, 1e12, || format!("{path}.{name}[{i}]")))?;
+                for (i, &c) in list.iter().enumerate() {
+                    let smallest = if c == 0.0 { 0.0 } else { COEFFICIENT.recip() };
+                    within(c.abs(), smallest, COEFFICIENT, || format!("{path}.{name}[{i}]"))?;
+                }
             }
             within(element.dead_time, 0.0, LARGEST, || format!("{path}.dead_time"))
         }),
