@@ -142,23 +142,30 @@ fn turned(
         + turned(value, (middle, at_middle), (high, at_high), depth - 1)?)
 }
 
+/// Loops that the tests of loci and of encirclements share.
 #[cfg(test)]
-mod tests {
-    use approx::assert_relative_eq;
+pub(super) mod examples {
+    use super::{Complex, Matrix2};
 
-    use super::*;
-
-    fn diagonal(a: Complex, b: Complex) -> Matrix2<Complex> {
+    pub fn diagonal(a: Complex, b: Complex) -> Matrix2<Complex> {
         Matrix2::new(a, Complex::ZERO, Complex::ZERO, b)
     }
 
     /// `k/(s + 1)^3` in loop 1 and a harmless loop 2; unstable beyond k = 8.
-    fn cubic(k: f64) -> impl Fn(f64) -> Matrix2<Complex> {
+    pub fn cubic(k: f64) -> impl Fn(f64) -> Matrix2<Complex> {
         move |w| {
             let lag = Complex::new(1.0, w).inv();
             diagonal(lag.powu(3) * k, lag * 0.5)
         }
     }
+}
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::examples::{cubic, diagonal};
+    use super::*;
 
     const OUTLINE: LoopOutline = LoopOutline { low: 0.01, high: 100.0, integrators: 0, damping: 1.0, dead_time: 0.0 };
 

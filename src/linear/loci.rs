@@ -194,18 +194,7 @@ mod tests {
     use approx::assert_relative_eq;
 
     use super::*;
-
-    fn diagonal(a: Complex, b: Complex) -> Matrix2<Complex> {
-        Matrix2::new(a, Complex::ZERO, Complex::ZERO, b)
-    }
-
-    /// `k/(s + 1)^3` in loop 1 and a harmless loop 2; unstable beyond k = 8.
-    fn cubic(k: f64) -> impl Fn(f64) -> Matrix2<Complex> {
-        move |w| {
-            let lag = Complex::new(1.0, w).inv();
-            diagonal(lag.powu(3) * k, lag * 0.5)
-        }
-    }
+    use crate::linear::encirclements::examples::{cubic, diagonal};
 
     #[test]
     fn margins_of_a_triple_lag() {
