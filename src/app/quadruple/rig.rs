@@ -19,7 +19,7 @@ const WIDEST_STREAM: f64 = 7.0;
 /// A trapezoidal tank is drawn with at least this share of its brim at the bottom, so that its level can be read.
 const LEAST_BOTTOM: f64 = 0.8;
 /// The number of the level stands so far above the bottom, and higher by so much of what the far wall leans.
-const NUMBER_AT: (f64, f64) = (8.0, 2.0);
+const NUMBER_AT: (f64, f64) = (8.0, 2.8);
 /// The valves, left and right.
 const VALVES: [(f64, f64); 2] = [(42.0, 148.0), (234.0, 148.0)];
 const VALVE_IDS: [&str; 2] = ["valve1", "valve2"];
