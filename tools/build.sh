@@ -3,6 +3,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . tools/env.sh
+release_flags
 
 # A failure is told by its message; a stack of Trunk itself helps nobody.
 RUST_BACKTRACE=0 trunk --quiet build --release --offline
