@@ -8,11 +8,19 @@ use proptest::sample::Index;
 use quadtank::control::{AntiWindup, LoopMode, Pairing};
 use quadtank::plant::{CrossSection, DisplayUnit, Outlet, PresetId, Sensor};
 use quadtank::scenario::{
-    DOCUMENT_LIMIT, LINK_LIMIT, OperatingPointSpec, PlantSpec, Scenario, ScenarioError, Setup, View, from_json,
-    from_link, limits, setup_of, to_json, to_link,
+    DOCUMENT_LIMIT, Document, LINK_LIMIT, OperatingPointSpec, PlantSpec, Scenario, ScenarioError, Setup, View,
+    document_from_link, from_json, limits, setup_of, to_json, to_link,
 };
 use quadtank::sim::{Load, LoadStep, Measurement, SetPointStep};
 use serde_json::{Value, json};
+
+/// The scenario of a link.
+fn from_link(link: &str) -> Result<Scenario, ScenarioError> {
+    document_from_link(link).map(|document| match document {
+        Document::Quadruple(scenario) => scenario,
+        Document::Tuning(_) => panic!("{link} is a tuning session"),
+    })
+}
 
 proptest! {
     #[test]
@@ -178,7 +186,7 @@ fn an_unknown_version_is_refused_before_anything_else_is_read() {
         let text = json!({ "version": found, "whatever": [1, 2, 3] }).to_string();
         assert_eq!(from_json(&text), Err(ScenarioError::UnknownVersion { found, newest: 1 }));
     }
-    assert_eq!(from_link("q2.AAAA"), Err(ScenarioError::UnknownVersion { found: 2, newest: 1 }));
+    assert_eq!(from_link("q3.AAAA"), Err(ScenarioError::UnknownVersion { found: 3, newest: 2 }));
     for text in ["{}", r#"{"version": "1"}"#, r#"{"version": -1}"#, "[]", "null", "", "{"] {
         assert!(matches!(from_json(text), Err(ScenarioError::Malformed { .. })), "{text}");
     }

@@ -4,10 +4,18 @@
 mod seeded;
 
 use quadtank::plant::PresetId;
-use quadtank::scenario::{Scenario, analyse, from_link, run, setup_of, to_link};
+use quadtank::scenario::{Document, Scenario, ScenarioError, analyse, document_from_link, run, setup_of, to_link};
 use wasm_bindgen_test::{wasm_bindgen_test, wasm_bindgen_test_configure};
 
 wasm_bindgen_test_configure!(run_in_browser);
+
+/// The scenario of a link.
+fn from_link(link: &str) -> Result<Scenario, ScenarioError> {
+    document_from_link(link).map(|document| match document {
+        Document::Quadruple(scenario) => scenario,
+        Document::Tuning(_) => panic!("{link} is a tuning session"),
+    })
+}
 
 /// λ11 = γ1 γ2 / (γ1 + γ2 − 1), Cocota (2009), eq. 4.10.
 fn relative_gain([one, two]: [f64; 2]) -> f64 {

@@ -1,6 +1,6 @@
 //! The document that describes an experiment: its types, versions, validation and links, and what follows from it.
 //!
-//! A [`Scenario`] is a file, a link, an embed, a command-line run. It comes in by [`from_json`] or [`from_link`], which
+//! A [`Scenario`] or [`TuningScenario`](tuning::TuningScenario) is a file, a link, an embed, a command-line run. It comes in by [`document_from_json`] or [`document_from_link`], which
 //! check every number against [`limits`] and take any bytes; [`to_json`] and [`to_link`] write it, with all digits.
 //! [`setup_of`] gives the published rigs. [`analyse()`] says what theory says about a setup, [`run()`] what happens, and
 //! [`ValveMap`] where the zeros go when its valves move: the lower rooms put together, here and nowhere else.
@@ -27,7 +27,7 @@ pub use codec::{DOCUMENT_LIMIT, Document, document_from_json, from_json, to_json
 pub use document::{OperatingPointSpec, PlantSpec, Scenario, Setup, View};
 pub use error::ScenarioError;
 pub use limits::Limits;
-pub use link::{LINK_LIMIT, from_link, to_link};
+pub use link::{LINK_LIMIT, document_from_link, to_link, tuning_to_link};
 pub use margins::Margins;
 pub use presets::setup_of;
 pub use report::AnalysisReport;

@@ -90,8 +90,8 @@ pub fn importance_direction(dc_gain: &Matrix2<f64>, importance: f64) -> [f64; 2]
 /// `(Im D)² − Re T Im T Im D + Re D (Im T)² = 0`: one real equation in ω, whose changes of sign are followed on a grid
 /// on which the plant is evaluated once for all directions.
 #[derive(Clone, Debug)]
-pub struct CriticalSearch<'a> {
-    plant: &'a TransferMatrix,
+pub struct CriticalSearch {
+    plant: TransferMatrix,
     at_rest: Sample,
     grid: Vec<Sample>,
 }
@@ -169,17 +169,17 @@ fn is_dip(before: f64, at: f64, after: f64) -> bool {
     before.signum() == at.signum() && at.signum() == after.signum() && at.abs() < before.abs() && at.abs() < after.abs()
 }
 
-impl<'a> CriticalSearch<'a> {
+impl CriticalSearch {
     /// A search from the lowest to the highest frequency (rad per unit of time), both positive.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of points")]
-    pub fn new(plant: &'a TransferMatrix, lowest: f64, highest: f64) -> Self {
+    pub fn new(plant: &TransferMatrix, lowest: f64, highest: f64) -> Self {
         // Some cells across the narrowest resonance.
         let damping = least_damping(plant).unwrap_or(1.0).max(LEAST_DAMPING);
         let per_decade = (4.0 * std::f64::consts::LN_10 / damping).max(PER_DECADE);
         let cells = ((highest / lowest).log10() * per_decade).ceil().max(1.0) as usize;
         let ratio = (highest / lowest).ln() / cells as f64;
         let grid = (0..=cells).map(|k| Sample::of(plant, lowest * (ratio * k as f64).exp())).collect();
-        Self { plant, at_rest: Sample::of(plant, 0.0), grid }
+        Self { plant: plant.clone(), at_rest: Sample::of(plant, 0.0), grid }
     }
 
     /// All critical points in a direction `(c1, c2)`, nearest first. Only the nearest bounds the stable gains; two at the
@@ -257,15 +257,15 @@ impl<'a> CriticalSearch<'a> {
 
     /// Where the equation has the other sign than at the grid points around k, all of which have the same.
     fn dip(&self, k: usize, side: f64, direction: [f64; 2]) -> Option<Sample> {
-        let towards_zero = |w: f64| side * Sample::of(self.plant, w).equation(direction);
+        let towards_zero = |w: f64| side * Sample::of(&self.plant, w).equation(direction);
         let lowest = golden_section(towards_zero, self.grid[k - 1].frequency, self.grid[k + 1].frequency);
-        let sample = Sample::of(self.plant, lowest);
+        let sample = Sample::of(&self.plant, lowest);
         (side * sample.equation(direction) < 0.0).then_some(sample)
     }
 
     fn solve(&self, low: Sample, high: Sample, direction: [f64; 2]) -> Sample {
-        let equation = |w: f64| Sample::of(self.plant, w).equation(direction);
+        let equation = |w: f64| Sample::of(&self.plant, w).equation(direction);
         let ends = [low, high].map(|sample| (sample.frequency, sample.equation(direction)));
-        Sample::of(self.plant, root(equation, ends[0], ends[1]))
+        Sample::of(&self.plant, root(equation, ends[0], ends[1]))
     }
 }

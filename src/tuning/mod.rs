@@ -28,7 +28,7 @@ pub use experiment::{
 pub use identification::{complete_response, sine_test};
 pub use limit_cycle::{LimitCycle, limit_cycles};
 pub use placement::{ControllerPair, integral_action_may_be_stable, place_both_loci, place_one_locus};
-pub use plants::{PublishedPlant, tank_transfer_matrix};
+pub use plants::{PublishedPlant, tank_transfer_matrix, wood_berry_full_controller};
 pub use proposal::{Action, PlacementMethod, PlacementWarning, Proposal, dynamic_relative_gain, propose, response_at};
 pub use relay_reading::{
     CurveDistance, Exciter, LoopMeasurement, Oscillation, RelayReading, RelayVerdict, distance_from_curve,

@@ -273,7 +273,7 @@ fn list_of_presets() -> String {
 }
 
 fn list_of_cases() -> String {
-    PublishedCase::ALL.iter().fold(String::new(), |mut list, case| {
+    PublishedCase::all().fold(String::new(), |mut list, case| {
         // Writing to a String cannot fail.
         let _ = writeln!(list, "{:<16} Campestrini (2006), Table {}, row {}", case.name(), case.table, case.row);
         list

@@ -4,16 +4,16 @@ use std::fmt::Write as _;
 
 use clap::ValueEnum;
 use nalgebra::DMatrix;
-use quadtank::control::{IsaPid, ParallelPid, PidMatrix};
+use quadtank::control::{IsaPid, ParallelPid};
 use quadtank::figure::{
     CurveChart, LociChart, LoopsChart, Size, Style, characteristic_loci, critical_curve, to_svg, two_loops,
 };
 use quadtank::interaction::{niederlinski, relative_gain_array};
-use quadtank::linear::{Closure, Complex, LoopStability};
+use quadtank::linear::{Closure, Complex, Loci, LoopStability};
 use quadtank::scenario::tuning::{DesignRoot, Designed, Tested, Tuning, TuningSetup, tune};
 use quadtank::sim::{Halt, LoopTrace, StepFigures};
 use quadtank::tuning::{
-    CurveDistance, Design, GainLimit, RelayReading, RelayVerdict, TestAndSettings, TuningError, dynamic_relative_gain,
+    CurveDistance, GainLimit, RelayReading, RelayVerdict, TestAndSettings, TuningError, dynamic_relative_gain,
 };
 use serde_json::{Value, json};
 
@@ -42,15 +42,17 @@ fn rows<T>(entry: impl Fn(usize, usize) -> T) -> [[T; 2]; 2] {
 /// What follows from the plant alone.
 pub fn analysis(setup: &TuningSetup) -> Result<Value, TuningError> {
     let found = tune(setup)?;
-    let gain = DMatrix::from_fn(2, 2, |row, column| found.dc_gain[(row, column)]);
+    let gain = DMatrix::from_fn(2, 2, |row, column| found.study.dc_gain[(row, column)]);
     let relative = relative_gain_array(&gain).map(|array| array[(0, 0)]).ok();
     let points: Vec<Value> = found
+        .study
         .curve
         .points
         .iter()
         .map(|point| json!({ "angle_rad": point.angle, "limit": limit(&point.limit) }))
         .collect();
     let corners: Vec<Value> = found
+        .study
         .curve
         .corners
         .iter()
@@ -158,8 +160,8 @@ fn designed(design: &Designed, setup: &TuningSetup) -> Value {
         "dynamic_relative_gain_11": complex(dynamic_relative_gain(&design.g)),
         "roots": design.roots.each_ref().map(root),
         "chosen": setup.design.root,
-        "figures": design.figures.map(figures),
-        "response_halted": design.response.halt.map(halt),
+        "figures": design.response.figures.map(figures),
+        "response_halted": design.response.trace.halt.map(halt),
     })
 }
 
@@ -206,7 +208,7 @@ fn record(test: &Tested) -> Option<&LoopTrace> {
 /// The response of the design, one row per sample and per arrival of what a dead time had held back.
 pub fn response_csv(setup: &TuningSetup) -> Result<String, TuningError> {
     let found = tune(setup)?;
-    Ok(found.design.map(|design| csv(&design.response)).unwrap_or_default())
+    Ok(found.design.map(|design| csv(&design.response.trace)).unwrap_or_default())
 }
 
 /// The record of the relay test, one row per step, switch and arrival.
@@ -241,12 +243,12 @@ pub fn svg(setup: &TuningSetup, picture: Picture, style: &Style) -> Result<Strin
             to_svg(&two_loops(&loops(trace, None)), size, style, title, description)
         }
         Picture::Response => {
-            let trace = found.design.as_ref().map_or(&empty, |design| &design.response);
+            let trace = found.design.as_ref().map_or(&empty, |design| &design.response.trace);
             to_svg(&two_loops(&loops(trace, Some(setup.response.references))), size, style, title, description)
         }
         Picture::Curve => curve(&found, |chart| to_svg(&[critical_curve(chart)], size, style, title, description)),
         Picture::Loci => {
-            loci(&found, setup, |chart| to_svg(&[characteristic_loci(chart)], size, style, title, description))?
+            loci(&found, setup, |chart| to_svg(&[characteristic_loci(chart)], size, style, title, description))
         }
     })
 }
@@ -263,15 +265,16 @@ fn loops(trace: &LoopTrace, references: Option<[f64; 2]>) -> LoopsChart<'_> {
 }
 
 fn curve<T>(found: &Tuning, draw: impl Fn(&CurveChart) -> T) -> T {
-    let scale = [found.dc_gain[(0, 0)], found.dc_gain[(1, 1)]];
+    let scale = [found.study.dc_gain[(0, 0)], found.study.dc_gain[(1, 1)]];
     let normal = |gains: [f64; 2]| (gains[0] * scale[0], gains[1] * scale[1]);
     let point = |limit: &GainLimit| match limit {
         GainLimit::Oscillation(point) => normal(point.gains),
         GainLimit::RealPole { gains, .. } => normal(*gains),
         GainLimit::None => (f64::NAN, f64::NAN),
     };
-    let (x, y): (Vec<f64>, Vec<f64>) = found.curve.points.iter().map(|at| point(&at.limit)).unzip();
-    let corners: Vec<(f64, f64)> = found.curve.corners.iter().map(|corner| normal(corner.points[0].gains)).collect();
+    let (x, y): (Vec<f64>, Vec<f64>) = found.study.curve.points.iter().map(|at| point(&at.limit)).unzip();
+    let corners: Vec<(f64, f64)> =
+        found.study.curve.corners.iter().map(|corner| normal(corner.points[0].gains)).collect();
     let estimates: Vec<(f64, f64)> = match &found.test {
         Tested::Simultaneous(test, _) => test.reading.oscillation.and_then(|o| o.gains_by_harmonic()).map(normal),
         Tested::Single(..) | Tested::Independent(_) | Tested::Sequential(_) => None,
@@ -289,29 +292,22 @@ fn curve<T>(found: &Tuning, draw: impl Fn(&CurveChart) -> T) -> T {
     })
 }
 
-fn loci<T>(found: &Tuning, setup: &TuningSetup, draw: impl Fn(&LociChart) -> T) -> Result<T, TuningError> {
-    let plant = setup.plant.transfer_matrix()?;
-    let critical = found.design.as_ref().map_or(1.0, |design| design.frequency);
+fn loci<T>(found: &Tuning, setup: &TuningSetup, draw: impl Fn(&LociChart) -> T) -> T {
     // Real and imaginary parts of both loci.
-    let columns = |controllers: [ParallelPid; 2]| -> Result<[[Vec<f64>; 2]; 2], TuningError> {
-        let loci =
-            Design::new(&plant, PidMatrix::decentralised(controllers))?.loci_between(0.02 * critical, 6.0 * critical);
-        Ok(loci.branches.map(|branch| {
-            let (re, im) = branch.into_iter().map(|x| (x.re, x.im)).unzip();
+    let columns = |loci: &Loci| -> [[Vec<f64>; 2]; 2] {
+        loci.branches.each_ref().map(|branch| {
+            let (re, im) = branch.iter().map(|x| (x.re, x.im)).unzip();
             [re, im]
-        }))
+        })
     };
-    let nothing = [ParallelPid::default(); 2];
-    let chosen = found.design.as_ref().map_or(nothing, |design| design.roots[setup.design.root - 1].controllers);
-    let gains = found.design.as_ref().map_or([0.0; 2], |design| design.critical_gains);
-    let proportional = gains.map(|proportional| ParallelPid { proportional, ..ParallelPid::default() });
-    let (after, before) = (columns(chosen)?, columns(proportional)?);
+    let [before, after] =
+        found.design.as_ref().map_or_else(Default::default, |design| design.loci.each_ref().map(columns));
     let [re, im] = setup.design.target;
-    Ok(draw(&LociChart {
+    draw(&LociChart {
         loci: after.each_ref().map(|parts| parts.each_ref().map(Vec::as_slice)),
         before: before.each_ref().map(|parts| parts.each_ref().map(Vec::as_slice)),
         target: (re, im),
         axes: ["real part", "imaginary part"],
         texts: ["locus 1", "locus 2", "at the critical gains"],
-    }))
+    })
 }

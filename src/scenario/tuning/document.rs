@@ -195,6 +195,22 @@ pub struct DesignSpec {
     pub decoupler: DecouplerSpec,
 }
 
+/// What the response is compared with.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case")]
+pub enum CompareSpec {
+    /// Nothing.
+    #[default]
+    Nothing,
+    /// Each loop by Ziegler and Nichols from the critical point.
+    ZieglerNichols,
+    /// Each loop by Tyreus and Luyben from the critical point.
+    TyreusLuyben,
+    /// The full controller of the column of Wood and Berry (Campestrini 2006, eq. 88); nothing on other plants.
+    Full,
+}
+
 /// Steps of the references.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
@@ -206,6 +222,9 @@ pub struct ResponseSpec {
     pub duration: f64,
     /// Sampling time of the controllers.
     pub step: f64,
+    /// What it is compared with.
+    #[serde(default)]
+    pub compare: CompareSpec,
 }
 
 /// Everything that a tuning session depends on.
@@ -232,18 +251,34 @@ pub struct TuningScenario {
     pub version: u32,
     /// The session.
     pub tuning: TuningSetup,
+    /// Sessions whose responses stay in sight, oldest first.
+    #[serde(default)]
+    pub pinned: Vec<TuningSetup>,
 }
 
 impl TuningScenario {
     /// The version of these documents.
     pub const VERSION: u32 = 2;
+    /// Most pinned sessions.
+    pub const MAX_PINNED: usize = 3;
 
     /// Checks every number and the lengths of all lists.
     ///
     /// # Errors
     /// [`ScenarioError::OutOfRange`] or [`ScenarioError::TooMany`] for the first field that is not allowed.
     pub fn validate(&self) -> Result<(), ScenarioError> {
-        let TuningSetup { plant, test, design, response } = &self.tuning;
+        let (count, max) = (self.pinned.len(), Self::MAX_PINNED);
+        if count > max {
+            return Err(ScenarioError::TooMany { field: "pinned".to_owned(), count, max });
+        }
+        self.pinned.iter().try_for_each(TuningSetup::validate)?;
+        self.tuning.validate()
+    }
+}
+
+impl TuningSetup {
+    fn validate(&self) -> Result<(), ScenarioError> {
+        let Self { plant, test, design, response } = self;
         check_plant(plant)?;
         for i in [0, 1] {
             within(test.amplitudes[i], SMALLEST, LARGEST, || format!("tuning.test.amplitudes[{i}]"))?;

@@ -1,12 +1,18 @@
 //! The document of a relay-tuning session, version 2, and what follows from it.
 
 mod answer;
+mod designed;
 mod document;
+mod printed;
 mod published;
+mod rig;
+mod start;
 
-pub use answer::{DesignRoot, Designed, FoundPoint, Tested, Tuning, tune};
+pub use answer::{FoundPoint, Study, Tested, Tuning, tune};
+pub use designed::{Answered, DesignRoot, Designed, Rival};
 pub use document::{
-    Behind, CriticalSpec, DecouplerSpec, DesignSpec, Element, ResponseSpec, TestKind, TestSpec, TuningPlant,
-    TuningScenario, TuningSetup,
+    Behind, CompareSpec, CriticalSpec, DecouplerSpec, DesignSpec, Element, ResponseSpec, TestKind, TestSpec,
+    TuningPlant, TuningScenario, TuningSetup,
 };
+pub use printed::{PrintedFigure, PrintedRemark, rule_targets};
 pub use published::PublishedCase;
