@@ -7,11 +7,12 @@ use leptos::wasm_bindgen::JsCast;
 
 use super::lab::{Lab, Notice, use_lab};
 use super::quadruple::QuadrupleTankBench;
+use super::relay::RelayTuningBench;
 use super::share;
-use super::start::StartFlags;
+use super::start::{Bench, StartFlags};
 use super::storage::{LANGUAGE, THEME};
 use super::texts::{Language, say, tr};
-use crate::scenario::{Scenario, ScenarioError, setup_of};
+use crate::scenario::{Document, Scenario, ScenarioError, setup_of};
 
 /// The element of the page that the laboratory fills; it holds the static outline until then.
 const ROOT: &str = "app";
@@ -62,7 +63,10 @@ pub fn Laboratory() -> impl IntoView {
                 view! { <Header /> }.into_any()
             }}
             <Notices />
-            <QuadrupleTankBench />
+            {move || match lab.bench.get() {
+                Bench::QuadrupleTank => view! { <QuadrupleTankBench /> }.into_any(),
+                Bench::RelayTuning => view! { <RelayTuningBench /> }.into_any(),
+            }}
             {embed.then(|| view! { <EmbedFooter /> })}
         </div>
     }
@@ -88,20 +92,22 @@ fn start() -> Lab {
     let prefers_dark =
         || window().match_media("(prefers-color-scheme: dark)").ok().flatten().is_some_and(|query| query.matches());
     let dark = flags.theme.clone().or_else(|| THEME.read()).map_or_else(prefers_dark, |theme| theme == "dark");
-    let fallback = || {
-        let mut scenario = Scenario::default();
-        if let Some(id) = flags.preset {
-            scenario.setup = setup_of(id);
+    let mut scenario = Scenario::default();
+    if let Some(id) = flags.preset {
+        scenario.setup = setup_of(id);
+    }
+    // A run is computed at once, so the scenario of a link has to be there from the start.
+    let from_address = match share::from_address() {
+        Some(Ok(Document::Quadruple(linked))) => {
+            scenario = linked;
+            None
         }
-        scenario
-    };
-    let (scenario, refused) = match share::from_address() {
-        None => (fallback(), None),
-        Some(Ok(scenario)) => (scenario, None),
-        Some(Err(error)) => (fallback(), Some(Notice::Refused(error))),
+        other => other,
     };
     let lab = Lab::new(scenario, language.as_deref().map_or(Language::English, Language::of_tag), dark, flags);
-    lab.notice.set(refused);
+    if let Some(outcome) = from_address {
+        lab.open(outcome);
+    }
     lab
 }
 
@@ -117,7 +123,7 @@ fn Header() -> impl IntoView {
     view! {
         <header class="top">
             <h1>{say!(lab, app.title)}</h1>
-            <span class="tagline">{say!(lab, app.tagline)}</span>
+            <nav aria-label=say!(lab, app.benches)>{Bench::ALL.map(|bench| view! { <BenchLink bench /> }).collect_view()}</nav>
             <span class="spacer"></span>
             <button type="button" class="button" data-testid="share" on:click=move |_| share::share(lab)>
                 {say!(lab, app.share)}
@@ -133,6 +139,32 @@ fn Header() -> impl IntoView {
             <LanguageChoice />
             <ThemeSwitch />
         </header>
+    }
+}
+
+/// The way to a bench. It is an address, so it can be opened beside and bookmarked.
+#[component]
+fn BenchLink(bench: Bench) -> impl IntoView {
+    let lab = use_lab();
+    let text = match bench {
+        Bench::QuadrupleTank => say!(lab, app.quadruple_tank),
+        Bench::RelayTuning => say!(lab, app.relay_tuning),
+    };
+    let go = move |event: ev::MouseEvent| {
+        if !(event.ctrl_key() || event.meta_key() || event.shift_key()) {
+            event.prevent_default();
+            share::go_to(lab, bench);
+        }
+    };
+    view! {
+        <a
+            href=format!("?bench={}", bench.name())
+            data-testid=format!("bench-{}", bench.name())
+            aria-current=move || (lab.bench.get() == bench).then_some("page")
+            on:click=go
+        >
+            {text}
+        </a>
     }
 }
 

@@ -1,0 +1,256 @@
+//! Step 4: the response to a step of a reference, beside that of other controllers and of pinned sessions.
+
+use leptos::prelude::*;
+
+use super::controls::{segmented, symbol};
+use super::errors;
+use super::pictures;
+use super::readout::{plain, readout};
+use super::session::{Session, time_unit, use_session};
+use super::timeline::timeline;
+use crate::app::start::Control;
+use crate::app::texts::{say, tr};
+use crate::app::widgets::html::{cells, element, escape, headings};
+use crate::app::widgets::{ChartCanvas, ChartMenu, Choice, DataTable, TimeSurface, ZoomButtons, option, rich};
+use crate::figure::Frame;
+use crate::linear::LoopStability;
+use crate::scenario::tuning::{CompareSpec, DecouplerSpec, TuningPlant, TuningScenario};
+use crate::sim::{Halt, LoopTrace, StepFigures};
+use crate::tuning::PublishedPlant;
+
+const DECOUPLERS: [(&str, DecouplerSpec); 5] = [
+    ("none", DecouplerSpec::None),
+    ("static", DecouplerSpec::Static),
+    ("dynamic", DecouplerSpec::Dynamic),
+    ("first-output", DecouplerSpec::FirstOutput),
+    ("second-output", DecouplerSpec::SecondOutput),
+];
+const RIVALS: [(&str, CompareSpec); 4] = [
+    ("nothing", CompareSpec::Nothing),
+    ("ziegler-nichols", CompareSpec::ZieglerNichols),
+    ("tyreus-luyben", CompareSpec::TyreusLuyben),
+    ("full", CompareSpec::Full),
+];
+
+/// The response.
+#[component]
+pub fn ResponseCard() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let frames = RwSignal::new(Vec::<Frame>::new());
+    let axis = timeline(session.part(|s| s.response.duration));
+    let picture = pictures::response(session, axis.window);
+    let title = say!(lab, relay.response);
+    let verdict = Memo::new(move |_| sentence(session));
+    let table = Signal::derive(move || table(session));
+    let values = readout(session, axis.cursor, move |show| {
+        session.words.with_design(|design| show(&design.response.trace));
+    });
+    view! {
+        <section class="card response" aria-labelledby="response-title">
+            <header>
+                <h2 id="response-title">"4 · "{title}</h2>
+                <div class="toolbar">
+                    <Pins />
+                    <ZoomButtons axis ids=["response-zoom-in", "response-zoom-out", "response-zoom-reset"] />
+                </div>
+                <ChartMenu picture=picture.clone() file="response" title />
+            </header>
+            <div class="step">
+                <div class="chart">
+                    <ChartCanvas picture=picture.clone() frames summary=Signal::derive(move || verdict.get().1.replace("**", "")) name="response" />
+                    <TimeSurface axis frames label=say!(lab, relay.response_cursor) spoken=Signal::derive(move || plain(&values.get())) readout=values id="response-surface" />
+                </div>
+                <div class="settings">
+                    <Settings />
+                    <div class="scroll" tabindex="0" role="region" aria-label=say!(lab, relay.response_caption)>
+                        <table class="plain" data-testid="response-figures" inner_html=table></table>
+                    </div>
+                </div>
+            </div>
+            <div class=move || if verdict.get().0 { "verdict" } else { "verdict warm" }.to_owned() role="status" data-testid="response-verdict">
+                <p>{move || rich(&verdict.get().1)}</p>
+            </div>
+            <DataTable picture id="response-table" />
+        </section>
+    }
+}
+
+#[component]
+fn Pins() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let none = Signal::derive(move || lab.tuning.with(|s| s.pinned.is_empty()));
+    let pin = move |_| {
+        lab.tuning.update(|s| {
+            let setup = s.tuning.clone();
+            s.pinned.push(setup);
+            if s.pinned.len() > TuningScenario::MAX_PINNED {
+                s.pinned.remove(0);
+            }
+        });
+    };
+    view! {
+        <button type="button" class="button small" data-testid="response-pin" on:click=pin>{say!(lab, responses.pin)}</button>
+        <button type="button" class="button small" data-testid="response-unpin" hidden=move || none.get() on:click=move |_| lab.tuning.update(|s| s.pinned.clear())>{say!(lab, responses.unpin)}</button>
+    }
+}
+
+#[component]
+fn Settings() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let decoupler = move |name: String| {
+        if let Some(&(_, chosen)) = DECOUPLERS.iter().find(|(known, _)| *known == name) {
+            session.edit(|s| s.design.decoupler = chosen);
+        }
+    };
+    let rival = move |name: String| {
+        if let Some(&(_, chosen)) = RIVALS.iter().find(|(known, _)| *known == name) {
+            session.edit(|s| s.response.compare = chosen);
+        }
+    };
+    view! {
+        {segmented(
+            session,
+            say!(lab, relay.step_of),
+            vec![("step1", symbol("r = [1 0]")), ("step2", symbol("r = [0 1]"))],
+            |s| usize::from(s.response.references[1] != 0.0),
+            |s, k| s.response.references = [[1.0, 0.0], [0.0, 1.0]][k],
+            Control::Experiment,
+        )}
+        <Choice id="decoupler" name=say!(lab, relay.decoupler) options=decouplers(session) on_choose=decoupler disabled=lab.locks(Control::Experiment) />
+        <Choice id="rival" name=say!(lab, relay.compare) options=rivals(session) on_choose=rival disabled=lab.locks(Control::Experiment) />
+    }
+}
+
+fn decouplers(session: Session) -> Signal<String> {
+    let lab = session.lab;
+    let chosen = session.part(|s| s.design.decoupler);
+    Signal::derive(move || {
+        let text = |spec| match spec {
+            DecouplerSpec::None => tr!(lab, relay.decoupler_none),
+            DecouplerSpec::Static => tr!(lab, relay.decoupler_static),
+            DecouplerSpec::Dynamic => tr!(lab, relay.decoupler_dynamic),
+            DecouplerSpec::FirstOutput => tr!(lab, relay.decoupler_first),
+            DecouplerSpec::SecondOutput => tr!(lab, relay.decoupler_second),
+        };
+        DECOUPLERS.iter().map(|&(name, spec)| option(name, text(spec), spec == chosen.get())).collect()
+    })
+}
+
+fn rivals(session: Session) -> Signal<String> {
+    let lab = session.lab;
+    let chosen = session.part(|s| s.response.compare);
+    // The full controller is known for one plant only.
+    let has_full = session.part(|s| s.plant == TuningPlant::Published(PublishedPlant::WoodBerry));
+    Signal::derive(move || {
+        let text = |spec| match spec {
+            CompareSpec::Nothing => tr!(lab, relay.compare_nothing),
+            CompareSpec::ZieglerNichols => tr!(lab, relay.compare_zn),
+            CompareSpec::TyreusLuyben => tr!(lab, relay.compare_tl),
+            CompareSpec::Full => tr!(lab, relay.compare_full),
+        };
+        let shown = RIVALS.iter().filter(|(_, spec)| *spec != CompareSpec::Full || has_full.get());
+        shown.map(|&(name, spec)| option(name, text(spec), spec == chosen.get())).collect()
+    })
+}
+
+/// How the step went, and whether all is well.
+fn sentence(session: Session) -> (bool, String) {
+    let lab = session.lab;
+    let style = lab.number_style();
+    let found = session.words.design.get();
+    let setup = session.words.setup.get();
+    let design = match found.as_ref() {
+        Ok(Some(design)) => design,
+        Ok(None) => return (false, tr!(lab, relay.no_point).to_owned()),
+        Err(error) => return (false, errors::sentence(lab, error)),
+    };
+    let decoupled = setup.design.decoupler != DecouplerSpec::None;
+    let stability = design.roots[(setup.design.root - 1).min(1)].stability;
+    let trace = &design.response.trace;
+    let halted = halt_of(trace).is_some();
+    let stepped = usize::from(setup.response.references[1] != 0.0);
+    let [own, other] = [design.response.figures[stepped], design.response.figures[1 - stepped]];
+    let (good, mut text) = if halted || (!decoupled && stability != LoopStability::Stable) {
+        (false, tr!(lab, relay.response_unstable).to_owned())
+    } else {
+        let percent = |share: f64| format!("{}\u{a0}%", style.fixed(100.0 * share, 1));
+        let overshoot = own.overshoot.map_or_else(|| "–".to_owned(), percent);
+        let cross = style.significant(other.peak.unwrap_or(0.0), 3);
+        let (number, other) = (stepped + 1, 2 - stepped);
+        match own.settling_time {
+            Some(time) => {
+                let (time, unit) = (style.significant(time, 3), time_unit(&setup.plant));
+                (
+                    true,
+                    tr!(
+                        lab,
+                        relay.response_settles,
+                        number = number,
+                        time = time,
+                        unit = unit,
+                        overshoot = overshoot,
+                        other = other,
+                        cross = cross
+                    )
+                    .to_string(),
+                )
+            }
+            None => (false, tr!(lab, relay.response_never, number = number, other = other, cross = cross).to_string()),
+        }
+    };
+    if decoupled {
+        text = text + " " + tr!(lab, relay.decoupled);
+    }
+    if let Some(rival) = &design.rival {
+        let stable = rival.stability == LoopStability::Stable;
+        text = text + " " + if stable { tr!(lab, relay.rival_stable) } else { tr!(lab, relay.rival_unstable) };
+    }
+    (good, text)
+}
+
+fn halt_of(trace: &LoopTrace) -> Option<Halt> {
+    trace.halt
+}
+
+/// Figures of both outputs: of the session, its rival, and the pinned ones.
+fn table(session: Session) -> String {
+    let lab = session.lab;
+    let names = [
+        tr!(lab, relay.col_output).to_owned(),
+        tr!(lab, relay.col_overshoot).to_owned(),
+        tr!(lab, relay.col_settling).to_owned(),
+        tr!(lab, relay.col_cross).to_owned(),
+        "IAE".to_owned(),
+    ];
+    let mut rows = String::new();
+    session.words.with_design(|design| {
+        rows += &rows_of(session, "", &design.response.figures);
+        if let Some(rival) = &design.rival {
+            rows += &rows_of(session, tr!(lab, relay.row_rival), &rival.response.figures);
+        }
+    });
+    for (k, outcome) in session.words.pinned.get().iter().enumerate() {
+        if let Ok(Some(design)) = outcome.as_ref() {
+            rows += &rows_of(session, &tr!(lab, relay.row_pinned, number = k + 1), &design.response.figures);
+        }
+    }
+    let caption = element("caption", "class=\"visually-hidden\"", &escape(tr!(lab, relay.response_caption)));
+    caption + &element("thead", "", &headings(names)) + &element("tbody", "", &rows)
+}
+
+fn rows_of(session: Session, name: &str, figures: &[StepFigures; 2]) -> String {
+    let style = session.lab.number_style();
+    let number = |v: Option<f64>| v.map_or_else(|| "–".to_owned(), |v| style.significant(v, 3));
+    let percent =
+        |v: Option<f64>| v.map_or_else(|| "–".to_owned(), |v| format!("{}\u{a0}%", style.fixed(100.0 * v, 1)));
+    let row = |(k, of): (usize, &StepFigures)| {
+        let class = ["scope=\"row\" class=\"loop1\"", "scope=\"row\" class=\"loop2\""][k];
+        let label = format!("y{} {name}", ["₁", "₂"][k]);
+        let figures = [percent(of.overshoot), number(of.settling_time), number(of.peak), number(Some(of.iae))];
+        element("tr", "", &(element("th", class, &escape(label.trim())) + &cells(figures)))
+    };
+    figures.iter().enumerate().map(row).collect()
+}
