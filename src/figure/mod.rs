@@ -38,7 +38,7 @@ pub use paint::{FONT_FAMILY, PaintError, Style, paint};
 pub use palette::{Palette, Rgb};
 pub use pole_zero::{PoleZero, PoleZeroTexts, pole_zero};
 pub use responses::{ResponseTexts, Responses, RunColumns, responses};
-pub use svg::to_svg;
+pub use svg::{escape, to_svg};
 pub use table::{Summary, Table, table};
 pub use tuning::{CurveChart, LociChart, LoopsChart, characteristic_loci, critical_curve, two_loops};
 pub use valve_plane::{ValvePlane, ValvePlaneTexts, valve_plane};

@@ -297,7 +297,7 @@ fn hex(out: &mut String, (red, green, blue): (u8, u8, u8)) {
 }
 
 /// Writes text as XML character data; control characters, which XML 1.0 does not allow, become spaces.
-fn escape(out: &mut String, text: &str) {
+pub fn escape(out: &mut String, text: &str) {
     for character in text.chars() {
         match character {
             '&' => out.push_str("&amp;"),

@@ -1,14 +1,19 @@
 //! Parts that every bench is made of. None of them knows what it shows.
 
 mod chart;
+mod data_table;
 mod element_size;
 mod field;
 mod handle;
+pub mod html;
 mod rich;
 mod segmented;
+mod time_surface;
 
 pub use chart::{ChartCanvas, ChartMenu, Picture};
+pub use data_table::DataTable;
 pub use field::{NumberField, Scale, SliderField};
 pub use handle::{Drag, Handle, Nudge};
 pub use rich::rich;
 pub use segmented::Segmented;
+pub use time_surface::{TimeAxis, TimeSurface, ZoomButtons};

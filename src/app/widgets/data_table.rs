@@ -1,0 +1,46 @@
+use leptos::prelude::*;
+
+use super::Picture;
+use super::html::{cells, element, escape, headings};
+use crate::app::format::NumberStyle;
+use crate::app::lab::use_lab;
+use crate::app::texts::{say, tr};
+use crate::figure::{Table, table};
+
+/// Rows of the table at most.
+const ROWS: usize = 25;
+/// Significant digits of its numbers.
+const DIGITS: usize = 4;
+
+/// The curves of a picture as numbers, for those who do not see it; computed only while it is open.
+#[component]
+pub fn DataTable(
+    /// The charts.
+    picture: Picture,
+    /// Name for tests.
+    id: &'static str,
+) -> impl IntoView {
+    let lab = use_lab();
+    let open = RwSignal::new(false);
+    let content = Signal::derive(move || {
+        if !open.get() {
+            return String::new();
+        }
+        let caption = element("caption", "class=\"visually-hidden\"", &escape(tr!(lab, chart.table_caption)));
+        caption + &rows(picture.visit(|charts| table(charts, ROWS)), lab.number_style())
+    });
+    view! {
+        <details class="more" on:toggle=move |_| open.update(|o| *o = !*o)>
+            <summary data-testid=id>{say!(lab, chart.table)}</summary>
+            <div class="scroll" tabindex="0" role="region" aria-label=say!(lab, chart.table_caption)>
+                <table class="plain" inner_html=content></table>
+            </div>
+        </details>
+    }
+}
+
+fn rows(table: Table, style: NumberStyle) -> String {
+    let row = |values: Vec<f64>| cells(values.into_iter().map(|value| style.significant(value, DIGITS)));
+    let rows: String = table.rows.into_iter().map(|values| element("tr", "", &row(values))).collect();
+    element("thead", "", &headings(table.columns)) + &element("tbody", "", &rows)
+}

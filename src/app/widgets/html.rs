@@ -1,0 +1,30 @@
+//! Read-only parts of the page as HTML text.
+//!
+//! Every element and closure that a view is made of is a type of its own, for which Leptos compiles its rendering code
+//! anew. What nobody presses is therefore written by plain functions and put into one element by
+//! `inner_html=Signal<String>`, which is compiled once. Whatever is not markup goes through [`escape`].
+
+use crate::figure;
+
+/// Text that stays text inside HTML, also within the quotes of an attribute.
+pub fn escape(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    figure::escape(&mut escaped, text);
+    escaped
+}
+
+/// `<name attributes>content</name>`, for content that is HTML already.
+pub fn element(name: &str, attributes: &str, content: &str) -> String {
+    format!("<{name} {attributes}>{content}</{name}>")
+}
+
+/// A row of headings of columns.
+pub fn headings(texts: impl IntoIterator<Item = String>) -> String {
+    let cells: String = texts.into_iter().map(|text| element("th", "scope=\"col\"", &escape(&text))).collect();
+    element("tr", "", &cells)
+}
+
+/// A row of plain cells.
+pub fn cells(texts: impl IntoIterator<Item = String>) -> String {
+    texts.into_iter().map(|text| element("td", "", &escape(&text))).collect()
+}
