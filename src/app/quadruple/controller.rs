@@ -6,7 +6,8 @@ use super::sentences::{self};
 use crate::app::lab::use_lab;
 use crate::app::start::Control;
 use crate::app::texts::{say, tr};
-use crate::app::widgets::{NumberField, Scale, Segmented, SliderField, rich};
+use crate::app::widgets::html::rich;
+use crate::app::widgets::{NumberField, Scale, Segmented, SliderField};
 use crate::control::{AntiWindup, LoopMode, Pairing, PiSettings};
 use crate::interaction::PairingVerdict;
 use crate::scenario::{Setup, limits};
@@ -49,9 +50,7 @@ pub fn ControllerCard() -> impl IntoView {
                 <summary data-testid="pi-more">{say!(lab, pi.more)}</summary>
                 <FinePrint />
             </details>
-            <p class="sentence" class:warm=move || stability().1 role="status" data-testid="stability">
-                {move || rich(&stability().0)}
-            </p>
+            <p class="sentence" class:warm=move || stability().1 role="status" data-testid="stability" inner_html=Signal::derive(move || rich(&stability().0))></p>
         </section>
     }
 }

@@ -9,7 +9,8 @@ use super::set_points::SetPoints;
 use crate::app::lab::{Lab, use_lab};
 use crate::app::shown::{length_digits, to_shown, unit_name};
 use crate::app::texts::{say, tr};
-use crate::app::widgets::{ChartCanvas, ChartMenu, DataTable, TimeAxis, TimeSurface, ZoomButtons, rich};
+use crate::app::widgets::html::rich;
+use crate::app::widgets::{ChartCanvas, ChartMenu, DataTable, TimeAxis, TimeSurface, ZoomButtons};
 use crate::figure::Frame;
 use crate::scenario::Scenario;
 use crate::sim::{EventKind, LoopMetrics, Settling, Stability};
@@ -53,7 +54,7 @@ pub fn ResponsesCard() -> impl IntoView {
                     <SetPoints frames held />
                 </div>
             </div>
-            <p class="sentence" role="status" data-testid="responses-sentence">{move || rich(&sentence(lab))}</p>
+            <p class="sentence" role="status" data-testid="responses-sentence" inner_html=Signal::derive(move || rich(&sentence(lab)))></p>
             <MetricsTable />
             <DataTable picture=table_picture id="data-table" />
         </section>

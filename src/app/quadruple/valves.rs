@@ -8,7 +8,8 @@ use crate::app::lab::use_lab;
 use crate::app::preset::{chosen, load, name_of};
 use crate::app::start::Control;
 use crate::app::texts::{say, tr};
-use crate::app::widgets::{ChartCanvas, ChartMenu, Drag, Handle, Nudge, rich};
+use crate::app::widgets::html::rich;
+use crate::app::widgets::{ChartCanvas, ChartMenu, Drag, Handle, Nudge};
 use crate::figure::{Frame, Rect};
 use crate::plant::PresetId;
 
@@ -44,7 +45,7 @@ pub fn ValvePlaneCard() -> impl IntoView {
                 <ChartCanvas picture frames summary=Signal::derive(summary) name="valve-plane" />
                 <Overlay frames />
             </div>
-            <p class="sentence" data-testid="valves-sentence">{move || rich(&sentences::of_rightmost(lab))}</p>
+            <p class="sentence" data-testid="valves-sentence" inner_html=Signal::derive(move || rich(&sentences::of_rightmost(lab)))></p>
         </section>
     }
 }

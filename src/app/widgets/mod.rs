@@ -6,7 +6,6 @@ mod element_size;
 mod field;
 mod handle;
 pub mod html;
-mod rich;
 mod segmented;
 mod time_surface;
 
@@ -14,6 +13,5 @@ pub use chart::{ChartCanvas, ChartMenu, Picture};
 pub use data_table::DataTable;
 pub use field::{NumberField, Scale, SliderField};
 pub use handle::{Drag, Handle, Nudge};
-pub use rich::rich;
 pub use segmented::Segmented;
 pub use time_surface::{TimeAxis, TimeSurface, ZoomButtons};
