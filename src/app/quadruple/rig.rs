@@ -29,6 +29,10 @@ const INLETS: [(f64, f64, &str); 4] =
     [(70.0, 152.0, "stroke1"), (206.0, 152.0, "stroke2"), (70.0, 34.0, "stroke2"), (206.0, 34.0, "stroke1")];
 /// The valves, left and right.
 const VALVES: [(f64, f64); 2] = [(42.0, 148.0), (234.0, 148.0)];
+const VALVE_LOOKS: [&str; 2] = [
+    "<circle class=\"halo\" r=\"13\"/><path class=\"one\" d=\"M-6 -8 H6 L0 0 L6 8 H-6 L0 0 Z\"/>",
+    "<circle class=\"halo\" r=\"13\"/><path class=\"two\" d=\"M-6 -8 H6 L0 0 L6 8 H-6 L0 0 Z\"/>",
+];
 const VALVE_IDS: [&str; 2] = ["valve1", "valve2"];
 /// How far a valve is dragged from shut to open (CSS px).
 const VALVE_TRAVEL_PX: f64 = 120.0;
@@ -76,7 +80,8 @@ fn drawing(lab: Lab, moment: Option<&Moment>) -> String {
     let tanks: String = (0..4).map(|k| tank(lab, k, &plant.tanks[k], levels[k])).collect();
     let streams = moment.map_or_else(String::new, |m| streams(&plant, m));
     let pumps: String = (0..2).map(|k| pump(lab, k, moment.map(|m| m.pump_voltage[k]))).collect();
-    format!("{PIPES}{tanks}{streams}{BASIN}{pumps}")
+    let valves: String = (0..2).map(|k| valve_texts(lab, k)).collect();
+    format!("{PIPES}{tanks}{streams}{BASIN}{pumps}{valves}")
 }
 
 /// One tank: walls, water, name, level, and a word where it overflows or is dry.
@@ -155,6 +160,17 @@ fn pump(lab: Lab, index: usize, voltage: Option<f64>) -> String {
     )
 }
 
+/// Name and setting beside a valve. A text in a drawing is dear to lay out: it comes with the words.
+fn valve_texts(lab: Lab, index: usize) -> String {
+    let (anchor, x) = if index == 0 { ("end", 33) } else { ("start", 243) };
+    let text = |y: f64, words: &str| {
+        format!("<text class=\"value\" x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\">{words}</text>")
+    };
+    let setting = lab.number_style().fixed(lab.words.setup.with(|s| s.valves[index]), 2);
+    let y = VALVES[index].1;
+    text(y - 2.0, ["γ₁", "γ₂"][index]) + &text(y + 10.0, &setting)
+}
+
 /// A valve, which is opened and closed by dragging it up and down.
 #[component]
 fn ValveView(valve: usize) -> impl IntoView {
@@ -162,11 +178,7 @@ fn ValveView(valve: usize) -> impl IntoView {
     let gamma = lab.part(move |s| s.valves[valve]);
     let set = move |gamma: f64| lab.edit(|s| s.valves[valve] = on_grid(gamma));
     let grabbed = StoredValue::new(0.0);
-    let (x, y) = VALVES[valve];
-    let (colour, anchor, at) = if valve == 0 { ("one", "end", 33.0) } else { ("two", "start", 243.0) };
     let number = move |gamma: f64| lab.number_style().fixed(gamma, 2);
-    // A text in a drawing is dear to lay out: it comes with the words.
-    let shown = move || number(lab.words.setup.with(|s| s.valves[valve]));
     view! {
         <Handle
             id=VALVE_IDS[valve]
@@ -178,11 +190,8 @@ fn ValveView(valve: usize) -> impl IntoView {
             on_grab=move |()| grabbed.set_value(gamma.get_untracked())
             on_drag=move |drag: Drag| set(grabbed.get_value() - drag.moved.1 / VALVE_TRAVEL_PX)
             on_nudge=move |by: Nudge| set(gamma.get_untracked() + STEP * by.along())
-        >
-            <circle class="halo" cx=x cy=y r="13" />
-            <path class=colour d=format!("M{} {} H{} L{x} {y} L{} {} H{} L{x} {y} Z", x - 6.0, y - 8.0, x + 6.0, x - 6.0, y + 8.0, x + 6.0) />
-        </Handle>
-        <text class="value" x=at y=y - 2.0 text-anchor=anchor aria-hidden="true">{format!("γ{}", ["₁", "₂"][valve])}</text>
-        <text class="value" x=at y=y + 10.0 text-anchor=anchor aria-hidden="true">{shown}</text>
+            at=VALVES[valve]
+            look=VALVE_LOOKS[valve]
+        />
     }
 }
