@@ -40,7 +40,10 @@ pub fn ProcessCard() -> impl IntoView {
             </header>
             <p class="remark moment">{Signal::derive(remark)}</p>
             <Rig />
-            <div>{(0..2).map(|valve| view! { <ValveSlider valve /> }).collect_view()}</div>
+            <div>
+                <ValveSlider valve=0 />
+                <ValveSlider valve=1 />
+            </div>
             <div
                 class=move || if sentence().1 { "verdict warm" } else { "verdict" }.to_owned()
                 role="status"
@@ -50,7 +53,10 @@ pub fn ProcessCard() -> impl IntoView {
             <details class="more" on:toggle=move |_| open.update(|o| *o = !*o)>
                 <summary>{say!(lab, process.operating_point)}</summary>
                 <PresetRemark />
-                <div class="fields">{(0..2).map(|pump| view! { <VoltageField pump /> }).collect_view()}</div>
+                <div class="fields">
+                    <VoltageField pump=0 />
+                    <VoltageField pump=1 />
+                </div>
                 {move || open.get().then(|| view! { <PublishedFigures /> }.into_any())}
             </details>
         </section>

@@ -64,8 +64,6 @@ pub fn ResponsesCard() -> impl IntoView {
 #[component]
 fn Toolbar(axis: TimeAxis) -> impl IntoView {
     let lab = use_lab();
-    let pinned = lab.words.pinned;
-    let count = move || pinned.with(|p| p.len());
     let pin = move |_| {
         lab.scenario.update(|s| {
             let setup = s.setup.clone();
@@ -79,11 +77,15 @@ fn Toolbar(axis: TimeAxis) -> impl IntoView {
     view! {
         <div class="toolbar">
             <button type="button" class="button small" data-testid="pin" on:click=pin>{say!(lab, responses.pin)}</button>
-            {move || (count() > 0).then(|| view! {
-                <button type="button" class="button small" data-testid="unpin" on:click=move |_| lab.scenario.update(|s| s.pinned.clear())>
-                    {tr!(lab, responses.unpin)}
-                </button>
-            })}
+            <button
+                type="button"
+                class="button small"
+                data-testid="unpin"
+                hidden=move || lab.words.pinned.with(|p| p.is_empty())
+                on:click=move |_| lab.scenario.update(|s| s.pinned.clear())
+            >
+                {say!(lab, responses.unpin)}
+            </button>
             <button
                 type="button"
                 class="button small"

@@ -68,7 +68,8 @@ pub fn Rig() -> impl IntoView {
     view! {
         <svg class="rig" viewBox="0 0 276 296" role="group" aria-label=summary data-testid="rig">
             <g aria-hidden="true" inner_html=drawing></g>
-            {(0..2).map(|valve| view! { <ValveView valve /> }).collect_view()}
+            <ValveView valve=0 />
+            <ValveView valve=1 />
         </svg>
     }
 }

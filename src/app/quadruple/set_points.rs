@@ -27,7 +27,12 @@ pub fn SetPoints(
     /// What the level axis has to show while a set-point is dragged.
     held: RwSignal<Option<(f64, f64)>>,
 ) -> impl IntoView {
-    view! { <svg class="over handles">{(0..2).map(|level| view! { <SetPoint level frames held /> }).collect_view()}</svg> }
+    view! {
+        <svg class="over handles">
+            <SetPoint level=0 frames held />
+            <SetPoint level=1 frames held />
+        </svg>
+    }
 }
 
 #[component]

@@ -26,6 +26,12 @@ pub fn element(name: &str, attributes: &str, content: &str) -> String {
     format!("<{name}{space}{attributes}>{content}</{name}>")
 }
 
+/// A choice of a `select`.
+pub fn option(value: &str, text: &str, chosen: bool) -> String {
+    let selected = if chosen { " selected" } else { "" };
+    format!("<option value=\"{}\"{selected}>{}</option>", escape(value), escape(text))
+}
+
 /// A row of headings of columns.
 pub fn headings(texts: impl IntoIterator<Item = String>) -> String {
     let cells: String = texts.into_iter().map(|text| element("th", "scope=\"col\"", &escape(&text))).collect();
