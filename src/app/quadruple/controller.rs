@@ -6,7 +6,8 @@ use super::sentences::{self};
 use crate::app::lab::use_lab;
 use crate::app::start::Control;
 use crate::app::texts::{say, tr};
-use crate::app::widgets::{NumberField, Scale, Segmented, SliderField, rich};
+use crate::app::widgets::html::rich;
+use crate::app::widgets::{NumberField, Scale, Segmented, SliderField};
 use crate::control::{AntiWindup, LoopMode, Pairing, PiSettings};
 use crate::interaction::PairingVerdict;
 use crate::scenario::{Setup, limits};
@@ -40,7 +41,7 @@ pub fn ControllerCard() -> impl IntoView {
         <section class="card pi" aria-labelledby="pi-title">
             <header>
                 <h2 id="pi-title">{say!(lab, pi.title)}</h2>
-                <span class="remark">{remark}</span>
+                <span class="remark">{Signal::derive(remark)}</span>
             </header>
             <PairingSwitch />
             <LoopControls index=0 />
@@ -49,9 +50,7 @@ pub fn ControllerCard() -> impl IntoView {
                 <summary data-testid="pi-more">{say!(lab, pi.more)}</summary>
                 <FinePrint />
             </details>
-            <p class="sentence" class:warm=move || stability().1 role="status" data-testid="stability">
-                {move || rich(&stability().0)}
-            </p>
+            <p class="sentence" class:warm=move || stability().1 role="status" data-testid="stability" inner_html=Signal::derive(move || rich(&stability().0))></p>
         </section>
     }
 }
@@ -93,7 +92,7 @@ fn PairingSwitch() -> impl IntoView {
             }
             disabled=lab.locks(Control::Pairing)
         />
-        {move || against().then(|| view! { <p class="remark warm">{tr!(lab, pi.against)}</p> })}
+        <p class="remark warm" hidden=move || !against()>{say!(lab, pi.against)}</p>
     }
 }
 
@@ -110,7 +109,7 @@ fn LoopControls(index: usize) -> impl IntoView {
     let most = limits::GAIN_MAGNITUDE.max;
     let locked = lab.locks(Control::Gains);
     view! {
-        <h3 class=if index == 0 { "loop1" } else { "loop2" }>{heading}</h3>
+        <h3 class=if index == 0 { "loop1" } else { "loop2" }>{Signal::derive(heading)}</h3>
         <SliderField
             id=GAIN_IDS[index]
             label=format!("K{}", ["₁", "₂"][index])
@@ -209,7 +208,8 @@ fn FinePrint() -> impl IntoView {
             class="wide"
             disabled=Signal::derive(move || locked || !guarded.get())
         />
-        {(0..2).map(|index| view! { <ManualMode index /> }).collect_view()}
+        <ManualMode index=0 />
+        <ManualMode index=1 />
     }
 }
 
@@ -286,6 +286,6 @@ fn ManualMode(index: usize) -> impl IntoView {
                     <span class="unit">"V"</span>
                 </div>
             </div>
-        })}
+        }.into_any())}
     }
 }

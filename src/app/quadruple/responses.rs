@@ -9,7 +9,8 @@ use super::set_points::SetPoints;
 use crate::app::lab::{Lab, use_lab};
 use crate::app::shown::{length_digits, to_shown, unit_name};
 use crate::app::texts::{say, tr};
-use crate::app::widgets::{ChartCanvas, ChartMenu, DataTable, TimeAxis, TimeSurface, ZoomButtons, rich};
+use crate::app::widgets::html::rich;
+use crate::app::widgets::{ChartCanvas, ChartMenu, DataTable, TimeAxis, TimeSurface, ZoomButtons};
 use crate::figure::Frame;
 use crate::scenario::Scenario;
 use crate::sim::{EventKind, LoopMetrics, Settling, Stability};
@@ -53,7 +54,7 @@ pub fn ResponsesCard() -> impl IntoView {
                     <SetPoints frames held />
                 </div>
             </div>
-            <p class="sentence" role="status" data-testid="responses-sentence">{move || rich(&sentence(lab))}</p>
+            <p class="sentence" role="status" data-testid="responses-sentence" inner_html=Signal::derive(move || rich(&sentence(lab)))></p>
             <MetricsTable />
             <DataTable picture=table_picture id="data-table" />
         </section>
@@ -63,8 +64,6 @@ pub fn ResponsesCard() -> impl IntoView {
 #[component]
 fn Toolbar(axis: TimeAxis) -> impl IntoView {
     let lab = use_lab();
-    let pinned = lab.words.pinned;
-    let count = move || pinned.with(|p| p.len());
     let pin = move |_| {
         lab.scenario.update(|s| {
             let setup = s.setup.clone();
@@ -78,11 +77,15 @@ fn Toolbar(axis: TimeAxis) -> impl IntoView {
     view! {
         <div class="toolbar">
             <button type="button" class="button small" data-testid="pin" on:click=pin>{say!(lab, responses.pin)}</button>
-            {move || (count() > 0).then(|| view! {
-                <button type="button" class="button small" data-testid="unpin" on:click=move |_| lab.scenario.update(|s| s.pinned.clear())>
-                    {tr!(lab, responses.unpin)}
-                </button>
-            })}
+            <button
+                type="button"
+                class="button small"
+                data-testid="unpin"
+                hidden=move || lab.words.pinned.with(|p| p.is_empty())
+                on:click=move |_| lab.scenario.update(|s| s.pinned.clear())
+            >
+                {say!(lab, responses.unpin)}
+            </button>
             <button
                 type="button"
                 class="button small"

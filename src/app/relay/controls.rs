@@ -39,8 +39,9 @@ pub fn knob(session: Session, knob: &Knob) -> AnyView {
     let value = session.part(read);
     let on_change = Callback::new(move |v: f64| session.edit(|s| write(s, v)));
     let disabled = session.locks(lock);
-    let plant_time = session.part(|s| time_unit(&s.plant));
-    let unit = Signal::derive(move || if is_time { plant_time.get() } else { "" }.to_owned());
+    let unit = Signal::derive(move || {
+        if is_time { session.lab.tuning.with(|s| time_unit(&s.tuning.plant)) } else { "" }.to_owned()
+    });
     match travel {
         Some(travel) => view! {
             <SliderField id label=label.to_owned() name value on_change travel limits=Signal::from(limits) scale digits=None unit class disabled />

@@ -2,6 +2,7 @@
 
 use leptos::prelude::*;
 
+use super::card::{Step, card, figures, remark};
 use super::controls::{Knob, knob};
 use super::errors;
 use super::pictures;
@@ -9,7 +10,7 @@ use super::session::{Session, time_unit, use_session};
 use crate::app::start::Control;
 use crate::app::texts::{say, tr};
 use crate::app::widgets::html::{cells, element, escape, headings};
-use crate::app::widgets::{ChartCanvas, ChartMenu, Nudge, PointHandle, Scale, rich};
+use crate::app::widgets::{Nudge, PointHandle, Scale};
 use crate::figure::Frame;
 use crate::scenario::tuning::{CriticalSpec, TuningSetup};
 use crate::tuning::{GainLimit, importance_direction};
@@ -27,10 +28,6 @@ pub fn CurveCard() -> impl IntoView {
     let frames = RwSignal::new(Vec::<Frame>::new());
     let chosen = Signal::from(Memo::new(move |_| pictures::chosen_point(session.charts)));
     let picture = pictures::curve(session, chosen);
-    let title = say!(lab, relay.curve);
-    let verdict = Memo::new(move |_| sentence(session));
-    let table = Signal::derive(move || table(session));
-    let summary = Signal::derive(move || verdict.get().1.replace("**", ""));
     let importance = Knob {
         id: ("importance", "importance-number"),
         label: "r₂",
@@ -44,31 +41,25 @@ pub fn CurveCard() -> impl IntoView {
         class: "",
         lock: Control::Point,
     };
-    view! {
-        <section class="card curve" aria-labelledby="curve-title">
-            <header>
-                <h2 id="curve-title">"2 · "{title}</h2>
-                <span class="remark">{say!(lab, relay.curve_remark)}</span>
-                <ChartMenu picture=picture.clone() file="critical-curve" title />
-            </header>
-            <div class="step">
-                <div class="chart">
-                    <ChartCanvas picture frames summary name="curve" />
-                    <svg class="over"><CriticalHandle frames chosen /></svg>
-                </div>
-                <div class="settings">
-                    {knob(session, &importance)}
-                    <div class="scroll" tabindex="0" role="region" aria-label=say!(lab, relay.curve_caption)>
-                        <table class="plain" data-testid="critical-point" inner_html=table></table>
-                    </div>
-                    <p class="remark">{say!(lab, relay.importance_formula)}</p>
-                </div>
-            </div>
-            <div class=move || if verdict.get().0 { "verdict" } else { "verdict warm" }.to_owned() role="status" data-testid="curve-verdict">
-                <p>{move || rich(&verdict.get().1)}</p>
-            </div>
-        </section>
-    }
+    let table = Signal::derive(move || table(session));
+    let settings = vec![
+        knob(session, &importance),
+        figures("critical-point", say!(lab, relay.curve_caption), table),
+        remark(say!(lab, relay.importance_formula)),
+    ];
+    card(Step {
+        name: "curve",
+        number: 2,
+        title: say!(lab, relay.curve),
+        toolbar: remark(say!(lab, relay.curve_remark)),
+        picture,
+        frames,
+        place: "chart",
+        overlay: view! { <svg class="over"><CriticalHandle frames chosen /></svg> }.into_any(),
+        settings: settings.into_any(),
+        verdict: Memo::new(move |_| sentence(session)),
+        below: ().into_any(),
+    })
 }
 
 /// r2 of the critical point of a session, `kc2 g22(0)/(kc1 g11(0))`, 1 where there is none (Campestrini 2006, eq. 94).

@@ -2,6 +2,7 @@
 
 use leptos::prelude::*;
 
+use super::card::{Step, card, figures, hideable, remark};
 use super::controls::{Knob, knob, segmented, symbol};
 use super::errors;
 use super::pictures::{self, short_name};
@@ -9,10 +10,10 @@ use super::session::{Session, use_session};
 use crate::app::lab::Lab;
 use crate::app::start::Control;
 use crate::app::texts::{say, tr};
-use crate::app::widgets::html::{cells, element, escape, headings};
-use crate::app::widgets::{ChartCanvas, ChartMenu, Choice, Nudge, PointHandle, Scale, option, rich};
+use crate::app::widgets::html::{cells, element, escape, headings, option};
+use crate::app::widgets::{Choice, Nudge, PointHandle, Scale};
 use crate::figure::Frame;
-use crate::linear::{Closure, LoopStability};
+use crate::linear::{Closure, Complex, LoopStability};
 use crate::scenario::tuning::{DesignRoot, TuningSetup, rule_targets};
 use crate::tuning::{Action, PlacementMethod, PlacementWarning, dynamic_relative_gain};
 
@@ -27,40 +28,22 @@ pub fn PlacementCard() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
     let frames = RwSignal::new(Vec::<Frame>::new());
-    let picture = pictures::loci(session);
-    let title = say!(lab, relay.placement);
-    let verdict = Memo::new(move |_| sentence(session));
-    let table = Signal::derive(move || table(session));
-    let summary = Signal::derive(move || verdict.get().1.replace("**", ""));
-    view! {
-        <section class="card placement" aria-labelledby="placement-title">
-            <header>
-                <h2 id="placement-title">"3 · "{title}</h2>
-                <span class="remark">{say!(lab, relay.placement_remark)}</span>
-                <ChartMenu picture=picture.clone() file="loci" title />
-            </header>
-            <div class="step">
-                <div class="chart square">
-                    <ChartCanvas picture frames summary name="loci" />
-                    <svg class="over"><TargetHandle frames /></svg>
-                </div>
-                <div class="settings">
-                    <Settings />
-                    <div class="scroll" tabindex="0" role="region" aria-label=say!(lab, relay.gains_caption)>
-                        <table class="plain" data-testid="gains" inner_html=table></table>
-                    </div>
-                </div>
-            </div>
-            <div class=move || if verdict.get().0 { "verdict" } else { "verdict warm" }.to_owned() role="status" data-testid="placement-verdict">
-                <p>{move || rich(&verdict.get().1)}</p>
-            </div>
-        </section>
-    }
+    card(Step {
+        name: "placement",
+        number: 3,
+        title: say!(lab, relay.placement),
+        toolbar: remark(say!(lab, relay.placement_remark)),
+        picture: pictures::loci(session),
+        frames,
+        place: "chart square",
+        overlay: view! { <svg class="over"><TargetHandle frames /></svg> }.into_any(),
+        settings: settings(session),
+        verdict: Memo::new(move |_| sentence(session)),
+        below: ().into_any(),
+    })
 }
 
-#[component]
-fn Settings() -> impl IntoView {
-    let session = use_session();
+fn settings(session: Session) -> AnyView {
     let lab = session.lab;
     let part = |id, label, name, read, write| Knob {
         id,
@@ -78,16 +61,54 @@ fn Settings() -> impl IntoView {
     let methods = vec![("method-a", say!(lab, relay.method_a)), ("method-b", say!(lab, relay.method_b))];
     let roots = vec![("root1", say!(lab, relay.root, number = 1)), ("root2", say!(lab, relay.root, number = 2))];
     let actions = vec![("action-pi", symbol("PI")), ("action-pid", symbol("PID"))];
-    view! {
-        {segmented(session, say!(lab, relay.method), methods, |s| usize::from(s.design.method == PlacementMethod::BothLoci), set_method, Control::Target)}
-        <div class="pairs">
-            {segmented(session, say!(lab, relay.action), actions, |s| usize::from(s.design.action == Action::Pid), set_action, Control::Target)}
-            {segmented(session, say!(lab, relay.roots), roots, |s| s.design.root - 1, |s, k| s.design.root = k + 1, Control::Target)}
-            {knob(session, &part(("target-re", ""), "Re λ", say!(lab, relay.target_re), |s| s.design.target[0], |s, v| s.design.target[0] = v))}
-            {knob(session, &part(("target-im", ""), "Im λ", say!(lab, relay.target_im), |s| s.design.target[1], |s, v| s.design.target[1] = v))}
-        </div>
-        <Choice id="target-rule" name=say!(lab, relay.target_rule) options=rules(session) on_choose=move |name: String| choose_rule(session, &name) disabled=lab.locks(Control::Target) />
-    }
+    let lock = Control::Target;
+    let pairs = vec![
+        segmented(
+            session,
+            say!(lab, relay.action),
+            actions,
+            |s| usize::from(s.design.action == Action::Pid),
+            set_action,
+            lock,
+        ),
+        segmented(session, say!(lab, relay.roots), roots, |s| s.design.root - 1, |s, k| s.design.root = k + 1, lock),
+        knob(
+            session,
+            &part(
+                ("target-re", ""),
+                "Re λ",
+                say!(lab, relay.target_re),
+                |s| s.design.target[0],
+                |s, v| s.design.target[0] = v,
+            ),
+        ),
+        knob(
+            session,
+            &part(
+                ("target-im", ""),
+                "Im λ",
+                say!(lab, relay.target_im),
+                |s| s.design.target[1],
+                |s, v| s.design.target[1] = v,
+            ),
+        ),
+    ];
+    let rule = view! { <Choice id="target-rule" name=say!(lab, relay.target_rule) options=rules(session) on_choose=move |name: String| choose_rule(session, &name) disabled=lab.locks(lock) /> };
+    let table = Signal::derive(move || table(session));
+    vec![
+        segmented(
+            session,
+            say!(lab, relay.method),
+            methods,
+            |s| usize::from(s.design.method == PlacementMethod::BothLoci),
+            set_method,
+            lock,
+        ),
+        hideable("pairs", Signal::stored(false), pairs),
+        rule.into_any(),
+        figures("gains", say!(lab, relay.gains_caption), table),
+    ]
+    .into_any()
 }
 
 fn set_method(setup: &mut TuningSetup, index: usize) {
@@ -101,9 +122,9 @@ fn set_action(setup: &mut TuningSetup, index: usize) {
 /// The targets of the rules, to take over.
 fn rules(session: Session) -> Signal<String> {
     let lab = session.lab;
-    let target = session.part(|s| s.design.target);
     Signal::derive(move || {
-        let chosen = |at: crate::linear::Complex| target.get() == [at.re, at.im];
+        let target = lab.tuning.with(|s| s.tuning.design.target);
+        let chosen = |at: Complex| target == [at.re, at.im];
         let rules: String = rule_targets()
             .iter()
             .map(|&(rule, at)| {
@@ -125,27 +146,27 @@ fn choose_rule(session: Session, name: &str) {
 fn TargetHandle(frames: RwSignal<Vec<Frame>>) -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
-    let target = session.part(|s| s.design.target);
+    let [re, im]: [Signal<f64>; 2] = [session.part(|s| s.design.target[0]), session.part(|s| s.design.target[1])];
     let set = move |at: [f64; 2]| {
         let on_grid = at.map(|v| ((v / STEP).round() * STEP).clamp(TARGETS.0, TARGETS.1));
         session.edit(|s| s.design.target = on_grid);
     };
     let spoken = move || {
-        let ([re, im], style) = (target.get(), lab.number_style());
+        let (re, im, style) = (re.get(), im.get(), lab.number_style());
         format!("λ {} {} {}j", style.fixed(re, 2), if im < 0.0 { "−" } else { "+" }, style.fixed(im.abs(), 2))
     };
     view! {
         <PointHandle
             id="target-handle"
             label=say!(lab, relay.target_handle)
-            at=Signal::derive(move || target.get().into())
-            value=Signal::derive(move || target.get()[0])
+            at=Signal::derive(move || (re.get(), im.get()))
+            value=re
             limits=TARGETS
             spoken=Signal::derive(spoken)
             locked=lab.locks(Control::Target)
             on_move=move |(x, y): (f64, f64)| set([x, y])
             on_nudge=move |by: Nudge| {
-                let [re, im] = target.get_untracked();
+                let (re, im) = (re.get_untracked(), im.get_untracked());
                 let page = if by.page.is_finite() { by.page } else { 0.0 };
                 set([re + STEP * (by.right + page), im + STEP * (by.up + page)]);
             }

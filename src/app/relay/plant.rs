@@ -8,7 +8,8 @@ use super::session::{Session, use_session};
 use crate::app::preset::name_of;
 use crate::app::start::Control;
 use crate::app::texts::{say, tr};
-use crate::app::widgets::{Choice, Scale, option};
+use crate::app::widgets::html::option;
+use crate::app::widgets::{Choice, Scale};
 use crate::control::Pairing;
 use crate::plant::PresetId;
 use crate::scenario::tuning::{PublishedCase, TuningPlant, TuningSetup};
@@ -22,7 +23,7 @@ const PROCESS_TWO: &str = "process-two";
 pub fn PlantCard() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
-    let is_rig = session.part(|s| matches!(s.plant, TuningPlant::QuadrupleTank { .. }));
+    let no_rig = session.flag(|s| !matches!(s.plant, TuningPlant::QuadrupleTank { .. }));
     view! {
         <section class="card plant" aria-labelledby="plant-title">
             <header>
@@ -30,7 +31,7 @@ pub fn PlantCard() -> impl IntoView {
                 <Choice id="plant" name=say!(lab, relay.plant) options=plants(session) on_choose=move |name: String| choose_plant(session, &name) disabled=lab.locks(Control::Plant) />
                 <Choice id="case" name=say!(lab, relay.case) options=cases(session) on_choose=move |name: String| choose_case(session, &name) disabled=lab.locks(Control::Plant) />
             </header>
-            <div class="strip" hidden=move || !is_rig.get()>
+            <div class="strip" hidden=no_rig>
                 {knob(session, &Knob { id: ("rig-gamma1", ""), label: "γ₁", name: say!(lab, process.gamma, pump = 1), read: |s| valves(s)[0], write: |s, v| set_valve(s, 0, v), ..field(Scale::Linear(0.01), (0.0, 1.0)) })}
                 {knob(session, &Knob { id: ("rig-gamma2", ""), label: "γ₂", name: say!(lab, process.gamma, pump = 2), read: |s| valves(s)[1], write: |s, v| set_valve(s, 1, v), ..field(Scale::Linear(0.01), (0.0, 1.0)) })}
                 {knob(session, &Knob { id: ("rig-dead-time", ""), label: "θ", name: say!(lab, relay.dead_time), read: |s| behind(s)[0], write: |s, v| set_behind(s, 0, v), is_time: true, ..field(Scale::Linear(0.5), (0.0, 1000.0)) })}
@@ -126,9 +127,8 @@ fn name_of_plant(plant: &TuningPlant) -> &'static str {
 
 fn plants(session: Session) -> Signal<String> {
     let lab = session.lab;
-    let chosen = session.part(|s| name_of_plant(&s.plant));
     Signal::derive(move || {
-        let chosen = chosen.get();
+        let chosen = lab.tuning.with(|s| name_of_plant(&s.tuning.plant));
         let one = |name: &str, text: &str| option(name, text, name == chosen);
         let mut options = one(WOOD_BERRY, tr!(lab, relay.wood_berry)) + &one(PROCESS_TWO, tr!(lab, relay.process_two));
         options.extend(PresetId::ALL.map(|id| one(id.name(), &name_of(lab, id))));

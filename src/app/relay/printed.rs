@@ -2,6 +2,7 @@
 
 use leptos::prelude::*;
 
+use super::card::figures;
 use super::session::{Session, use_session};
 use crate::app::lab::Lab;
 use crate::app::texts::{say, tr};
@@ -20,9 +21,7 @@ pub fn PrintedFigures() -> impl IntoView {
     });
     view! {
         <div class="printed" hidden=move || session.case.get().is_none()>
-            <div class="scroll" tabindex="0" role="region" aria-label=say!(lab, relay.printed_caption)>
-                <table class="plain" data-testid="printed" inner_html=table></table>
-            </div>
+            {figures("printed", say!(lab, relay.printed_caption), table)}
             <p class="remark" data-testid="printed-remark">{remarks}</p>
         </div>
     }

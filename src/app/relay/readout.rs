@@ -4,6 +4,8 @@ use leptos::prelude::*;
 
 use super::session::{Session, time_unit};
 use crate::app::widgets::html::element;
+use crate::app::widgets::{TimeAxis, TimeSurface};
+use crate::figure::Frame;
 use crate::sim::LoopTrace;
 
 /// Outputs and inputs at the cursor as HTML; empty where there is no cursor. `visit` hands the record over.
@@ -34,7 +36,19 @@ pub fn readout(
     })
 }
 
+/// The surface over a picture over time, with the values at its cursor.
+pub fn surface(
+    id: &'static str,
+    axis: TimeAxis,
+    frames: RwSignal<Vec<Frame>>,
+    label: Signal<String>,
+    readout: Signal<String>,
+) -> AnyView {
+    let spoken = Signal::derive(move || plain(&readout.get()));
+    view! { <TimeSurface axis frames label spoken readout id /> }.into_any()
+}
+
 /// The words of a piece of HTML.
-pub fn plain(html: &str) -> String {
+fn plain(html: &str) -> String {
     html.split('<').filter_map(|part| part.split_once('>')).map(|(_, words)| words).collect::<Vec<_>>().join(" ")
 }

@@ -2,20 +2,21 @@
 
 use leptos::prelude::*;
 
+use super::card::{Step, card, figures};
 use super::controls::{segmented, symbol};
 use super::errors;
 use super::pictures;
-use super::readout::{plain, readout};
+use super::readout::{readout, surface};
 use super::session::{Session, time_unit, use_session};
 use super::timeline::timeline;
 use crate::app::start::Control;
 use crate::app::texts::{say, tr};
-use crate::app::widgets::html::{cells, element, escape, headings};
-use crate::app::widgets::{ChartCanvas, ChartMenu, Choice, DataTable, TimeSurface, ZoomButtons, option, rich};
+use crate::app::widgets::html::{cells, element, escape, headings, option};
+use crate::app::widgets::{Choice, DataTable, ZoomButtons};
 use crate::figure::Frame;
 use crate::linear::LoopStability;
 use crate::scenario::tuning::{CompareSpec, DecouplerSpec, TuningPlant, TuningScenario};
-use crate::sim::{Halt, LoopTrace, StepFigures};
+use crate::sim::StepFigures;
 use crate::tuning::PublishedPlant;
 
 const DECOUPLERS: [(&str, DecouplerSpec); 5] = [
@@ -40,40 +41,24 @@ pub fn ResponseCard() -> impl IntoView {
     let frames = RwSignal::new(Vec::<Frame>::new());
     let axis = timeline(session.part(|s| s.response.duration));
     let picture = pictures::response(session, axis.window);
-    let title = say!(lab, relay.response);
-    let verdict = Memo::new(move |_| sentence(session));
-    let table = Signal::derive(move || table(session));
     let values = readout(session, axis.cursor, move |show| {
         session.words.with_design(|design| show(&design.response.trace));
     });
-    view! {
-        <section class="card response" aria-labelledby="response-title">
-            <header>
-                <h2 id="response-title">"4 · "{title}</h2>
-                <div class="toolbar">
-                    <Pins />
-                    <ZoomButtons axis ids=["response-zoom-in", "response-zoom-out", "response-zoom-reset"] />
-                </div>
-                <ChartMenu picture=picture.clone() file="response" title />
-            </header>
-            <div class="step">
-                <div class="chart">
-                    <ChartCanvas picture=picture.clone() frames summary=Signal::derive(move || verdict.get().1.replace("**", "")) name="response" />
-                    <TimeSurface axis frames label=say!(lab, relay.response_cursor) spoken=Signal::derive(move || plain(&values.get())) readout=values id="response-surface" />
-                </div>
-                <div class="settings">
-                    <Settings />
-                    <div class="scroll" tabindex="0" role="region" aria-label=say!(lab, relay.response_caption)>
-                        <table class="plain" data-testid="response-figures" inner_html=table></table>
-                    </div>
-                </div>
-            </div>
-            <div class=move || if verdict.get().0 { "verdict" } else { "verdict warm" }.to_owned() role="status" data-testid="response-verdict">
-                <p>{move || rich(&verdict.get().1)}</p>
-            </div>
-            <DataTable picture id="response-table" />
-        </section>
-    }
+    let ids = ["response-zoom-in", "response-zoom-out", "response-zoom-reset"];
+    let label = say!(lab, relay.response_cursor);
+    card(Step {
+        name: "response",
+        number: 4,
+        title: say!(lab, relay.response),
+        toolbar: view! { <div class="toolbar"><Pins /><ZoomButtons axis ids /></div> }.into_any(),
+        frames,
+        place: "chart",
+        overlay: surface("response-surface", axis, frames, label, values),
+        settings: settings(session),
+        verdict: Memo::new(move |_| sentence(session)),
+        below: view! { <DataTable picture=picture.clone() id="response-table" /> }.into_any(),
+        picture,
+    })
 }
 
 #[component]
@@ -92,14 +77,13 @@ fn Pins() -> impl IntoView {
     };
     view! {
         <button type="button" class="button small" data-testid="response-pin" on:click=pin>{say!(lab, responses.pin)}</button>
-        <button type="button" class="button small" data-testid="response-unpin" hidden=move || none.get() on:click=move |_| lab.tuning.update(|s| s.pinned.clear())>{say!(lab, responses.unpin)}</button>
+        <button type="button" class="button small" data-testid="response-unpin" hidden=none on:click=move |_| lab.tuning.update(|s| s.pinned.clear())>{say!(lab, responses.unpin)}</button>
     }
 }
 
-#[component]
-fn Settings() -> impl IntoView {
-    let session = use_session();
+fn settings(session: Session) -> AnyView {
     let lab = session.lab;
+    let lock = Control::Experiment;
     let decoupler = move |name: String| {
         if let Some(&(_, chosen)) = DECOUPLERS.iter().find(|(known, _)| *known == name) {
             session.edit(|s| s.design.decoupler = chosen);
@@ -110,24 +94,28 @@ fn Settings() -> impl IntoView {
             session.edit(|s| s.response.compare = chosen);
         }
     };
-    view! {
-        {segmented(
+    let steps = vec![("step1", symbol("r = [1 0]")), ("step2", symbol("r = [0 1]"))];
+    let table = Signal::derive(move || table(session));
+    vec![
+        segmented(
             session,
             say!(lab, relay.step_of),
-            vec![("step1", symbol("r = [1 0]")), ("step2", symbol("r = [0 1]"))],
+            steps,
             |s| usize::from(s.response.references[1] != 0.0),
             |s, k| s.response.references = [[1.0, 0.0], [0.0, 1.0]][k],
-            Control::Experiment,
-        )}
-        <Choice id="decoupler" name=say!(lab, relay.decoupler) options=decouplers(session) on_choose=decoupler disabled=lab.locks(Control::Experiment) />
-        <Choice id="rival" name=say!(lab, relay.compare) options=rivals(session) on_choose=rival disabled=lab.locks(Control::Experiment) />
-    }
+            lock,
+        ),
+        view! { <Choice id="decoupler" name=say!(lab, relay.decoupler) options=decouplers(session) on_choose=decoupler disabled=lab.locks(lock) /> }.into_any(),
+        view! { <Choice id="rival" name=say!(lab, relay.compare) options=rivals(session) on_choose=rival disabled=lab.locks(lock) /> }.into_any(),
+        figures("response-figures", say!(lab, relay.response_caption), table),
+    ]
+    .into_any()
 }
 
 fn decouplers(session: Session) -> Signal<String> {
     let lab = session.lab;
-    let chosen = session.part(|s| s.design.decoupler);
     Signal::derive(move || {
+        let chosen = lab.tuning.with(|s| s.tuning.design.decoupler);
         let text = |spec| match spec {
             DecouplerSpec::None => tr!(lab, relay.decoupler_none),
             DecouplerSpec::Static => tr!(lab, relay.decoupler_static),
@@ -135,24 +123,24 @@ fn decouplers(session: Session) -> Signal<String> {
             DecouplerSpec::FirstOutput => tr!(lab, relay.decoupler_first),
             DecouplerSpec::SecondOutput => tr!(lab, relay.decoupler_second),
         };
-        DECOUPLERS.iter().map(|&(name, spec)| option(name, text(spec), spec == chosen.get())).collect()
+        DECOUPLERS.iter().map(|&(name, spec)| option(name, text(spec), spec == chosen)).collect()
     })
 }
 
 fn rivals(session: Session) -> Signal<String> {
     let lab = session.lab;
-    let chosen = session.part(|s| s.response.compare);
-    // The full controller is known for one plant only.
-    let has_full = session.part(|s| s.plant == TuningPlant::Published(PublishedPlant::WoodBerry));
     Signal::derive(move || {
+        let (chosen, plant) = lab.tuning.with(|s| (s.tuning.response.compare, s.tuning.plant.clone()));
+        // The full controller is known for one plant only.
+        let has_full = plant == TuningPlant::Published(PublishedPlant::WoodBerry);
         let text = |spec| match spec {
             CompareSpec::Nothing => tr!(lab, relay.compare_nothing),
             CompareSpec::ZieglerNichols => tr!(lab, relay.compare_zn),
             CompareSpec::TyreusLuyben => tr!(lab, relay.compare_tl),
             CompareSpec::Full => tr!(lab, relay.compare_full),
         };
-        let shown = RIVALS.iter().filter(|(_, spec)| *spec != CompareSpec::Full || has_full.get());
-        shown.map(|&(name, spec)| option(name, text(spec), spec == chosen.get())).collect()
+        let shown = RIVALS.iter().filter(|(_, spec)| *spec != CompareSpec::Full || has_full);
+        shown.map(|&(name, spec)| option(name, text(spec), spec == chosen)).collect()
     })
 }
 
@@ -169,8 +157,7 @@ fn sentence(session: Session) -> (bool, String) {
     };
     let decoupled = setup.design.decoupler != DecouplerSpec::None;
     let stability = design.roots[(setup.design.root - 1).min(1)].stability;
-    let trace = &design.response.trace;
-    let halted = halt_of(trace).is_some();
+    let halted = design.response.trace.halt.is_some();
     let stepped = usize::from(setup.response.references[1] != 0.0);
     let [own, other] = [design.response.figures[stepped], design.response.figures[1 - stepped]];
     let (good, mut text) = if halted || (!decoupled && stability != LoopStability::Stable) {
@@ -209,10 +196,6 @@ fn sentence(session: Session) -> (bool, String) {
         text = text + " " + if stable { tr!(lab, relay.rival_stable) } else { tr!(lab, relay.rival_unstable) };
     }
     (good, text)
-}
-
-fn halt_of(trace: &LoopTrace) -> Option<Halt> {
-    trace.halt
 }
 
 /// Figures of both outputs: of the session, its rival, and the pinned ones.

@@ -141,6 +141,11 @@ impl Session {
         Memo::new(move |_| scenario.with(|s| read(&s.tuning))).into()
     }
 
+    /// Something that is or is not so in the setup. Cheaper than a part of another type, and read anew at every change.
+    pub fn flag(self, read: fn(&TuningSetup) -> bool) -> Signal<bool> {
+        Signal::derive(move || self.lab.tuning.with(|s| read(&s.tuning)))
+    }
+
     /// Whether a group of controls is disabled.
     pub fn locks(self, control: Control) -> bool {
         self.lab.locks(control)

@@ -2,16 +2,17 @@
 
 use leptos::prelude::*;
 
+use super::card::{Step, card, figures, hideable};
 use super::controls::{Knob, knob, segmented};
 use super::errors;
 use super::pictures::{self, record_of, short_name};
-use super::readout::{plain, readout};
+use super::readout::{readout, surface};
 use super::session::{Session, time_unit, use_session};
 use super::timeline::timeline;
 use crate::app::start::Control;
 use crate::app::texts::{say, tr};
-use crate::app::widgets::html::{cells, element, escape, headings};
-use crate::app::widgets::{ChartCanvas, ChartMenu, Choice, DataTable, Scale, TimeSurface, ZoomButtons, option, rich};
+use crate::app::widgets::html::{cells, element, escape, headings, option};
+use crate::app::widgets::{Choice, DataTable, Scale, ZoomButtons};
 use crate::control::IsaPid;
 use crate::figure::Frame;
 use crate::scenario::tuning::{Behind, TestKind, Tested, TuningSetup};
@@ -32,9 +33,7 @@ pub fn TestCard() -> impl IntoView {
     let frames = RwSignal::new(Vec::<Frame>::new());
     let axis = timeline(session.part(|s| s.test.duration));
     let picture = pictures::test(session, axis.window);
-    let title = say!(lab, relay.test);
     let verdict = Memo::new(move |_| sentence(session));
-    let table = Signal::derive(move || table(session));
     let values = readout(session, axis.cursor, move |show| {
         session.words.test.with(|outcome| {
             if let Some(trace) = outcome.as_ref().as_ref().ok().and_then(record_of) {
@@ -42,52 +41,29 @@ pub fn TestCard() -> impl IntoView {
             }
         });
     });
-    view! {
-        <section class="card test" aria-labelledby="test-title">
-            <header>
-                <h2 id="test-title">"1 · "{title}</h2>
-                <div class="toolbar"><ZoomButtons axis ids=["test-zoom-in", "test-zoom-out", "test-zoom-reset"] /></div>
-                <ChartMenu picture=picture.clone() file="relay-test" title />
-            </header>
-            <div class="step">
-                <div class="chart">
-                    <ChartCanvas picture=picture.clone() frames summary=Signal::derive(move || verdict.get().1.replace("**", "")) name="test" />
-                    <TimeSurface axis frames label=say!(lab, relay.test_cursor) spoken=Signal::derive(move || plain(&values.get())) readout=values id="test-surface" />
-                </div>
-                <div class="settings">
-                    <Settings />
-                    <div class="scroll" tabindex="0" role="region" aria-label=say!(lab, relay.test_caption)>
-                        <table class="plain" data-testid="test-figures" inner_html=table></table>
-                    </div>
-                </div>
-            </div>
-            <div class=move || if verdict.get().0 { "verdict" } else { "verdict warm" }.to_owned() role="status" data-testid="test-verdict">
-                <p>{move || rich(&verdict.get().1)}</p>
-            </div>
-            <DataTable picture id="test-table" />
-        </section>
-    }
+    let ids = ["test-zoom-in", "test-zoom-out", "test-zoom-reset"];
+    let label = say!(lab, relay.test_cursor);
+    card(Step {
+        name: "test",
+        number: 1,
+        title: say!(lab, relay.test),
+        toolbar: view! { <div class="toolbar"><ZoomButtons axis ids /></div> }.into_any(),
+        frames,
+        place: "chart",
+        overlay: surface("test-surface", axis, frames, label, values),
+        settings: settings(session),
+        verdict,
+        below: view! { <DataTable picture=picture.clone() id="test-table" /> }.into_any(),
+        picture,
+    })
 }
 
-#[component]
-fn Settings() -> impl IntoView {
-    let session = use_session();
+fn settings(session: Session) -> AnyView {
     let lab = session.lab;
-    let kind = session.part(|s| s.test.kind);
-    let unless = move |kinds: &'static [TestKind]| Signal::derive(move || !kinds.contains(&kind.get()));
-    let no_modulus = session.part(|s| !matches!(s.test.behind, Behind::Modulus(_)));
-    let free = |id, label, name, read, write, limits| Knob {
-        id,
-        label,
-        name,
-        read,
-        write,
-        limits,
-        travel: None,
-        scale: Scale::Linear(0.05),
-        is_time: false,
-        class: "",
-        lock: Control::Test,
+    let lock = Control::Test;
+    let free = |id, label, name, read, write, limits| {
+        let (travel, scale, is_time, class) = (None, Scale::Linear(0.05), false, "");
+        Knob { id: (id, ""), label, name, read, write, limits, travel, scale, is_time, class, lock }
     };
     let kinds = vec![
         ("test-single", say!(lab, relay.single)),
@@ -95,42 +71,144 @@ fn Settings() -> impl IntoView {
         ("test-sequential", say!(lab, relay.sequential)),
         ("test-simultaneous", say!(lab, relay.simultaneous)),
     ];
-    view! {
-        {segmented(session, say!(lab, relay.kind), kinds, |s| KINDS.iter().position(|&k| k == s.test.kind).unwrap_or(3), |s, k| s.test.kind = KINDS[k], Control::Test)}
-        <div hidden=unless(&[TestKind::Single])>
-            {segmented(session, say!(lab, relay.which_loop), vec![("test-loop1", say!(lab, relay.loop_name, number = 1)), ("test-loop2", say!(lab, relay.loop_name, number = 2))], |s| s.test.number - 1, |s, k| s.test.number = k + 1, Control::Test)}
-            <Choice id="test-behind" name=say!(lab, relay.behind) options=behind_options(session) on_choose=move |name: String| session.edit(|s| s.test.behind = behind_named(&name)) disabled=lab.locks(Control::Test) />
-            <div hidden=move || no_modulus.get()>
-                {knob(session, &free(("test-modulus", ""), "r", say!(lab, relay.modulus), |s| if let Behind::Modulus(r) = s.test.behind { r } else { FIRST_MODULUS }, |s, v| s.test.behind = Behind::Modulus(v), SIZES))}
-            </div>
-        </div>
-        {knob(session, &Knob { id: ("ratio", "ratio-number"), label: "d₂/d₁", travel: Some(RATIOS), scale: Scale::Logarithmic, ..free(("", ""), "", say!(lab, relay.ratio), |s| s.test.amplitudes[1] / s.test.amplitudes[0], |s, v| s.test.amplitudes[1] = v * s.test.amplitudes[0], RATIOS) })}
-        <div class="pairs">
-            {knob(session, &free(("test-amplitude", ""), "d₁", say!(lab, relay.amplitude), |s| s.test.amplitudes[0], set_amplitude, (0.001, 1e4)))}
-            {knob(session, &Knob { is_time: true, ..free(("test-duration", ""), "t", say!(lab, relay.duration), |s| s.test.duration, set_duration, (1.0, 1e5)) })}
-        </div>
-        <div class="pairs" hidden=unless(&[TestKind::Single, TestKind::Simultaneous])>
-            {knob(session, &Knob { class: "loop1", ..free(("test-hysteresis1", ""), "ε₁", say!(lab, relay.hysteresis, number = 1), |s| s.test.hysteresis[0], |s, v| s.test.hysteresis[0] = v, (0.0, 1e6)) })}
-            {knob(session, &Knob { class: "loop2", ..free(("test-hysteresis2", ""), "ε₂", say!(lab, relay.hysteresis, number = 2), |s| s.test.hysteresis[1], |s, v| s.test.hysteresis[1] = v, (0.0, 1e6)) })}
-            {knob(session, &Knob { class: "loop1", ..free(("test-bias1", ""), "b₁", say!(lab, relay.bias, number = 1), |s| s.test.bias[0], |s, v| s.test.bias[0] = v, (-1e6, 1e6)) })}
-            {knob(session, &Knob { class: "loop2", ..free(("test-bias2", ""), "b₂", say!(lab, relay.bias, number = 2), |s| s.test.bias[1], |s, v| s.test.bias[1] = v, (-1e6, 1e6)) })}
-        </div>
-        <div hidden=unless(&[TestKind::Independent, TestKind::Sequential])>
-            <Choice id="test-rule" name=say!(lab, relay.rule) options=rule_options(session) on_choose=move |name: String| choose_rule(session, &name) disabled=lab.locks(Control::Test) />
-        </div>
-        <div class="pairs" hidden=unless(&[TestKind::Independent])>
-            {knob(session, &Knob { class: "loop1", ..free(("test-detuning1", ""), "f₁", say!(lab, relay.detuning, number = 1), |s| s.test.detuning[0], |s, v| s.test.detuning[0] = v, (0.1, 100.0)) })}
-            {knob(session, &Knob { class: "loop2", ..free(("test-detuning2", ""), "f₂", say!(lab, relay.detuning, number = 2), |s| s.test.detuning[1], |s, v| s.test.detuning[1] = v, (0.1, 100.0)) })}
-        </div>
-        <div class="pairs" hidden=unless(&[TestKind::Sequential])>
-            {knob(session, &Knob { scale: Scale::Linear(1.0), ..free(("test-passes", ""), "n", say!(lab, relay.passes), |s| s.test.passes as f64, set_passes, (1.0, 8.0)) })}
-        </div>
-    }
+    let kind = |s: &TuningSetup| KINDS.iter().position(|&k| k == s.test.kind).unwrap_or(3);
+    let loops = vec![
+        ("test-loop1", say!(lab, relay.loop_name, number = 1)),
+        ("test-loop2", say!(lab, relay.loop_name, number = 2)),
+    ];
+    let one = |mut k: Knob, class| {
+        k.class = class;
+        knob(session, &k)
+    };
+    let ratio = Knob {
+        id: ("ratio", "ratio-number"),
+        travel: Some(RATIOS),
+        scale: Scale::Logarithmic,
+        ..free(
+            "",
+            "d₂/d₁",
+            say!(lab, relay.ratio),
+            ratio_of,
+            |s, v| s.test.amplitudes[1] = v * s.test.amplitudes[0],
+            RATIOS,
+        )
+    };
+    let duration = Knob {
+        is_time: true,
+        ..free("test-duration", "t", say!(lab, relay.duration), |s| s.test.duration, set_duration, (1.0, 1e5))
+    };
+    let passes = Knob {
+        scale: Scale::Linear(1.0),
+        ..free("test-passes", "n", say!(lab, relay.passes), |s| s.test.passes as f64, set_passes, (1.0, 8.0))
+    };
+    let single = vec![
+        segmented(session, say!(lab, relay.which_loop), loops, |s| s.test.number - 1, |s, k| s.test.number = k + 1, lock),
+        view! { <Choice id="test-behind" name=say!(lab, relay.behind) options=behind_options(session) on_choose=move |name: String| session.edit(|s| s.test.behind = behind_named(&name)) disabled=lab.locks(lock) /> }.into_any(),
+        hideable("", session.flag(|s| behind_index(s) != 2), vec![
+            knob(session, &free("test-modulus", "r", say!(lab, relay.modulus), |s| if let Behind::Modulus(r) = s.test.behind { r } else { FIRST_MODULUS }, |s, v| s.test.behind = Behind::Modulus(v), SIZES)),
+        ]),
+    ];
+    let relays = vec![
+        one(
+            free(
+                "test-hysteresis1",
+                "ε₁",
+                say!(lab, relay.hysteresis, number = 1),
+                |s| s.test.hysteresis[0],
+                |s, v| s.test.hysteresis[0] = v,
+                (0.0, 1e6),
+            ),
+            "loop1",
+        ),
+        one(
+            free(
+                "test-hysteresis2",
+                "ε₂",
+                say!(lab, relay.hysteresis, number = 2),
+                |s| s.test.hysteresis[1],
+                |s, v| s.test.hysteresis[1] = v,
+                (0.0, 1e6),
+            ),
+            "loop2",
+        ),
+        one(
+            free(
+                "test-bias1",
+                "b₁",
+                say!(lab, relay.bias, number = 1),
+                |s| s.test.bias[0],
+                |s, v| s.test.bias[0] = v,
+                (-1e6, 1e6),
+            ),
+            "loop1",
+        ),
+        one(
+            free(
+                "test-bias2",
+                "b₂",
+                say!(lab, relay.bias, number = 2),
+                |s| s.test.bias[1],
+                |s, v| s.test.bias[1] = v,
+                (-1e6, 1e6),
+            ),
+            "loop2",
+        ),
+    ];
+    let detuning = vec![
+        one(
+            free(
+                "test-detuning1",
+                "f₁",
+                say!(lab, relay.detuning, number = 1),
+                |s| s.test.detuning[0],
+                |s, v| s.test.detuning[0] = v,
+                (0.1, 100.0),
+            ),
+            "loop1",
+        ),
+        one(
+            free(
+                "test-detuning2",
+                "f₂",
+                say!(lab, relay.detuning, number = 2),
+                |s| s.test.detuning[1],
+                |s, v| s.test.detuning[1] = v,
+                (0.1, 100.0),
+            ),
+            "loop2",
+        ),
+    ];
+    let rule = view! { <Choice id="test-rule" name=say!(lab, relay.rule) options=rule_options(session) on_choose=move |name: String| choose_rule(session, &name) disabled=lab.locks(lock) /> };
+    let amplitude =
+        free("test-amplitude", "d₁", say!(lab, relay.amplitude), |s| s.test.amplitudes[0], set_amplitude, (0.001, 1e4));
+    let never = Signal::stored(false);
+    let table = Signal::derive(move || table(session));
+    vec![
+        segmented(session, say!(lab, relay.kind), kinds, kind, |s, k| s.test.kind = KINDS[k], lock),
+        hideable("", session.flag(|s| s.test.kind != TestKind::Single), single),
+        knob(session, &ratio),
+        hideable("pairs", never, vec![knob(session, &amplitude), knob(session, &duration)]),
+        hideable("pairs", session.flag(|s| is_tuned(s.test.kind)), relays),
+        hideable("", session.flag(|s| !is_tuned(s.test.kind)), vec![rule.into_any()]),
+        hideable("pairs", session.flag(|s| s.test.kind != TestKind::Independent), detuning),
+        hideable("pairs", session.flag(|s| s.test.kind != TestKind::Sequential), vec![knob(session, &passes)]),
+        figures("test-figures", say!(lab, relay.test_caption), table),
+    ]
+    .into_any()
+}
+
+/// Whether the test ends in controller settings.
+fn is_tuned(kind: TestKind) -> bool {
+    matches!(kind, TestKind::Independent | TestKind::Sequential)
+}
+
+fn ratio_of(setup: &TuningSetup) -> f64 {
+    setup.test.amplitudes[1] / setup.test.amplitudes[0]
 }
 
 /// Both amplitudes, so that the ratio stays.
 fn set_amplitude(setup: &mut TuningSetup, d1: f64) {
-    let ratio = setup.test.amplitudes[1] / setup.test.amplitudes[0];
+    let ratio = ratio_of(setup);
     setup.test.amplitudes = [d1, d1 * ratio];
 }
 
@@ -151,15 +229,19 @@ const BEHINDS: [&str; 3] = ["nothing", "integrator", "modulus"];
 
 fn behind_options(session: Session) -> Signal<String> {
     let lab = session.lab;
-    let chosen = session.part(|s| match s.test.behind {
-        Behind::Nothing => 0,
-        Behind::Integrator => 1,
-        Behind::Modulus(_) => 2,
-    });
+    let chosen = session.part(behind_index);
     Signal::derive(move || {
         let texts = [tr!(lab, relay.behind_nothing), tr!(lab, relay.behind_integrator), tr!(lab, relay.behind_modulus)];
         (0..3).map(|k| option(BEHINDS[k], texts[k], chosen.get() == k)).collect()
     })
+}
+
+fn behind_index(setup: &TuningSetup) -> usize {
+    match setup.test.behind {
+        Behind::Nothing => 0,
+        Behind::Integrator => 1,
+        Behind::Modulus(_) => 2,
+    }
 }
 
 fn behind_named(name: &str) -> Behind {
@@ -171,9 +253,9 @@ fn behind_named(name: &str) -> Behind {
 }
 
 fn rule_options(session: Session) -> Signal<String> {
-    let chosen = session.part(|s| s.test.rule);
     Signal::derive(move || {
-        TuningRule::ALL.iter().map(|&rule| option(short_name(rule), short_name(rule), rule == chosen.get())).collect()
+        let chosen = session.lab.tuning.with(|s| s.tuning.test.rule);
+        TuningRule::ALL.iter().map(|&rule| option(short_name(rule), short_name(rule), rule == chosen)).collect()
     })
 }
 

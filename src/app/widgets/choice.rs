@@ -1,7 +1,5 @@
 use leptos::prelude::*;
 
-use super::html::escape;
-
 /// A choice of one among many.
 #[component]
 pub fn Choice(
@@ -10,7 +8,7 @@ pub fn Choice(
     /// What is chosen, for screen readers.
     #[prop(into)]
     name: Signal<String>,
-    /// The options, from [`option`].
+    /// The options, from [`option`](super::html::option).
     #[prop(into)]
     options: Signal<String>,
     /// Called with the value of the new choice.
@@ -28,10 +26,4 @@ pub fn Choice(
             inner_html=options
         ></select>
     }
-}
-
-/// An option of a choice.
-pub fn option(value: &str, text: &str, chosen: bool) -> String {
-    let selected = if chosen { " selected" } else { "" };
-    format!("<option value=\"{}\"{selected}>{}</option>", escape(value), escape(text))
 }

@@ -81,8 +81,11 @@ pub fn Handle(
     /// Called for a key.
     #[prop(into)]
     on_nudge: Callback<Nudge>,
-    /// What is seen of it.
-    children: Children,
+    /// Where it stands in the drawing.
+    #[prop(into)]
+    at: Signal<(f64, f64)>,
+    /// What is seen of it, about the origin, as SVG.
+    look: &'static str,
 ) -> impl IntoView {
     let grabbed_at = StoredValue::new(None::<(f64, f64)>);
     let position = |event: &PointerEvent| (f64::from(event.client_x()), f64::from(event.client_y()));
@@ -125,6 +128,7 @@ pub fn Handle(
             role="slider"
             tabindex="0"
             data-testid=id
+            transform=move || { let (x, y) = at.get(); format!("translate({x} {y})") }
             aria-label=label
             aria-valuemin=move || limits.get().0.to_string()
             aria-valuemax=move || limits.get().1.to_string()
@@ -138,8 +142,8 @@ pub fn Handle(
             on:pointerup=release
             on:pointercancel=release
             on:keydown=on_key
+            inner_html=look
         >
-            {children()}
         </g>
     }
 }

@@ -13,9 +13,23 @@ pub fn escape(text: &str) -> String {
     escaped
 }
 
+/// A sentence in which the parts between `**` are bold: the only markup that the texts know.
+pub fn rich(text: &str) -> String {
+    let escaped = escape(text);
+    let parts = escaped.split("**").enumerate();
+    parts.map(|(k, part)| if k % 2 == 1 { element("b", "", part) } else { part.to_owned() }).collect()
+}
+
 /// `<name attributes>content</name>`, for content that is HTML already.
 pub fn element(name: &str, attributes: &str, content: &str) -> String {
-    format!("<{name} {attributes}>{content}</{name}>")
+    let space = if attributes.is_empty() { "" } else { " " };
+    format!("<{name}{space}{attributes}>{content}</{name}>")
+}
+
+/// A choice of a `select`.
+pub fn option(value: &str, text: &str, chosen: bool) -> String {
+    let selected = if chosen { " selected" } else { "" };
+    format!("<option value=\"{}\"{selected}>{}</option>", escape(value), escape(text))
 }
 
 /// A row of headings of columns.
@@ -27,4 +41,20 @@ pub fn headings(texts: impl IntoIterator<Item = String>) -> String {
 /// A row of plain cells.
 pub fn cells(texts: impl IntoIterator<Item = String>) -> String {
     texts.into_iter().map(|text| element("td", "", &escape(&text))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_the_parts_between_stars_are_markup() {
+        assert_eq!(rich("a **b** < c"), "a <b>b</b> &lt; c");
+        assert_eq!(rich("<i>"), "&lt;i&gt;");
+    }
+
+    #[test]
+    fn a_text_cannot_leave_the_quotes_of_an_attribute() {
+        assert_eq!(escape("\"><script>"), "&quot;&gt;&lt;script&gt;");
+    }
 }

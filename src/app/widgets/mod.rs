@@ -8,16 +8,14 @@ mod field;
 mod handle;
 pub mod html;
 mod point;
-mod rich;
 mod segmented;
 mod time_surface;
 
 pub use chart::{ChartCanvas, ChartMenu, Picture};
-pub use choice::{Choice, option};
+pub use choice::Choice;
 pub use data_table::DataTable;
 pub use field::{NumberField, Scale, SliderField};
 pub use handle::{Drag, Handle, Nudge};
-pub use point::PointHandle;
-pub use rich::rich;
+pub use point::{PointHandle, first_frame};
 pub use segmented::Segmented;
 pub use time_surface::{TimeAxis, TimeSurface, ZoomButtons};

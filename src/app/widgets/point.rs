@@ -8,7 +8,7 @@ const NO_PLACE: Rect = Rect { left: 0.0, top: 0.0, width: 1.0, height: 1.0 };
 const NOWHERE: Frame = Frame { outer: NO_PLACE, plot: NO_PLACE, x: (0.0, 1.0), y: (0.0, 1.0) };
 
 /// The frame of the first chart of a picture.
-fn first_frame(frames: RwSignal<Vec<Frame>>) -> Frame {
+pub fn first_frame(frames: RwSignal<Vec<Frame>>) -> Frame {
     frames.with(|f| f.first().copied()).unwrap_or(NOWHERE)
 }
 
@@ -42,8 +42,6 @@ pub fn PointHandle(
     /// Where the chart stands.
     frames: RwSignal<Vec<Frame>>,
 ) -> impl IntoView {
-    let place = Memo::new(move |_| first_frame(frames).to_px(at.get()));
-    let place = Signal::derive(move || format!("translate({:.2} {:.2})", place.get().0, place.get().1));
     view! {
         <Handle
             id
@@ -55,8 +53,8 @@ pub fn PointHandle(
             on_grab=|()| ()
             on_drag=move |drag: Drag| on_move.run(untrack(|| first_frame(frames)).to_data(drag.at))
             on_nudge
-        >
-            <g transform=place inner_html="<circle class=\"halo\" r=\"17\"/><circle class=\"dot\" r=\"8.5\"/>"></g>
-        </Handle>
+            at=Signal::derive(move || first_frame(frames).to_px(at.get()))
+            look="<circle class=\"halo\" r=\"17\"/><circle class=\"dot\" r=\"8.5\"/>"
+        />
     }
 }
