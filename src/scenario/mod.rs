@@ -18,6 +18,7 @@ mod path;
 mod presets;
 mod report;
 mod run;
+mod tree;
 pub mod tuning;
 mod validate;
 mod valve_map;
