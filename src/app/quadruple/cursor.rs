@@ -1,5 +1,6 @@
 //! The cursor in time: it says which moment the drawing shows, and it can run.
 
+use crate::app::widgets::handler;
 use gloo_timers::callback::Interval;
 use leptos::prelude::*;
 
@@ -60,14 +61,14 @@ pub fn PlayControls() -> impl IntoView {
                 data-testid="play"
                 aria-pressed=move || if playing.get() { "true" } else { "false" }
                 title=say!(lab, experiment.play_name)
-                on:click=move |_| if playing.get_untracked() { stop() } else { start() }
+                on:click=handler(move |_| if playing.get_untracked() { stop() } else { start() })
             >
                 {text}
             </button>
             <select
                 data-testid="speed"
                 aria-label=say!(lab, experiment.speed)
-                on:change=move |event| if let Ok(choice) = event_target_value(&event).parse() { speed.set(choice) }
+                on:change=handler(move |event| if let Ok(choice) = event_target_value(&event).parse() { speed.set(choice) })
                 inner_html=speeds
             ></select>
         </div>

@@ -1,3 +1,4 @@
+use super::handler;
 use leptos::prelude::*;
 
 use super::Picture;
@@ -30,7 +31,7 @@ pub fn DataTable(
         caption + &rows(picture.visit(|charts| table(charts, ROWS)), lab.number_style())
     });
     view! {
-        <details class="more" on:toggle=move |_| open.update(|o| *o = !*o)>
+        <details class="more" on:toggle=handler(move |_| open.update(|o| *o = !*o))>
             <summary data-testid=id>{say!(lab, chart.table)}</summary>
             <div class="scroll" tabindex="0" role="region" aria-label=say!(lab, chart.table_caption)>
                 <table class="plain" inner_html=content></table>

@@ -1,3 +1,4 @@
+use super::handler;
 use leptos::prelude::*;
 
 /// A choice of one among few, as a row of buttons.
@@ -30,7 +31,7 @@ where
                     data-testid=name
                     aria-pressed=move || if value.get() == choice { "true" } else { "false" }
                     disabled=disabled
-                    on:click=move |_| on_choose.run(choice)
+                    on:click=handler(move |_| on_choose.run(choice))
                 >
                     {text}
                 </button>
