@@ -51,7 +51,7 @@ pub fn ControllerCard() -> impl IntoView {
                 <summary data-testid="pi-more">{say!(lab, pi.more)}</summary>
                 <FinePrint />
             </details>
-            <p class="sentence" class:warm=move || stability().1 role="status" data-testid="stability" inner_html=Signal::derive(move || rich(&stability().0))></p>
+            <p class=move || if stability().1 { "sentence warm" } else { "sentence" }.to_owned() role="status" data-testid="stability" inner_html=Signal::derive(move || rich(&stability().0))></p>
         </section>
     }
 }

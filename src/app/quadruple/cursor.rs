@@ -59,7 +59,7 @@ pub fn PlayControls() -> impl IntoView {
                 type="button"
                 class="button"
                 data-testid="play"
-                aria-pressed=move || if playing.get() { "true" } else { "false" }
+                aria-pressed=move || playing.get().to_string()
                 title=say!(lab, experiment.play_name)
                 on:click=handler(move |_| if playing.get_untracked() { stop() } else { start() })
             >

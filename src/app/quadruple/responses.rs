@@ -91,7 +91,7 @@ fn Toolbar(axis: TimeAxis) -> impl IntoView {
                 type="button"
                 class="button small"
                 data-testid="linear"
-                aria-pressed=move || if linear() { "true" } else { "false" }
+                aria-pressed=move || linear().to_string()
                 on:click=handler(move |_| lab.scenario.update(|s| s.view.hide_linear = !s.view.hide_linear))
             >
                 {say!(lab, responses.hide_linear)}

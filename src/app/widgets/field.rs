@@ -136,7 +136,7 @@ pub fn NumberField(
             autocomplete="off"
             data-testid=id
             aria-label=name
-            aria-invalid=move || (refused.get() && draft.get().is_some()).then_some("true")
+            aria-invalid=move || (refused.get() && draft.get().is_some()).then(|| "true".to_owned())
             aria-describedby=move || refused.get().then(|| format!("{id}-problem"))
             prop:value=move || draft.get().unwrap_or_else(|| show(value.get()))
             disabled=disabled

@@ -29,7 +29,7 @@ where
                 <button
                     type="button"
                     data-testid=name
-                    aria-pressed=move || if value.get() == choice { "true" } else { "false" }
+                    aria-pressed=move || (value.get() == choice).to_string()
                     disabled=disabled
                     on:click=handler(move |_| on_choose.run(choice))
                 >
