@@ -36,7 +36,8 @@ where
                     {text}
                 </button>
             }
+            .into_any()
         })
-        .collect_view();
+        .collect::<Vec<_>>();
     view! { <div class="segmented" role="group" aria-label=label>{buttons}</div> }
 }
