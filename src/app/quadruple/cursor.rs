@@ -46,9 +46,10 @@ pub fn PlayControls() -> impl IntoView {
         playing.set(true);
         timer.set_value(Some(Interval::new(TICK_MS, tick)));
     };
-    let text = Signal::derive(move || match playing.get() {
-        true => format!("❚❚ {}", tr!(lab, experiment.pause)),
-        false => format!("▶ {}", tr!(lab, experiment.play)),
+    let text = Signal::derive(move || {
+        let (sign, name) =
+            if playing.get() { ("❚❚", tr!(lab, experiment.pause)) } else { ("▶", tr!(lab, experiment.play)) };
+        format!("{sign} {name}")
     });
     on_cleanup(move || timer.dispose());
     let speeds =

@@ -28,7 +28,7 @@ pub fn DataTable(
             return String::new();
         }
         let caption = element("caption", "class=\"visually-hidden\"", &escape(tr!(lab, chart.table_caption)));
-        caption + &rows(picture.visit(|charts| table(charts, ROWS)), lab.number_style())
+        caption + &rows(&picture.visit(|charts| table(charts, ROWS)), lab.number_style())
     });
     view! {
         <details class="more" on:toggle=handler(move |_| open.update(|o| *o = !*o))>
@@ -40,8 +40,11 @@ pub fn DataTable(
     }
 }
 
-fn rows(table: Table, style: NumberStyle) -> String {
-    let row = |values: Vec<f64>| cells(values.into_iter().map(|value| style.significant(value, DIGITS)));
-    let rows: String = table.rows.into_iter().map(|values| element("tr", "", &row(values))).collect();
-    element("thead", "", &headings(table.columns)) + &element("tbody", "", &rows)
+fn rows(table: &Table, style: NumberStyle) -> String {
+    let row = |values: &Vec<f64>| {
+        let texts: Vec<String> = values.iter().map(|&value| style.significant(value, DIGITS)).collect();
+        element("tr", "", &cells(&texts))
+    };
+    let rows: String = table.rows.iter().map(row).collect();
+    element("thead", "", &headings(&table.columns)) + &element("tbody", "", &rows)
 }

@@ -33,14 +33,14 @@ pub fn option(value: &str, text: &str, chosen: bool) -> String {
 }
 
 /// A row of headings of columns.
-pub fn headings(texts: impl IntoIterator<Item = String>) -> String {
-    let cells: String = texts.into_iter().map(|text| element("th", "scope=\"col\"", &escape(&text))).collect();
+pub fn headings(texts: &[String]) -> String {
+    let cells: String = texts.iter().map(|text| element("th", "scope=\"col\"", &escape(text))).collect();
     element("tr", "", &cells)
 }
 
-/// A row of plain cells.
-pub fn cells(texts: impl IntoIterator<Item = String>) -> String {
-    texts.into_iter().map(|text| element("td", "", &escape(&text))).collect()
+/// Plain cells of a row.
+pub fn cells(texts: &[String]) -> String {
+    texts.iter().map(|text| element("td", "", &escape(text))).collect()
 }
 
 #[cfg(test)]
