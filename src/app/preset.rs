@@ -1,5 +1,6 @@
 //! The choice of a published rig.
 
+use crate::app::widgets::handler;
 use leptos::prelude::*;
 
 use super::lab::{Lab, use_lab};
@@ -89,7 +90,7 @@ pub fn PresetChoice() -> impl IntoView {
             aria-label=say!(lab, preset.choose)
             title=Signal::derive(move || remark_of(lab, id.get()))
             disabled=lab.locks(Control::Preset)
-            on:change=on_change
+            on:change=handler(on_change)
             inner_html=options
         ></select>
     }

@@ -12,6 +12,7 @@ use super::share;
 use super::start::{Bench, StartFlags};
 use super::storage::{LANGUAGE, THEME};
 use super::texts::{Language, say, tr};
+use super::widgets::handler;
 use crate::scenario::{Document, Scenario, ScenarioError, setup_of};
 
 /// The element of the page that the laboratory fills; it holds the static outline until then.
@@ -67,7 +68,7 @@ pub fn Laboratory() -> impl IntoView {
                 Bench::QuadrupleTank => view! { <QuadrupleTankBench /> }.into_any(),
                 Bench::RelayTuning => view! { <RelayTuningBench /> }.into_any(),
             }}
-            {embed.then(|| view! { <EmbedFooter /> })}
+            {embed.then(|| view! { <EmbedFooter /> }.into_any())}
         </div>
     }
 }
@@ -125,7 +126,7 @@ fn Header() -> impl IntoView {
             <h1>{say!(lab, app.title)}</h1>
             <nav aria-label=say!(lab, app.benches)>{Bench::ALL.map(|bench| view! { <BenchLink bench /> }).collect_view()}</nav>
             <span class="spacer"></span>
-            <button type="button" class="button" data-testid="share" on:click=move |_| share::share(lab)>
+            <button type="button" class="button" data-testid="share" on:click=handler(move |_| share::share(lab))>
                 {say!(lab, app.share)}
             </button>
             <FileMenu />
@@ -161,7 +162,7 @@ fn BenchLink(bench: Bench) -> impl IntoView {
             href=format!("?bench={}", bench.name())
             data-testid=format!("bench-{}", bench.name())
             aria-current=move || (lab.bench.get() == bench).then_some("page")
-            on:click=go
+            on:click=handler(go)
         >
             {text}
         </a>
@@ -185,13 +186,13 @@ fn FileMenu() -> impl IntoView {
         <details class="menu" data-testid="file-menu">
             <summary>{say!(lab, app.export)}</summary>
             <div>
-                <button type="button" data-testid="save" on:click=move |_| share::save(lab)>{say!(lab, app.export_scenario)}</button>
-                <button type="button" data-testid="open" on:click=move |_| if let Some(input) = picker.get_untracked() { input.click() }>
+                <button type="button" data-testid="save" on:click=handler(move |_| share::save(lab))>{say!(lab, app.export_scenario)}</button>
+                <button type="button" data-testid="open" on:click=handler(move |_| if let Some(input) = picker.get_untracked() { input.click() })>
                     {say!(lab, app.open_scenario)}
                 </button>
-                {(!single).then(|| view! { <a href="quadtank.html" download="quadtank.html" data-testid="single-file">{say!(lab, app.single_file)}</a> })}
+                {(!single).then(|| view! { <a href="quadtank.html" download="quadtank.html" data-testid="single-file">{say!(lab, app.single_file)}</a> }.into_any())}
             </div>
-            <input type="file" accept=".json,application/json" hidden node_ref=picker data-testid="open-input" on:change=on_file />
+            <input type="file" accept=".json,application/json" hidden node_ref=picker data-testid="open-input" on:change=handler(on_file) />
         </details>
     }
 }
@@ -209,14 +210,21 @@ fn LanguageChoice() -> impl IntoView {
         lab.language.set(language);
         LANGUAGE.write(language.tag());
     };
-    let option = move |language: Language, name: &'static str| {
-        view! { <option value=language.tag() lang=language.tag() selected=move || lab.language.get() == language>{name}</option> }
-    };
+    let options = Signal::derive(move || {
+        let spoken = |language: Language, name: &str| {
+            let tag = language.tag();
+            let chosen = if lab.language.get() == language { " selected" } else { "" };
+            format!("<option value=\"{tag}\" lang=\"{tag}\"{chosen}>{name}</option>")
+        };
+        spoken(Language::English, "English") + &spoken(Language::Portuguese, "Português")
+    });
     view! {
-        <select data-testid="language" aria-label=say!(lab, app.language) on:change=choose prop:value=move || lab.language.get().tag().to_owned()>
-            {option(Language::English, "English")}
-            {option(Language::Portuguese, "Português")}
-        </select>
+        <select
+            data-testid="language"
+            aria-label=say!(lab, app.language)
+            on:change=handler(choose)
+            inner_html=options
+        ></select>
     }
 }
 
@@ -231,8 +239,8 @@ fn ThemeSwitch() -> impl IntoView {
         THEME.write(if lab.dark.get_untracked() { "dark" } else { "light" });
     };
     view! {
-        <button type="button" class="button" data-testid="theme" aria-label=name title=name on:click=switch>
-            {move || if lab.dark.get() { "☀" } else { "☾" }}
+        <button type="button" class="button" data-testid="theme" aria-label=name title=name on:click=handler(switch)>
+            {Signal::derive(move || if lab.dark.get() { "☀" } else { "☾" }.to_owned())}
         </button>
     }
 }
@@ -261,9 +269,10 @@ fn Notices() -> impl IntoView {
                 view! {
                     <div class=class data-testid="notice">
                         {content(notice)}
-                        <button type="button" class="button small" aria-label=tr!(lab, app.close) on:click=move |_| lab.notice.set(None)>"✕"</button>
+                        <button type="button" class="button small" aria-label=tr!(lab, app.close) on:click=handler(move |_| lab.notice.set(None))>"✕"</button>
                     </div>
                 }
+                .into_any()
             })}
         </div>
     }
@@ -313,7 +322,7 @@ fn EmbedFooter() -> impl IntoView {
     };
     view! {
         <footer class="page">
-            <a href=bare target="_blank" rel="noopener" data-testid="full-lab" on:click=on_click>{say!(lab, app.embedded)}</a>
+            <a href=bare target="_blank" rel="noopener" data-testid="full-lab" on:click=handler(on_click)>{say!(lab, app.embedded)}</a>
         </footer>
     }
 }

@@ -1,5 +1,6 @@
 //! The decentralised PI controller.
 
+use crate::app::widgets::handler;
 use leptos::prelude::*;
 
 use super::sentences::{self};
@@ -50,7 +51,7 @@ pub fn ControllerCard() -> impl IntoView {
                 <summary data-testid="pi-more">{say!(lab, pi.more)}</summary>
                 <FinePrint />
             </details>
-            <p class="sentence" class:warm=move || stability().1 role="status" data-testid="stability" inner_html=Signal::derive(move || rich(&stability().0))></p>
+            <p class=move || if stability().1 { "sentence warm" } else { "sentence" }.to_owned() role="status" data-testid="stability" inner_html=Signal::derive(move || rich(&stability().0))></p>
         </section>
     }
 }
@@ -191,7 +192,7 @@ fn FinePrint() -> impl IntoView {
                 data-testid="antiwindup"
                 prop:checked=guarded
                 disabled=locked
-                on:change=switch_windup
+                on:change=handler(switch_windup)
             />
             {say!(lab, pi.antiwindup)}
         </label>
@@ -243,7 +244,7 @@ fn ManualMode(index: usize) -> impl IntoView {
     view! {
         <div class="toolbar">
             <label class="check">
-                <input type="checkbox" data-testid=check_id prop:checked=by_hand disabled=locked on:change=switch />
+                <input type="checkbox" data-testid=check_id prop:checked=by_hand disabled=locked on:change=handler(switch) />
                 {say!(lab, pi.manual, level = index + 1)}
             </label>
             <button
@@ -252,7 +253,7 @@ fn ManualMode(index: usize) -> impl IntoView {
                 data-testid=SIGN_IDS[index]
                 disabled=lab.locks(Control::Gains)
                 aria-label=say!(lab, pi.sign, level = index + 1)
-                on:click=move |_| lab.edit(|s| s.controller.loops[index].gain *= -1.0)
+                on:click=handler(move |_| lab.edit(|s| s.controller.loops[index].gain *= -1.0))
             >
                 "±K"{["₁", "₂"][index]}
             </button>

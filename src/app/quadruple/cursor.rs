@@ -1,5 +1,6 @@
 //! The cursor in time: it says which moment the drawing shows, and it can run.
 
+use crate::app::widgets::handler;
 use gloo_timers::callback::Interval;
 use leptos::prelude::*;
 
@@ -45,9 +46,10 @@ pub fn PlayControls() -> impl IntoView {
         playing.set(true);
         timer.set_value(Some(Interval::new(TICK_MS, tick)));
     };
-    let text = Signal::derive(move || match playing.get() {
-        true => format!("❚❚ {}", tr!(lab, experiment.pause)),
-        false => format!("▶ {}", tr!(lab, experiment.play)),
+    let text = Signal::derive(move || {
+        let (sign, name) =
+            if playing.get() { ("❚❚", tr!(lab, experiment.pause)) } else { ("▶", tr!(lab, experiment.play)) };
+        format!("{sign} {name}")
     });
     on_cleanup(move || timer.dispose());
     let speeds =
@@ -58,16 +60,16 @@ pub fn PlayControls() -> impl IntoView {
                 type="button"
                 class="button"
                 data-testid="play"
-                aria-pressed=move || if playing.get() { "true" } else { "false" }
+                aria-pressed=move || playing.get().to_string()
                 title=say!(lab, experiment.play_name)
-                on:click=move |_| if playing.get_untracked() { stop() } else { start() }
+                on:click=handler(move |_| if playing.get_untracked() { stop() } else { start() })
             >
                 {text}
             </button>
             <select
                 data-testid="speed"
                 aria-label=say!(lab, experiment.speed)
-                on:change=move |event| if let Ok(choice) = event_target_value(&event).parse() { speed.set(choice) }
+                on:change=handler(move |event| if let Ok(choice) = event_target_value(&event).parse() { speed.set(choice) })
                 inner_html=speeds
             ></select>
         </div>

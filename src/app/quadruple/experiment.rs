@@ -1,5 +1,6 @@
 //! What is done to the loop: steps, a load, noise, how long, and the run played on the drawing.
 
+use crate::app::widgets::handler;
 use leptos::prelude::*;
 
 use super::cursor::PlayControls;
@@ -76,7 +77,7 @@ pub fn ExperimentCard() -> impl IntoView {
                     data-testid="quantised"
                     prop:checked=lab.part(|s| s.experiment.measurement.quantised)
                     disabled=locked
-                    on:change=move |event| { let on = event_target_checked(&event); lab.edit(|s| s.experiment.measurement.quantised = on) }
+                    on:change=handler(move |event| { let on = event_target_checked(&event); lab.edit(|s| s.experiment.measurement.quantised = on) })
                 />
                 {say!(lab, experiment.quantised)}
             </label>
@@ -251,7 +252,7 @@ fn LoadControls() -> impl IntoView {
     view! {
         <div class="row load">
             <label for="load-kind">{say!(lab, experiment.load)}</label>
-            <select id="load-kind" data-testid="load-kind" disabled=locked on:change=choose inner_html=options></select>
+            <select id="load-kind" data-testid="load-kind" disabled=locked on:change=handler(choose) inner_html=options></select>
         </div>
         {move || present.get().then(|| view! { <div class="timed">
             <SliderField

@@ -44,7 +44,7 @@ fn table(lab: Lab) -> String {
     ];
     let caption = element("caption", "class=\"visually-hidden\"", &escape(tr!(lab, responses.metrics)));
     let rows: String = rows(lab).iter().map(|row| row_html(lab, row)).collect();
-    caption + &element("thead", "", &headings(columns)) + &element("tbody", "", &rows)
+    caption + &element("thead", "", &headings(&columns)) + &element("tbody", "", &rows)
 }
 
 fn rows(lab: Lab) -> Vec<Row> {
@@ -95,5 +95,5 @@ fn row_html(lab: Lab, row: &Row) -> String {
         style.fixed(m.saturated_s, 0),
     ];
     let name = element("th", &format!("scope=\"row\" class=\"{}\"", row.class), &escape(&row.name));
-    element("tr", "", &(name + &cells(figures)))
+    element("tr", "", &(name + &cells(&figures)))
 }

@@ -1,5 +1,6 @@
 //! The card with the drawing of the rig, the valves, and one sentence about where the zero is.
 
+use crate::app::widgets::handler;
 use leptos::prelude::*;
 
 use super::moment::use_moment;
@@ -50,7 +51,7 @@ pub fn ProcessCard() -> impl IntoView {
                 data-testid="process-sentence"
                 inner_html=paragraphs
             ></div>
-            <details class="more" on:toggle=move |_| open.update(|o| *o = !*o)>
+            <details class="more" on:toggle=handler(move |_| open.update(|o| *o = !*o))>
                 <summary>{say!(lab, process.operating_point)}</summary>
                 <PresetRemark />
                 <div class="fields">

@@ -21,7 +21,7 @@ pub fn PublishedFigures() -> impl IntoView {
     let table = Signal::derive(move || {
         let columns = [tr!(lab, process.quantity), tr!(lab, process.exact), tr!(lab, process.printed)];
         let rows: String = rows(lab, preset().as_ref()).into_iter().map(row_html).collect();
-        element("thead", "", &headings(columns.map(str::to_owned))) + &element("tbody", "", &rows)
+        element("thead", "", &headings(&columns.map(str::to_owned))) + &element("tbody", "", &rows)
     });
     let note = Signal::derive(move || {
         preset().map_or_else(String::new, |p| {

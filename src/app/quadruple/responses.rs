@@ -1,5 +1,6 @@
 //! The step responses: levels and pump voltages, with cursor, zoom, pinned runs, metrics and a data table.
 
+use crate::app::widgets::handler;
 use leptos::prelude::*;
 
 use super::metrics::MetricsTable;
@@ -76,13 +77,13 @@ fn Toolbar(axis: TimeAxis) -> impl IntoView {
     let linear = move || lab.scenario.with(|s| !s.view.hide_linear);
     view! {
         <div class="toolbar">
-            <button type="button" class="button small" data-testid="pin" on:click=pin>{say!(lab, responses.pin)}</button>
+            <button type="button" class="button small" data-testid="pin" on:click=handler(pin)>{say!(lab, responses.pin)}</button>
             <button
                 type="button"
                 class="button small"
                 data-testid="unpin"
                 hidden=move || lab.words.pinned.with(|p| p.is_empty())
-                on:click=move |_| lab.scenario.update(|s| s.pinned.clear())
+                on:click=handler(move |_| lab.scenario.update(|s| s.pinned.clear()))
             >
                 {say!(lab, responses.unpin)}
             </button>
@@ -90,8 +91,8 @@ fn Toolbar(axis: TimeAxis) -> impl IntoView {
                 type="button"
                 class="button small"
                 data-testid="linear"
-                aria-pressed=move || if linear() { "true" } else { "false" }
-                on:click=move |_| lab.scenario.update(|s| s.view.hide_linear = !s.view.hide_linear)
+                aria-pressed=move || linear().to_string()
+                on:click=handler(move |_| lab.scenario.update(|s| s.view.hide_linear = !s.view.hide_linear))
             >
                 {say!(lab, responses.hide_linear)}
             </button>

@@ -1,5 +1,6 @@
 //! The valve plane: γ1 across, γ2 upwards, shaded by the right-most zero, with a point to drag.
 
+use crate::app::widgets::handler;
 use leptos::ev::KeyboardEvent;
 use leptos::prelude::*;
 
@@ -134,8 +135,8 @@ fn PublishedPoint(id: PresetId, frames: RwSignal<Vec<Frame>>) -> impl IntoView {
             aria-label=label
             data-testid=format!("point-{}", id.name())
             transform=place
-            on:click=move |_| choose()
-            on:keydown=on_key
+            on:click=handler(move |_| choose())
+            on:keydown=handler(on_key)
             inner_html=look
         ></g>
     }

@@ -9,8 +9,7 @@ use super::pictures;
 use super::session::{Session, time_unit, use_session};
 use crate::app::start::Control;
 use crate::app::texts::{say, tr};
-use crate::app::widgets::html::{cells, element, escape, headings};
-use crate::app::widgets::{Nudge, PointHandle, Scale};
+use crate::app::widgets::{Nudge, PointHandle, Scale, html};
 use crate::figure::Frame;
 use crate::scenario::tuning::{CriticalSpec, TuningSetup};
 use crate::tuning::{GainLimit, importance_direction};
@@ -141,15 +140,12 @@ fn table(session: Session) -> String {
     };
     let on_curve = study.search.nearest(gains);
     let number = |v: Option<f64>| v.map_or_else(|| "–".to_owned(), |v| style.significant(v, 4));
-    let row = |name: String, chosen: f64, curve: Option<f64>| {
-        let name = element("th", "scope=\"row\"", &escape(&name));
-        element("tr", "", &(name + &cells([number(Some(chosen)), number(curve)])))
-    };
+    let row =
+        |name: String, chosen: f64, curve: Option<f64>| html::row("", &name, &[number(Some(chosen)), number(curve)]);
     let rows = row("kc₁".to_owned(), gains[0], on_curve.map(|p| p.gains[0]))
         + &row("kc₂".to_owned(), gains[1], on_curve.map(|p| p.gains[1]))
         + &row(format!("Tc ({unit})"), std::f64::consts::TAU / frequency, on_curve.map(|p| p.period()))
         + &row(format!("ωc (rad/{unit})"), frequency, on_curve.map(|p| p.frequency));
     let names = [String::new(), tr!(lab, relay.col_chosen).to_owned(), tr!(lab, relay.col_curve).to_owned()];
-    let caption = element("caption", "class=\"visually-hidden\"", &escape(tr!(lab, relay.curve_caption)));
-    caption + &element("thead", "", &headings(names)) + &element("tbody", "", &rows)
+    html::table(tr!(lab, relay.curve_caption), &names, &rows)
 }

@@ -10,8 +10,8 @@ use super::session::{Session, use_session};
 use crate::app::lab::Lab;
 use crate::app::start::Control;
 use crate::app::texts::{say, tr};
-use crate::app::widgets::html::{cells, element, escape, headings, option};
-use crate::app::widgets::{Choice, Nudge, PointHandle, Scale};
+use crate::app::widgets::html::option;
+use crate::app::widgets::{Choice, Nudge, PointHandle, Scale, html};
 use crate::figure::Frame;
 use crate::linear::{Closure, Complex, LoopStability};
 use crate::scenario::tuning::{DesignRoot, TuningSetup, rule_targets};
@@ -234,8 +234,7 @@ fn table(session: Session) -> String {
         let row = |(k, root): (usize, &DesignRoot)| rows_of_root(lab, k + 1, root, chosen == k + 1);
         design.roots.iter().enumerate().map(row).collect::<String>()
     });
-    let caption = element("caption", "class=\"visually-hidden\"", &escape(tr!(lab, relay.gains_caption)));
-    caption + &element("thead", "", &headings(names)) + &element("tbody", "", &rows.unwrap_or_default())
+    html::table(tr!(lab, relay.gains_caption), &names, &rows.unwrap_or_default())
 }
 
 fn rows_of_root(lab: Lab, number: usize, root: &DesignRoot, chosen: bool) -> String {
@@ -243,10 +242,10 @@ fn rows_of_root(lab: Lab, number: usize, root: &DesignRoot, chosen: bool) -> Str
     let verdict = if root.stability == LoopStability::Stable { "✓" } else { "✗" };
     let row = |(k, pid): (usize, &crate::control::ParallelPid)| {
         let name = format!("{number}, p{} {verdict}", ["₁", "₂"][k]);
-        let class = format!("scope=\"row\" class=\"{}\"", ["loop1", "loop2"][k]);
+        let loop_class = ["loop1", "loop2"][k];
+        let class = if chosen { format!("{loop_class} chosen") } else { loop_class.to_owned() };
         let gains = [pid.proportional, pid.integral, pid.derivative].map(|v| style.fixed(v, 4));
-        let row = if chosen { "class=\"chosen\"" } else { "" };
-        element("tr", row, &(element("th", &class, &escape(&name)) + &cells(gains)))
+        html::row(&class, &name, &gains)
     };
     root.controllers.iter().enumerate().map(row).collect()
 }

@@ -35,7 +35,8 @@ fn table(session: Session) -> Option<String> {
     let style = lab.number_style();
     let head: String = figures.iter().map(|f| element("th", "scope=\"col\"", &escape(f.symbol))).collect();
     let heading = |text: &str| element("th", "scope=\"row\"", &escape(text));
-    let printed = cells(figures.iter().map(|f| style.fixed(f.printed, f.decimals.into())));
+    let printed: Vec<String> = figures.iter().map(|f| style.fixed(f.printed, f.decimals.into())).collect();
+    let printed = cells(&printed);
     let computed: String = figures
         .iter()
         .map(|f: &PrintedFigure| {

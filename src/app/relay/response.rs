@@ -11,8 +11,8 @@ use super::session::{Session, time_unit, use_session};
 use super::timeline::timeline;
 use crate::app::start::Control;
 use crate::app::texts::{say, tr};
-use crate::app::widgets::html::{cells, element, escape, headings, option};
-use crate::app::widgets::{Choice, DataTable, ZoomButtons};
+use crate::app::widgets::html::option;
+use crate::app::widgets::{Choice, DataTable, ZoomButtons, handler, html};
 use crate::figure::Frame;
 use crate::linear::LoopStability;
 use crate::scenario::tuning::{CompareSpec, DecouplerSpec, TuningPlant, TuningScenario};
@@ -76,8 +76,8 @@ fn Pins() -> impl IntoView {
         });
     };
     view! {
-        <button type="button" class="button small" data-testid="response-pin" on:click=pin>{say!(lab, responses.pin)}</button>
-        <button type="button" class="button small" data-testid="response-unpin" hidden=none on:click=move |_| lab.tuning.update(|s| s.pinned.clear())>{say!(lab, responses.unpin)}</button>
+        <button type="button" class="button small" data-testid="response-pin" on:click=handler(pin)>{say!(lab, responses.pin)}</button>
+        <button type="button" class="button small" data-testid="response-unpin" hidden=none on:click=handler(move |_| lab.tuning.update(|s| s.pinned.clear()))>{say!(lab, responses.unpin)}</button>
     }
 }
 
@@ -220,8 +220,7 @@ fn table(session: Session) -> String {
             rows += &rows_of(session, &tr!(lab, relay.row_pinned, number = k + 1), &design.response.figures);
         }
     }
-    let caption = element("caption", "class=\"visually-hidden\"", &escape(tr!(lab, relay.response_caption)));
-    caption + &element("thead", "", &headings(names)) + &element("tbody", "", &rows)
+    html::table(tr!(lab, relay.response_caption), &names, &rows)
 }
 
 fn rows_of(session: Session, name: &str, figures: &[StepFigures; 2]) -> String {
@@ -230,10 +229,9 @@ fn rows_of(session: Session, name: &str, figures: &[StepFigures; 2]) -> String {
     let percent =
         |v: Option<f64>| v.map_or_else(|| "–".to_owned(), |v| format!("{}\u{a0}%", style.fixed(100.0 * v, 1)));
     let row = |(k, of): (usize, &StepFigures)| {
-        let class = ["scope=\"row\" class=\"loop1\"", "scope=\"row\" class=\"loop2\""][k];
         let label = format!("y{} {name}", ["₁", "₂"][k]);
         let figures = [percent(of.overshoot), number(of.settling_time), number(of.peak), number(Some(of.iae))];
-        element("tr", "", &(element("th", class, &escape(label.trim())) + &cells(figures)))
+        html::row(["loop1", "loop2"][k], label.trim(), &figures)
     };
     figures.iter().enumerate().map(row).collect()
 }

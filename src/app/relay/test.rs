@@ -11,8 +11,8 @@ use super::session::{Session, time_unit, use_session};
 use super::timeline::timeline;
 use crate::app::start::Control;
 use crate::app::texts::{say, tr};
-use crate::app::widgets::html::{cells, element, escape, headings, option};
-use crate::app::widgets::{Choice, DataTable, Scale, ZoomButtons};
+use crate::app::widgets::html::{cells, element, escape, option};
+use crate::app::widgets::{Choice, DataTable, Scale, ZoomButtons, html};
 use crate::control::IsaPid;
 use crate::figure::Frame;
 use crate::scenario::tuning::{Behind, TestKind, Tested, TuningSetup};
@@ -356,18 +356,16 @@ fn table(session: Session) -> String {
             let Some(oscillation) = reading.oscillation else { continue };
             for (k, of) in oscillation.loops.iter().enumerate().filter(|(_, of)| of.gain_by_peak.is_some()) {
                 let label = if name.is_empty() { (k + 1).to_string() } else { name.clone() };
-                let class = ["class=\"loop1\" scope=\"row\"", "class=\"loop2\" scope=\"row\""];
                 let is_second = label.ends_with('2') || second;
                 let figures = [Some(oscillation.period), Some(of.amplitude), of.gain_by_peak, of.gain_by_harmonic];
-                let mut row =
-                    element("th", class[usize::from(is_second)], &escape(&label)) + &cells(figures.map(number));
+                let mut figures = figures.map(number).to_vec();
                 if has_settings {
                     let finite = |v: f64| Some(v).filter(|v| v.is_finite());
                     let settings = settings
                         .map_or([None; 3], |s| [finite(s.gain), finite(s.integral_time), finite(s.derivative_time)]);
-                    row += &cells(settings.map(number));
+                    figures.extend(settings.map(number));
                 }
-                rows += &element("tr", "", &row);
+                rows += &html::row(["loop1", "loop2"][usize::from(is_second)], &label, &figures);
             }
         }
         let percent = |distance: Option<CurveDistance>| {
@@ -375,9 +373,8 @@ fn table(session: Session) -> String {
         };
         if distances.iter().any(Option::is_some) {
             let name = element("th", "scope=\"row\" colspan=\"3\"", &escape(tr!(lab, relay.distance)));
-            rows += &element("tr", "", &(name + &cells(distances.map(percent))));
+            rows += &element("tr", "", &(name + &cells(&distances.map(percent))));
         }
-        let caption = element("caption", "class=\"visually-hidden\"", &escape(tr!(lab, relay.test_caption)));
-        caption + &element("thead", "", &headings(names)) + &element("tbody", "", &rows)
+        html::table(tr!(lab, relay.test_caption), &names, &rows)
     })
 }

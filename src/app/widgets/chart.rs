@@ -1,5 +1,6 @@
 use std::sync::Arc;
 
+use super::handler;
 use leptos::html::Canvas;
 use leptos::prelude::*;
 use web_sys::HtmlCanvasElement;
@@ -118,7 +119,7 @@ pub fn ChartMenu(
     // One closure for all kinds, so that their buttons are one view.
     let button = |kind: &'static str, save: Box<dyn Fn()>| {
         let id = format!("{file}-{}", kind.to_ascii_lowercase());
-        view! { <button type="button" data-testid=id on:click=move |_| save()>{kind}</button> }.into_any()
+        view! { <button type="button" data-testid=id on:click=handler(move |_| save())>{kind}</button> }.into_any()
     };
     view! {
         <details class="menu small" data-testid=format!("{file}-menu")>

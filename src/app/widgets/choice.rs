@@ -1,5 +1,7 @@
 use leptos::prelude::*;
 
+use super::handler;
+
 /// A choice of one among many.
 #[component]
 pub fn Choice(
@@ -22,7 +24,7 @@ pub fn Choice(
             data-testid=id
             aria-label=name
             disabled=disabled
-            on:change=move |event| on_choose.run(event_target_value(&event))
+            on:change=handler(move |event| on_choose.run(event_target_value(&event)))
             inner_html=options
         ></select>
     }

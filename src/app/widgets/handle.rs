@@ -1,3 +1,4 @@
+use super::handler;
 use leptos::ev::{KeyboardEvent, PointerEvent, TouchEvent};
 use leptos::prelude::*;
 use leptos::wasm_bindgen::JsCast;
@@ -135,13 +136,13 @@ pub fn Handle(
             aria-valuenow=move || value.get().to_string()
             aria-valuetext=spoken
             aria-disabled=locked.then_some("true")
-            on:pointerdown=on_down
-            on:pointermove=on_move
+            on:pointerdown=handler(on_down)
+            on:pointermove=handler(on_move)
             // A finger on the handle drags it; anywhere else on the drawing it scrolls the page.
-            on:touchstart=|event: TouchEvent| event.prevent_default()
-            on:pointerup=release
-            on:pointercancel=release
-            on:keydown=on_key
+            on:touchstart=handler(|event: TouchEvent| event.prevent_default())
+            on:pointerup=handler(release)
+            on:pointercancel=handler(release)
+            on:keydown=handler(on_key)
             inner_html=look
         >
         </g>

@@ -32,15 +32,27 @@ pub fn option(value: &str, text: &str, chosen: bool) -> String {
     format!("<option value=\"{}\"{selected}>{}</option>", escape(value), escape(text))
 }
 
+/// The content of a table: its caption for those who do not see it, headings, and rows that are HTML already.
+pub fn table(caption: &str, names: &[String], rows: &str) -> String {
+    let caption = element("caption", "class=\"visually-hidden\"", &escape(caption));
+    caption + &element("thead", "", &headings(names)) + &element("tbody", "", rows)
+}
+
+/// A row of a table with a heading of a class.
+pub fn row(class: &str, name: &str, texts: &[String]) -> String {
+    let heading = element("th", &format!("scope=\"row\" class=\"{class}\""), &escape(name));
+    element("tr", "", &(heading + &cells(texts)))
+}
+
 /// A row of headings of columns.
-pub fn headings(texts: impl IntoIterator<Item = String>) -> String {
-    let cells: String = texts.into_iter().map(|text| element("th", "scope=\"col\"", &escape(&text))).collect();
+pub fn headings(texts: &[String]) -> String {
+    let cells: String = texts.iter().map(|text| element("th", "scope=\"col\"", &escape(text))).collect();
     element("tr", "", &cells)
 }
 
-/// A row of plain cells.
-pub fn cells(texts: impl IntoIterator<Item = String>) -> String {
-    texts.into_iter().map(|text| element("td", "", &escape(&text))).collect()
+/// Plain cells of a row.
+pub fn cells(texts: &[String]) -> String {
+    texts.iter().map(|text| element("td", "", &escape(text))).collect()
 }
 
 #[cfg(test)]
