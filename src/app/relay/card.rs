@@ -27,7 +27,7 @@ pub struct Step {
     /// The settings.
     pub settings: AnyView,
     /// What came out, and whether all is well.
-    pub verdict: Memo<(bool, String)>,
+    pub verdict: Signal<(bool, String)>,
     /// What stands below.
     pub below: AnyView,
 }
@@ -35,9 +35,9 @@ pub struct Step {
 /// A step as a card. One function for all, so that it is compiled once.
 pub fn card(step: Step) -> AnyView {
     let Step { name, number, title, toolbar, picture, frames, place, overlay, settings, verdict, below } = step;
-    let summary = Signal::derive(move || verdict.with(|(_, text)| text.replace("**", "")));
-    let class = Signal::derive(move || if verdict.with(|v| v.0) { "verdict" } else { "verdict warm" }.to_owned());
-    let text = Signal::derive(move || verdict.with(|(_, text)| rich(text)));
+    let summary = Signal::derive(move || verdict.get().1.replace("**", ""));
+    let class = Signal::derive(move || if verdict.get().0 { "verdict" } else { "verdict warm" }.to_owned());
+    let text = Signal::derive(move || rich(&verdict.get().1));
     let heading = format!("{name}-title");
     let labelled_by = heading.clone();
     view! {

@@ -3,8 +3,9 @@
 use leptos::prelude::*;
 
 use super::session::{Session, time_unit};
+use crate::app::lab::use_lab;
 use crate::app::start::Control;
-use crate::app::widgets::{NumberField, Scale, Segmented, SliderField};
+use crate::app::widgets::{Choice, NumberField, Scale, Segmented, SliderField};
 use crate::scenario::tuning::TuningSetup;
 
 /// A number of the session.
@@ -69,8 +70,21 @@ pub fn segmented(
 ) -> AnyView {
     let choices = choices.into_iter().enumerate().map(|(index, (name, text))| (index, name, text)).collect();
     let on_choose = Callback::new(move |index| session.edit(|s| write(s, index)));
-    let (value, disabled) = (session.part(read), session.locks(lock));
+    let value = Signal::derive(move || session.lab.tuning.with(|s| read(&s.tuning)));
+    let disabled = session.locks(lock);
     view! { <Segmented<usize> label choices value on_choose disabled /> }.into_any()
+}
+
+/// A choice among many.
+pub fn choice(
+    id: &'static str,
+    name: Signal<String>,
+    options: Signal<String>,
+    on_choose: impl Fn(String) + Send + Sync + 'static,
+    lock: Control,
+) -> AnyView {
+    let on_choose = Callback::new(on_choose);
+    view! { <Choice id name options on_choose disabled=use_lab().locks(lock) /> }.into_any()
 }
 
 /// A text that is the same in all languages.

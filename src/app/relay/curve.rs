@@ -56,7 +56,7 @@ pub fn CurveCard() -> impl IntoView {
         place: "chart",
         overlay: view! { <svg class="over"><CriticalHandle frames chosen /></svg> }.into_any(),
         settings: settings.into_any(),
-        verdict: Memo::new(move |_| sentence(session)),
+        verdict: Signal::derive(move || sentence(session)),
         below: ().into_any(),
     })
 }

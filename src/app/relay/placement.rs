@@ -3,7 +3,7 @@
 use leptos::prelude::*;
 
 use super::card::{Step, card, figures, hideable, remark};
-use super::controls::{Knob, knob, segmented, symbol};
+use super::controls::{Knob, choice, knob, segmented, symbol};
 use super::errors;
 use super::pictures::{self, short_name};
 use super::session::{Session, use_session};
@@ -11,7 +11,7 @@ use crate::app::lab::Lab;
 use crate::app::start::Control;
 use crate::app::texts::{say, tr};
 use crate::app::widgets::html::option;
-use crate::app::widgets::{Choice, Nudge, PointHandle, Scale, html};
+use crate::app::widgets::{Nudge, PointHandle, Scale, html};
 use crate::figure::Frame;
 use crate::linear::{Closure, Complex, LoopStability};
 use crate::scenario::tuning::{DesignRoot, TuningSetup, rule_targets};
@@ -38,7 +38,7 @@ pub fn PlacementCard() -> impl IntoView {
         place: "chart square",
         overlay: view! { <svg class="over"><TargetHandle frames /></svg> }.into_any(),
         settings: settings(session),
-        verdict: Memo::new(move |_| sentence(session)),
+        verdict: Signal::derive(move || sentence(session)),
         below: ().into_any(),
     })
 }
@@ -93,7 +93,8 @@ fn settings(session: Session) -> AnyView {
             ),
         ),
     ];
-    let rule = view! { <Choice id="target-rule" name=say!(lab, relay.target_rule) options=rules(session) on_choose=move |name: String| choose_rule(session, &name) disabled=lab.locks(lock) /> };
+    let choose = move |name: String| choose_rule(session, &name);
+    let rule = choice("target-rule", say!(lab, relay.target_rule), rules(session), choose, lock);
     let table = Signal::derive(move || table(session));
     vec![
         segmented(
@@ -105,7 +106,7 @@ fn settings(session: Session) -> AnyView {
             lock,
         ),
         hideable("pairs", Signal::stored(false), pairs),
-        rule.into_any(),
+        rule,
         figures("gains", say!(lab, relay.gains_caption), table),
     ]
     .into_any()
@@ -146,7 +147,7 @@ fn choose_rule(session: Session, name: &str) {
 fn TargetHandle(frames: RwSignal<Vec<Frame>>) -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
-    let [re, im]: [Signal<f64>; 2] = [session.part(|s| s.design.target[0]), session.part(|s| s.design.target[1])];
+    let [re, im] = [session.part(|s| s.design.target[0]), session.part(|s| s.design.target[1])];
     let set = move |at: [f64; 2]| {
         let on_grid = at.map(|v| ((v / STEP).round() * STEP).clamp(TARGETS.0, TARGETS.1));
         session.edit(|s| s.design.target = on_grid);

@@ -3,7 +3,7 @@
 use leptos::prelude::*;
 
 use super::card::{Step, card, figures};
-use super::controls::{segmented, symbol};
+use super::controls::{choice, segmented, symbol};
 use super::errors;
 use super::pictures;
 use super::readout::{readout, surface};
@@ -12,7 +12,7 @@ use super::timeline::timeline;
 use crate::app::start::Control;
 use crate::app::texts::{say, tr};
 use crate::app::widgets::html::option;
-use crate::app::widgets::{Choice, DataTable, ZoomButtons, handler, html};
+use crate::app::widgets::{DataTable, ZoomButtons, handler, html};
 use crate::figure::Frame;
 use crate::linear::LoopStability;
 use crate::scenario::tuning::{CompareSpec, DecouplerSpec, TuningPlant, TuningScenario};
@@ -55,7 +55,7 @@ pub fn ResponseCard() -> impl IntoView {
         place: "chart",
         overlay: surface("response-surface", axis, frames, label, values),
         settings: settings(session),
-        verdict: Memo::new(move |_| sentence(session)),
+        verdict: Signal::derive(move || sentence(session)),
         below: view! { <DataTable picture=picture.clone() id="response-table" /> }.into_any(),
         picture,
     })
@@ -105,8 +105,8 @@ fn settings(session: Session) -> AnyView {
             |s, k| s.response.references = [[1.0, 0.0], [0.0, 1.0]][k],
             lock,
         ),
-        view! { <Choice id="decoupler" name=say!(lab, relay.decoupler) options=decouplers(session) on_choose=decoupler disabled=lab.locks(lock) /> }.into_any(),
-        view! { <Choice id="rival" name=say!(lab, relay.compare) options=rivals(session) on_choose=rival disabled=lab.locks(lock) /> }.into_any(),
+        choice("decoupler", say!(lab, relay.decoupler), decouplers(session), decoupler, lock),
+        choice("rival", say!(lab, relay.compare), rivals(session), rival, lock),
         figures("response-figures", say!(lab, relay.response_caption), table),
     ]
     .into_any()

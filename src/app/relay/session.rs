@@ -135,8 +135,8 @@ impl Session {
         self.edit(|s| *s = setup);
     }
 
-    /// A part of the setup, for controls.
-    pub fn part<T: PartialEq + Send + Sync + 'static>(self, read: fn(&TuningSetup) -> T) -> Signal<T> {
+    /// A number of the setup, for controls.
+    pub fn part(self, read: fn(&TuningSetup) -> f64) -> Signal<f64> {
         let scenario = self.lab.tuning;
         Memo::new(move |_| scenario.with(|s| read(&s.tuning))).into()
     }

@@ -3,7 +3,7 @@
 use leptos::prelude::*;
 
 use super::card::{Step, card, figures, hideable};
-use super::controls::{Knob, knob, segmented};
+use super::controls::{Knob, choice, knob, segmented};
 use super::errors;
 use super::pictures::{self, record_of, short_name};
 use super::readout::{readout, surface};
@@ -12,7 +12,7 @@ use super::timeline::timeline;
 use crate::app::start::Control;
 use crate::app::texts::{say, tr};
 use crate::app::widgets::html::{cells, element, escape, option};
-use crate::app::widgets::{Choice, DataTable, Scale, ZoomButtons, html};
+use crate::app::widgets::{DataTable, Scale, ZoomButtons, html};
 use crate::control::IsaPid;
 use crate::figure::Frame;
 use crate::scenario::tuning::{Behind, TestKind, Tested, TuningSetup};
@@ -33,7 +33,7 @@ pub fn TestCard() -> impl IntoView {
     let frames = RwSignal::new(Vec::<Frame>::new());
     let axis = timeline(session.part(|s| s.test.duration));
     let picture = pictures::test(session, axis.window);
-    let verdict = Memo::new(move |_| sentence(session));
+    let verdict = Signal::derive(move || sentence(session));
     let values = readout(session, axis.cursor, move |show| {
         session.words.test.with(|outcome| {
             if let Some(trace) = outcome.as_ref().as_ref().ok().and_then(record_of) {
@@ -60,11 +60,6 @@ pub fn TestCard() -> impl IntoView {
 
 fn settings(session: Session) -> AnyView {
     let lab = session.lab;
-    let lock = Control::Test;
-    let free = |id, label, name, read, write, limits| {
-        let (travel, scale, is_time, class) = (None, Scale::Linear(0.05), false, "");
-        Knob { id: (id, ""), label, name, read, write, limits, travel, scale, is_time, class, lock }
-    };
     let kinds = vec![
         ("test-single", say!(lab, relay.single)),
         ("test-independent", say!(lab, relay.independent)),
@@ -72,129 +67,116 @@ fn settings(session: Session) -> AnyView {
         ("test-simultaneous", say!(lab, relay.simultaneous)),
     ];
     let kind = |s: &TuningSetup| KINDS.iter().position(|&k| k == s.test.kind).unwrap_or(3);
-    let loops = vec![
-        ("test-loop1", say!(lab, relay.loop_name, number = 1)),
-        ("test-loop2", say!(lab, relay.loop_name, number = 2)),
-    ];
-    let one = |mut k: Knob, class| {
-        k.class = class;
-        knob(session, &k)
-    };
+    let table = Signal::derive(move || table(session));
+    vec![
+        segmented(session, say!(lab, relay.kind), kinds, kind, |s, k| s.test.kind = KINDS[k], Control::Test),
+        hideable("", session.flag(|s| s.test.kind != TestKind::Single), single(session)),
+        hideable("pairs", Signal::stored(false), sizes(session)),
+        hideable("pairs", session.flag(|s| is_tuned(s.test.kind)), relays(session)),
+        hideable("", session.flag(|s| !is_tuned(s.test.kind)), vec![rule(session)]),
+        hideable("pairs", session.flag(|s| s.test.kind != TestKind::Independent), detuning(session)),
+        hideable("pairs", session.flag(|s| s.test.kind != TestKind::Sequential), passes(session)),
+        figures("test-figures", say!(lab, relay.test_caption), table),
+    ]
+    .into_any()
+}
+
+/// A number field of the test.
+fn field(
+    id: &'static str,
+    label: &'static str,
+    name: Signal<String>,
+    read: fn(&TuningSetup) -> f64,
+    write: fn(&mut TuningSetup, f64),
+    limits: (f64, f64),
+) -> Knob {
+    let (travel, scale, is_time, class) = (None, Scale::Linear(0.05), false, "");
+    Knob { id: (id, ""), label, name, read, write, limits, travel, scale, is_time, class, lock: Control::Test }
+}
+
+/// Amplitudes, by the first one and the ratio, and duration.
+fn sizes(session: Session) -> Vec<AnyView> {
+    let lab = session.lab;
+    let set_ratio = |s: &mut TuningSetup, v: f64| s.test.amplitudes[1] = v * s.test.amplitudes[0];
     let ratio = Knob {
         id: ("ratio", "ratio-number"),
         travel: Some(RATIOS),
         scale: Scale::Logarithmic,
-        ..free(
-            "",
-            "d₂/d₁",
-            say!(lab, relay.ratio),
-            ratio_of,
-            |s, v| s.test.amplitudes[1] = v * s.test.amplitudes[0],
-            RATIOS,
-        )
+        ..field("", "d₂/d₁", say!(lab, relay.ratio), ratio_of, set_ratio, RATIOS)
     };
-    let duration = Knob {
-        is_time: true,
-        ..free("test-duration", "t", say!(lab, relay.duration), |s| s.test.duration, set_duration, (1.0, 1e5))
-    };
-    let passes = Knob {
-        scale: Scale::Linear(1.0),
-        ..free("test-passes", "n", say!(lab, relay.passes), |s| s.test.passes as f64, set_passes, (1.0, 8.0))
-    };
-    let single = vec![
-        segmented(session, say!(lab, relay.which_loop), loops, |s| s.test.number - 1, |s, k| s.test.number = k + 1, lock),
-        view! { <Choice id="test-behind" name=say!(lab, relay.behind) options=behind_options(session) on_choose=move |name: String| session.edit(|s| s.test.behind = behind_named(&name)) disabled=lab.locks(lock) /> }.into_any(),
-        hideable("", session.flag(|s| behind_index(s) != 2), vec![
-            knob(session, &free("test-modulus", "r", say!(lab, relay.modulus), |s| if let Behind::Modulus(r) = s.test.behind { r } else { FIRST_MODULUS }, |s, v| s.test.behind = Behind::Modulus(v), SIZES)),
-        ]),
+    let first = |s: &TuningSetup| s.test.amplitudes[0];
+    let amplitude = field("test-amplitude", "d₁", say!(lab, relay.amplitude), first, set_amplitude, (0.001, 1e4));
+    let read = |s: &TuningSetup| s.test.duration;
+    let duration = field("test-duration", "t", say!(lab, relay.duration), read, set_duration, (1.0, 1e5));
+    vec![knob(session, &ratio), knob(session, &amplitude), knob(session, &Knob { is_time: true, ..duration })]
+}
+
+/// What a test of a single element has besides.
+fn single(session: Session) -> Vec<AnyView> {
+    let lab = session.lab;
+    let loops = vec![
+        ("test-loop1", say!(lab, relay.loop_name, number = 1)),
+        ("test-loop2", say!(lab, relay.loop_name, number = 2)),
     ];
-    let relays = vec![
-        one(
-            free(
-                "test-hysteresis1",
-                "ε₁",
-                say!(lab, relay.hysteresis, number = 1),
-                |s| s.test.hysteresis[0],
-                |s, v| s.test.hysteresis[0] = v,
-                (0.0, 1e6),
-            ),
-            "loop1",
-        ),
-        one(
-            free(
-                "test-hysteresis2",
-                "ε₂",
-                say!(lab, relay.hysteresis, number = 2),
-                |s| s.test.hysteresis[1],
-                |s, v| s.test.hysteresis[1] = v,
-                (0.0, 1e6),
-            ),
-            "loop2",
-        ),
-        one(
-            free(
-                "test-bias1",
-                "b₁",
-                say!(lab, relay.bias, number = 1),
-                |s| s.test.bias[0],
-                |s, v| s.test.bias[0] = v,
-                (-1e6, 1e6),
-            ),
-            "loop1",
-        ),
-        one(
-            free(
-                "test-bias2",
-                "b₂",
-                say!(lab, relay.bias, number = 2),
-                |s| s.test.bias[1],
-                |s, v| s.test.bias[1] = v,
-                (-1e6, 1e6),
-            ),
-            "loop2",
-        ),
-    ];
-    let detuning = vec![
-        one(
-            free(
-                "test-detuning1",
-                "f₁",
-                say!(lab, relay.detuning, number = 1),
-                |s| s.test.detuning[0],
-                |s, v| s.test.detuning[0] = v,
-                (0.1, 100.0),
-            ),
-            "loop1",
-        ),
-        one(
-            free(
-                "test-detuning2",
-                "f₂",
-                say!(lab, relay.detuning, number = 2),
-                |s| s.test.detuning[1],
-                |s, v| s.test.detuning[1] = v,
-                (0.1, 100.0),
-            ),
-            "loop2",
-        ),
-    ];
-    let rule = view! { <Choice id="test-rule" name=say!(lab, relay.rule) options=rule_options(session) on_choose=move |name: String| choose_rule(session, &name) disabled=lab.locks(lock) /> };
-    let amplitude =
-        free("test-amplitude", "d₁", say!(lab, relay.amplitude), |s| s.test.amplitudes[0], set_amplitude, (0.001, 1e4));
-    let never = Signal::stored(false);
-    let table = Signal::derive(move || table(session));
+    let which = |s: &TuningSetup| s.test.number - 1;
+    let set_which = |s: &mut TuningSetup, k: usize| s.test.number = k + 1;
+    let choose = move |name: String| session.edit(|s| s.test.behind = behind_named(&name));
+    let modulus = |s: &TuningSetup| if let Behind::Modulus(r) = s.test.behind { r } else { FIRST_MODULUS };
+    let set_modulus = |s: &mut TuningSetup, v: f64| s.test.behind = Behind::Modulus(v);
+    let modulus = field("test-modulus", "r", say!(lab, relay.modulus), modulus, set_modulus, SIZES);
     vec![
-        segmented(session, say!(lab, relay.kind), kinds, kind, |s, k| s.test.kind = KINDS[k], lock),
-        hideable("", session.flag(|s| s.test.kind != TestKind::Single), single),
-        knob(session, &ratio),
-        hideable("pairs", never, vec![knob(session, &amplitude), knob(session, &duration)]),
-        hideable("pairs", session.flag(|s| is_tuned(s.test.kind)), relays),
-        hideable("", session.flag(|s| !is_tuned(s.test.kind)), vec![rule.into_any()]),
-        hideable("pairs", session.flag(|s| s.test.kind != TestKind::Independent), detuning),
-        hideable("pairs", session.flag(|s| s.test.kind != TestKind::Sequential), vec![knob(session, &passes)]),
-        figures("test-figures", say!(lab, relay.test_caption), table),
+        segmented(session, say!(lab, relay.which_loop), loops, which, set_which, Control::Test),
+        choice("test-behind", say!(lab, relay.behind), behind_options(session), choose, Control::Test),
+        hideable("", session.flag(|s| behind_index(s) != 2), vec![knob(session, &modulus)]),
     ]
-    .into_any()
+}
+
+/// Hysteresis and bias of both relays.
+fn relays(session: Session) -> Vec<AnyView> {
+    let lab = session.lab;
+    let hysteresis = |id, label, number: usize, read, write| {
+        field(id, label, say!(lab, relay.hysteresis, number = number), read, write, (0.0, 1e6))
+    };
+    let bias = |id, label, number: usize, read, write| {
+        field(id, label, say!(lab, relay.bias, number = number), read, write, (-1e6, 1e6))
+    };
+    let fields = [
+        hysteresis("test-hysteresis1", "ε₁", 1, |s| s.test.hysteresis[0], |s, v| s.test.hysteresis[0] = v),
+        hysteresis("test-hysteresis2", "ε₂", 2, |s| s.test.hysteresis[1], |s, v| s.test.hysteresis[1] = v),
+        bias("test-bias1", "b₁", 1, |s| s.test.bias[0], |s, v| s.test.bias[0] = v),
+        bias("test-bias2", "b₂", 2, |s| s.test.bias[1], |s, v| s.test.bias[1] = v),
+    ];
+    by_loop(session, fields)
+}
+
+/// The factors by which independent tests are made weaker.
+fn detuning(session: Session) -> Vec<AnyView> {
+    let lab = session.lab;
+    let factor = |id, label, number: usize, read, write| {
+        field(id, label, say!(lab, relay.detuning, number = number), read, write, (0.1, 100.0))
+    };
+    let fields = [
+        factor("test-detuning1", "f₁", 1, |s| s.test.detuning[0], |s, v| s.test.detuning[0] = v),
+        factor("test-detuning2", "f₂", 2, |s| s.test.detuning[1], |s, v| s.test.detuning[1] = v),
+    ];
+    by_loop(session, fields)
+}
+
+/// Fields of loop 1 and loop 2 in turn, in their colours.
+fn by_loop<const N: usize>(session: Session, fields: [Knob; N]) -> Vec<AnyView> {
+    let coloured = fields.into_iter().enumerate().map(|(k, field)| Knob { class: ["loop1", "loop2"][k % 2], ..field });
+    coloured.map(|field| knob(session, &field)).collect()
+}
+
+fn passes(session: Session) -> Vec<AnyView> {
+    let name = say!(session.lab, relay.passes);
+    let passes = field("test-passes", "n", name, |s| s.test.passes as f64, set_passes, (1.0, 8.0));
+    vec![knob(session, &Knob { scale: Scale::Linear(1.0), ..passes })]
+}
+
+fn rule(session: Session) -> AnyView {
+    let choose = move |name: String| choose_rule(session, &name);
+    choice("test-rule", say!(session.lab, relay.rule), rule_options(session), choose, Control::Test)
 }
 
 /// Whether the test ends in controller settings.
@@ -229,10 +211,10 @@ const BEHINDS: [&str; 3] = ["nothing", "integrator", "modulus"];
 
 fn behind_options(session: Session) -> Signal<String> {
     let lab = session.lab;
-    let chosen = session.part(behind_index);
     Signal::derive(move || {
+        let chosen = lab.tuning.with(|s| behind_index(&s.tuning));
         let texts = [tr!(lab, relay.behind_nothing), tr!(lab, relay.behind_integrator), tr!(lab, relay.behind_modulus)];
-        (0..3).map(|k| option(BEHINDS[k], texts[k], chosen.get() == k)).collect()
+        (0..3).map(|k| option(BEHINDS[k], texts[k], chosen == k)).collect()
     })
 }
 
