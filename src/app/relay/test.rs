@@ -72,7 +72,7 @@ fn settings(session: Session) -> AnyView {
         segmented(session, say!(lab, relay.kind), kinds, kind, |s, k| s.test.kind = KINDS[k], Control::Test),
         hideable("", session.flag(|s| s.test.kind != TestKind::Single), single(session)),
         hideable("pairs", Signal::stored(false), sizes(session)),
-        hideable("pairs", session.flag(|s| is_tuned(s.test.kind)), relays(session)),
+        hideable("pairs four", session.flag(|s| is_tuned(s.test.kind)), relays(session)),
         hideable("", session.flag(|s| !is_tuned(s.test.kind)), vec![rule(session)]),
         hideable("pairs", session.flag(|s| s.test.kind != TestKind::Independent), detuning(session)),
         hideable("pairs", session.flag(|s| s.test.kind != TestKind::Sequential), passes(session)),
