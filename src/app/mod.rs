@@ -7,6 +7,7 @@
 mod canvas;
 mod download;
 mod format;
+mod json;
 mod lab;
 mod pace;
 mod preset;

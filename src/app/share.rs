@@ -3,11 +3,10 @@
 use leptos::prelude::*;
 
 use super::download::{copy, download_text};
+use super::json;
 use super::lab::{Lab, Notice};
 use super::start::Bench;
-use crate::scenario::{
-    Document, ScenarioError, document_from_json, document_from_link, to_json, to_link, tuning_to_json, tuning_to_link,
-};
+use crate::scenario::{Document, ScenarioError, json_of_link, to_json, to_link, tuning_to_json, tuning_to_link};
 
 /// What stands before the link text in the fragment of an address.
 const PREFIX: &str = "lab=";
@@ -15,7 +14,7 @@ const PREFIX: &str = "lab=";
 /// The document in the fragment of the address, if there is one.
 pub fn from_address() -> Option<Result<Document, ScenarioError>> {
     let fragment = window().location().hash().ok()?;
-    fragment.trim_start_matches('#').strip_prefix(PREFIX).map(document_from_link)
+    fragment.trim_start_matches('#').strip_prefix(PREFIX).map(|link| json::read(&json_of_link(link)?))
 }
 
 /// The link of the bench that is shown.
@@ -89,6 +88,6 @@ pub fn open_file(lab: Lab, file: &web_sys::File) {
     let text = wasm_bindgen_futures::JsFuture::from(file.text());
     leptos::task::spawn_local(async move {
         let text = text.await.ok().and_then(|t| t.as_string()).unwrap_or_default();
-        lab.open(document_from_json(&text));
+        lab.open(json::read(&text));
     });
 }

@@ -12,23 +12,27 @@ pub const DOCUMENT_LIMIT: usize = 64 * 1024;
 /// [`ScenarioError::TooLong`], [`ScenarioError::UnknownVersion`], [`ScenarioError::Malformed`] (which names the field),
 /// or what [`Scenario::validate`] finds.
 pub fn from_json(text: &str) -> Result<Scenario, ScenarioError> {
-    match versioned(text)? {
-        (1, tree) => scenario_of(&tree),
-        (found, _) => Err(ScenarioError::UnknownVersion { found, newest: Scenario::VERSION }),
+    let tree = tree_of(text)?;
+    match version_of(&tree)? {
+        1 => scenario_of(&tree),
+        found => Err(ScenarioError::UnknownVersion { found, newest: Scenario::VERSION }),
     }
 }
 
-/// The version of a document, which comes before anything else, and the document.
-fn versioned(text: &str) -> Result<(u64, Tree), ScenarioError> {
+fn tree_of(text: &str) -> Result<Tree, ScenarioError> {
     if text.len() > DOCUMENT_LIMIT {
         return Err(ScenarioError::TooLong { length: text.len(), max: DOCUMENT_LIMIT });
     }
-    let tree: Tree = serde_json::from_str(text).map_err(|error| {
+    serde_json::from_str(text).map_err(|error| {
         let path = path_at(text, error.line(), error.column());
         malformed(&path, &error)
-    })?;
+    })
+}
+
+/// The version of a document, which comes before anything else.
+fn version_of(tree: &Tree) -> Result<u64, ScenarioError> {
     match tree.get("version") {
-        Some(Tree::Unsigned(version)) => Ok((*version, tree)),
+        Some(Tree::Unsigned(version)) => Ok(*version),
         Some(_) => Err(malformed("version", &"no whole number")),
         None => Err(malformed("", &"missing field `version`")),
     }
@@ -56,14 +60,22 @@ pub enum Document {
 /// # Errors
 /// As [`from_json`].
 pub fn document_from_json(text: &str) -> Result<Document, ScenarioError> {
-    match versioned(text)? {
-        (1, tree) => scenario_of(&tree).map(Document::Quadruple),
-        (2, tree) => {
+    document_from_tree(&tree_of(text)?)
+}
+
+/// Reads a document of any kind from what JSON was parsed to.
+///
+/// # Errors
+/// As [`document_from_json`], but for what concerns the text.
+pub fn document_from_tree(tree: &Tree) -> Result<Document, ScenarioError> {
+    match version_of(tree)? {
+        1 => scenario_of(tree).map(Document::Quadruple),
+        2 => {
             let scenario: TuningScenario = tree.read().map_err(|error| misread(&error))?;
             scenario.validate()?;
             Ok(Document::Tuning(scenario))
         }
-        (found, _) => Err(ScenarioError::UnknownVersion { found, newest: TuningScenario::VERSION }),
+        found => Err(ScenarioError::UnknownVersion { found, newest: TuningScenario::VERSION }),
     }
 }
 

@@ -24,13 +24,14 @@ mod validate;
 mod valve_map;
 
 pub use analyse::{Analysis, analyse};
-pub use codec::{DOCUMENT_LIMIT, Document, document_from_json, from_json, to_json, tuning_to_json};
+pub use codec::{DOCUMENT_LIMIT, Document, document_from_json, document_from_tree, from_json, to_json, tuning_to_json};
 pub use document::{OperatingPointSpec, PlantSpec, Scenario, Setup, View};
 pub use error::ScenarioError;
 pub use limits::Limits;
-pub use link::{LINK_LIMIT, document_from_link, to_link, tuning_to_link};
+pub use link::{LINK_LIMIT, document_from_link, json_of_link, to_link, tuning_to_link};
 pub use margins::Margins;
 pub use presets::setup_of;
 pub use report::AnalysisReport;
 pub use run::{Run, run};
+pub use tree::{Tree, TreeError};
 pub use valve_map::ValveMap;

@@ -13,23 +13,30 @@ use serde::de::{
 };
 use serde::forward_to_deserialize_any;
 
-/// A value of a document.
+/// A value of a document, as in JSON.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Tree {
+pub enum Tree {
+    /// `null`.
     Null,
+    /// `true` or `false`.
     Bool(bool),
+    /// A whole number that is not negative.
     Unsigned(u64),
+    /// A whole number below zero.
     Signed(i64),
+    /// Any other number.
     Float(f64),
+    /// A text.
     Text(String),
+    /// An array.
     List(Vec<Tree>),
-    /// In the order of the text, so that a field that is there twice is seen twice.
+    /// An object, in the order of the text, so that a field that is there twice is seen twice.
     Map(Vec<(String, Tree)>),
 }
 
 /// What is wrong in a tree, and where. Boxed, because every result on the way carries room for it.
 #[derive(Debug)]
-pub(super) struct TreeError(Box<Problem>);
+pub struct TreeError(Box<Problem>);
 
 #[derive(Debug)]
 struct Problem {
