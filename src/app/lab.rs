@@ -108,6 +108,11 @@ impl Lab {
         *self.session.get_or_init(|| self.owner.with(|| Session::start(self)))
     }
 
+    /// The id of a bench: that of the page while it is shown.
+    pub fn id_of(self, bench: Bench) -> Option<&'static str> {
+        (self.bench.get() == bench).then_some("bench")
+    }
+
     /// Changes the run that is worked on.
     pub fn edit(self, change: impl FnOnce(&mut Setup)) {
         self.scenario.update(|s| change(&mut s.setup));

@@ -64,13 +64,30 @@ pub fn Laboratory() -> impl IntoView {
                 view! { <Header /> }.into_any()
             }}
             <Notices />
-            {move || match lab.bench.get() {
-                Bench::QuadrupleTank => view! { <QuadrupleTankBench /> }.into_any(),
-                Bench::RelayTuning => view! { <RelayTuningBench /> }.into_any(),
-            }}
+            {Vec::from(Bench::ALL.map(|bench| view! { <KeptBench bench /> }.into_any()))}
             {embed.then(|| view! { <EmbedFooter /> }.into_any())}
         </div>
     }
+}
+
+/// A bench, made when it is shown first and hidden while another one is. It stays, because signals that outlive a view keep
+/// what is left of its effects until they change: going to and fro would leave kilobytes behind each time.
+#[component]
+fn KeptBench(bench: Bench) -> impl IntoView {
+    let lab = use_lab();
+    let seen = RwSignal::new(false);
+    Effect::new(move || {
+        if lab.bench.get() == bench && !seen.get_untracked() {
+            seen.set(true);
+        }
+    });
+    let content = move || {
+        seen.get().then(|| match bench {
+            Bench::QuadrupleTank => view! { <QuadrupleTankBench /> }.into_any(),
+            Bench::RelayTuning => view! { <RelayTuningBench /> }.into_any(),
+        })
+    };
+    view! { <div hidden=Signal::derive(move || lab.bench.get() != bench)>{content}</div> }
 }
 
 /// Closes the menus that are open, but for the one that was pressed.
@@ -124,7 +141,7 @@ fn Header() -> impl IntoView {
     view! {
         <header class="top">
             <h1>{say!(lab, app.title)}</h1>
-            <nav aria-label=say!(lab, app.benches)>{Bench::ALL.map(|bench| view! { <BenchLink bench /> }).collect_view()}</nav>
+            <nav aria-label=say!(lab, app.benches)>{Vec::from(Bench::ALL.map(|bench| view! { <BenchLink bench /> }.into_any()))}</nav>
             <span class="spacer"></span>
             <button type="button" class="button" data-testid="share" on:click=handler(move |_| share::share(lab))>
                 {say!(lab, app.share)}

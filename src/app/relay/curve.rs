@@ -146,6 +146,10 @@ fn table(session: Session) -> String {
         + &row("kc₂".to_owned(), gains[1], on_curve.map(|p| p.gains[1]))
         + &row(format!("Tc ({unit})"), std::f64::consts::TAU / frequency, on_curve.map(|p| p.period()))
         + &row(format!("ωc (rad/{unit})"), frequency, on_curve.map(|p| p.frequency));
-    let names = [String::new(), tr!(lab, relay.col_chosen).to_owned(), tr!(lab, relay.col_curve).to_owned()];
+    let names = [
+        tr!(lab, process.quantity).to_owned(),
+        tr!(lab, relay.col_chosen).to_owned(),
+        tr!(lab, relay.col_curve).to_owned(),
+    ];
     html::table(tr!(lab, relay.curve_caption), &names, &rows)
 }

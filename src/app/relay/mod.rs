@@ -17,7 +17,7 @@ mod timeline;
 use leptos::prelude::*;
 
 use super::lab::use_lab;
-use super::start::Panel;
+use super::start::{Bench, Panel};
 pub use session::Session;
 
 /// The bench, or those of its cards that the start flags ask for.
@@ -27,7 +27,7 @@ pub fn RelayTuningBench() -> impl IntoView {
     let shows = move |panel| lab.flags.with_value(|f| f.shows(panel));
     let chosen = lab.flags.with_value(|f| !f.panels.is_empty());
     view! {
-        <main class=if chosen { "bench relay chosen" } else { "bench relay" } id="bench">
+        <main class=if chosen { "bench relay chosen" } else { "bench relay" } id=move || lab.id_of(Bench::RelayTuning)>
             {shows(Panel::Plant).then(|| view! { <plant::PlantCard /> }.into_any())}
             {shows(Panel::Test).then(|| view! { <test::TestCard /> }.into_any())}
             {shows(Panel::Curve).then(|| view! { <curve::CurveCard /> }.into_any())}
