@@ -143,6 +143,11 @@ test('every published case stands beside what is computed', async ({ lab }) => {
   await choose(lab, 'case', 'table-15-row-2');
   expect(await lab.text('placement-verdict')).toContain('Unstable');
   expect(await lab.text('placement-verdict')).toContain('det(G(0) diag ki) ≤ 0');
+  // The figures of an unstable loop are none, also of a pinned one.
+  await lab.id('response-pin').click();
+  await lab.settle();
+  const cells = await lab.id('response-figures').locator('tbody td').allInnerTexts();
+  expect(cells).toEqual(Array(16).fill('–'));
 });
 
 test('every kind of test says what it found', async ({ lab }) => {

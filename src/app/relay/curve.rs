@@ -15,7 +15,7 @@ use crate::scenario::tuning::{CriticalSpec, TuningSetup};
 use crate::tuning::{GainLimit, importance_direction};
 
 /// Importances that can be chosen.
-const IMPORTANCES: (f64, f64) = (0.01, 100.0);
+const IMPORTANCES: (f64, f64) = (0.001, 1000.0);
 /// Ratio of one step of the arrow keys.
 const STEP: f64 = 1.05;
 

@@ -15,8 +15,7 @@ use crate::app::widgets::html::option;
 use crate::app::widgets::{DataTable, ZoomButtons, handler, html};
 use crate::figure::Frame;
 use crate::linear::LoopStability;
-use crate::scenario::tuning::{CompareSpec, DecouplerSpec, TuningPlant, TuningScenario};
-use crate::sim::StepFigures;
+use crate::scenario::tuning::{Answered, CompareSpec, DecouplerSpec, TuningPlant, TuningScenario};
 use crate::tuning::PublishedPlant;
 
 const DECOUPLERS: [(&str, DecouplerSpec); 5] = [
@@ -156,13 +155,9 @@ fn sentence(session: Session) -> (bool, String) {
         Err(error) => return (false, errors::sentence(lab, error)),
     };
     let decoupled = setup.design.decoupler != DecouplerSpec::None;
-    let stability = design.roots[(setup.design.root - 1).min(1)].stability;
-    let halted = design.response.trace.halt.is_some();
     let stepped = usize::from(setup.response.references[1] != 0.0);
     let [own, other] = [design.response.figures[stepped], design.response.figures[1 - stepped]];
-    let (good, mut text) = if halted || (!decoupled && stability != LoopStability::Stable) {
-        (false, tr!(lab, relay.response_unstable).to_owned())
-    } else {
+    let (good, mut text) = if design.response.is_meant {
         let percent = |share: f64| format!("{}\u{a0}%", style.fixed(100.0 * share, 1));
         let overshoot = own.overshoot.map_or_else(|| "–".to_owned(), percent);
         let cross = style.significant(other.peak.unwrap_or(0.0), 3);
@@ -187,6 +182,8 @@ fn sentence(session: Session) -> (bool, String) {
             }
             None => (false, tr!(lab, relay.response_never, number = number, other = other, cross = cross).to_string()),
         }
+    } else {
+        (false, tr!(lab, relay.response_unstable).to_owned())
     };
     if decoupled {
         text = text + " " + tr!(lab, relay.decoupled);
@@ -210,28 +207,34 @@ fn table(session: Session) -> String {
     ];
     let mut rows = String::new();
     session.words.with_design(|design| {
-        rows += &rows_of(session, "", &design.response.figures);
+        rows += &rows_of(session, "", &design.response);
         if let Some(rival) = &design.rival {
-            rows += &rows_of(session, tr!(lab, relay.row_rival), &rival.response.figures);
+            rows += &rows_of(session, tr!(lab, relay.row_rival), &rival.response);
         }
     });
     for (k, outcome) in session.words.pinned.get().iter().enumerate() {
         if let Ok(Some(design)) = outcome.as_ref() {
-            rows += &rows_of(session, &tr!(lab, relay.row_pinned, number = k + 1), &design.response.figures);
+            rows += &rows_of(session, &tr!(lab, relay.row_pinned, number = k + 1), &design.response);
         }
     }
     html::table(tr!(lab, relay.response_caption), &names, &rows)
 }
 
-fn rows_of(session: Session, name: &str, figures: &[StepFigures; 2]) -> String {
+fn rows_of(session: Session, name: &str, response: &Answered) -> String {
     let style = session.lab.number_style();
     let number = |v: Option<f64>| v.map_or_else(|| "–".to_owned(), |v| style.significant(v, 3));
     let percent =
         |v: Option<f64>| v.map_or_else(|| "–".to_owned(), |v| format!("{}\u{a0}%", style.fixed(100.0 * v, 1)));
-    let row = |(k, of): (usize, &StepFigures)| {
+    let row = |k: usize| {
         let label = format!("y{} {name}", ["₁", "₂"][k]);
-        let figures = [percent(of.overshoot), number(of.settling_time), number(of.peak), number(Some(of.iae))];
-        html::row(["loop1", "loop2"][k], label.trim(), &figures)
+        let of = response.is_meant.then(|| response.figures[k]);
+        let cells = [
+            percent(of.and_then(|of| of.overshoot)),
+            number(of.and_then(|of| of.settling_time)),
+            number(of.and_then(|of| of.peak)),
+            number(of.map(|of| of.iae)),
+        ];
+        html::row(["loop1", "loop2"][k], label.trim(), &cells)
     };
-    figures.iter().enumerate().map(row).collect()
+    row(0) + &row(1)
 }
