@@ -327,7 +327,7 @@ fn every_field_of_the_wrong_kind_names_itself() {
         let error = from_json(&document.to_string()).unwrap_err();
         let ScenarioError::Malformed { path: found, reason } = &error else { panic!("{path}: {error}") };
         assert_eq!(format!("/{}", found.replace('[', ".").replace(']', "").replace('.', "/")), pointer);
-        assert!(reason.contains("much") && reason.contains("line"), "{path}: {reason}");
+        assert!(reason.contains("much"), "{path}: {reason}");
     }
 }
 

@@ -17,7 +17,7 @@ const LONG_RUN = 10_000;
 const MEASURES = { compute: 'quadtank:compute', paint: 'quadtank:paint', words: 'quadtank:words' };
 const LABELS = { compute: 'compute', paint: 'event to charts painted', words: 'oldest event to words' };
 // Compute has no bar of its own when throttled, words never: they follow when the charts are on the screen.
-const BARS = { 1: { compute: 2, paint: 16.7 }, 6: { paint: 50 } };
+const HOME_BARS = { 1: { compute: 2, paint: 16.7 }, 6: { paint: 50 } };
 const TRANSFER_BAR_KB = 300;
 
 const progress = (text) => console.error(`bench: ${text}`);
@@ -70,7 +70,7 @@ async function inLaboratory(url, flags, work) {
       }
     });
     await page.goto(url);
-    await page.locator('[data-testid=valve-handle]').waitFor();
+    await page.locator('#bench:not(.outline)').waitFor();
     return await work(page, await page.context().newCDPSession(page), browser.version());
   } finally {
     await browser.close();
@@ -105,9 +105,9 @@ const moveSlider = (page, moves) =>
     await new Promise((done) => setTimeout(done, 300));
   }, moves);
 
-/** Drags the point of the valve plane around its middle with the mouse. */
-async function dragPoint(page, moves) {
-  const handle = page.getByTestId('valve-handle');
+/** Drags a handle around a place of its drawing, given with the radii as shares of the drawing. */
+const dragHandle = (name, [x, y], [across, up]) => async (page, moves) => {
+  const handle = page.getByTestId(name);
   const plane = await handle.evaluate((point) => {
     const { x, y, width, height } = point.closest('svg').getBoundingClientRect();
     return { x, y, width, height };
@@ -116,12 +116,20 @@ async function dragPoint(page, moves) {
   await page.mouse.move(at.x + at.width / 2, at.y + at.height / 2);
   await page.mouse.down();
   for (let move = 0; move < moves; move += 1) {
-    const x = plane.x + plane.width * (0.5 + 0.25 * Math.cos(move / 23));
-    const y = plane.y + plane.height * (0.5 + 0.25 * Math.sin(move / 17));
-    await page.mouse.move(x, y);
+    const right = plane.x + plane.width * (x + across * Math.cos(move / 23));
+    const down = plane.y + plane.height * (y + up * Math.sin(move / 17));
+    await page.mouse.move(right, down);
   }
   await page.mouse.up();
   await page.waitForTimeout(300);
+};
+
+/** Chooses one plant after the other. */
+async function choosePlants(page, moves) {
+  for (let move = 0; move < moves / 10; move += 1) {
+    await page.getByTestId('plant').selectOption(['process-two', 'wood-berry'][move % 2]);
+    await page.waitForTimeout(150);
+  }
 }
 
 const clearMeasures = (page) => page.evaluate(() => performance.clearMeasures());
@@ -135,23 +143,29 @@ const readMeasures = (page) =>
     MEASURES,
   );
 
-/** What is dragged. */
+const RELAY = '?bench=relay-tuning';
+
+/** What is moved, where, and what has to be met at which slowdown (ms); bars of compute are for the median. */
 const WAYS = [
-  ['slider of γ1', dragSlider('gamma1')],
-  ['slider of K1', dragSlider('gain1')],
-  ['point of the valve plane', dragPoint],
+  { way: 'slider of γ1', query: '', move: dragSlider('gamma1'), bars: HOME_BARS },
+  { way: 'slider of K1', query: '', move: dragSlider('gain1'), bars: HOME_BARS },
+  { way: 'point of the valve plane', query: '', move: dragHandle('valve-handle', [0.5, 0.5], [0.25, 0.25]), bars: HOME_BARS },
+  // The target stays in the third quadrant, where the source places it.
+  { way: 'target λ (both loci, two roots, response)', query: RELAY, move: dragHandle('target-handle', [0.47, 0.58], [0.06, 0.05]), bars: { 1: { paint: 16.7 } } },
+  { way: 'ratio d2/d1 (Wood-Berry test of 400)', query: RELAY, move: dragSlider('ratio'), bars: { 1: { compute: 20 } } },
+  { way: 'plant (curve of 200 directions, test, design)', query: RELAY, move: choosePlants, bars: { 1: { compute: 50 } } },
 ];
 
-/** Compute, event to charts painted and to words (ms) of each way, at a speed of the processor. */
+/** Compute, event to charts painted and to words (ms) of each way that has bars, at a speed of the processor. */
 async function frameFigures(url, slowdown) {
   return inLaboratory(url, [], async (page, session, version) => {
     const rows = [];
-    for (const [way, move] of WAYS) {
+    for (const { way, query, move, bars } of WAYS.filter(({ bars }) => bars[slowdown])) {
       progress(`${MOVES} moves of the ${way}, processor slowed ${slowdown}×`);
-      // Each way starts from the published rig, not from where the one before has left it.
+      // Each way starts from the published setting, not from where the one before has left it.
       await session.send('Emulation.setCPUThrottlingRate', { rate: 1 });
-      await page.reload();
-      await page.locator('[data-testid=valve-handle]').waitFor();
+      await page.goto(`${url}${query}`);
+      await page.locator('#bench:not(.outline)').waitFor();
       await move(page, WARM_UP);
       await session.send('Emulation.setCPUThrottlingRate', { rate: slowdown });
       await clearMeasures(page);
@@ -159,7 +173,8 @@ async function frameFigures(url, slowdown) {
       const measures = await readMeasures(page);
       for (const [what, times] of Object.entries(measures)) {
         if (times.length === 0) throw new Error(`the page recorded no ${MEASURES[what]}`);
-        rows.push({ way, slowdown, what, frames: times.length, median: quantile(times, 0.5), high: quantile(times, 0.95) });
+        const [median, high] = [quantile(times, 0.5), quantile(times, 0.95)];
+        rows.push({ way, slowdown, what, frames: times.length, median, high, bar: bars[slowdown][what] });
       }
     }
     return { rows, version };
@@ -224,11 +239,11 @@ const nativeTable = (figures) =>
 const frameTable = (rows) =>
   table(
     ['in Chromium', 'processor', 'frames', 'median', '95th percentile', 'bar'],
-    rows.map(({ way, slowdown, what, frames, median, high }) => {
+    rows.map(({ way, slowdown, what, frames, median, high, bar }) => {
       // The bar of compute is for a tick, the bar of painting for the 95th percentile.
       const judged = what === 'compute' ? median : high;
       const speed = slowdown === 1 ? 'full speed' : `${slowdown}× slower`;
-      return [`${way}: ${LABELS[what]}`, speed, frames, `${ms(median)} ms`, `${ms(high)} ms`, against(judged, BARS[slowdown][what], 'ms')];
+      return [`${way}: ${LABELS[what]}`, speed, frames, `${ms(median)} ms`, `${ms(high)} ms`, against(judged, bar, 'ms')];
     }),
   );
 

@@ -1,24 +1,23 @@
-//! The state of the laboratory and the way of one change through it.
+//! The state of the laboratory: what all benches share, and the document and results of the home bench.
 //!
-//! A control edits [`Lab::scenario`]. That asks for one animation frame; in it, what the change touched is computed once
-//! (however many events came in between), the results are set, and the charts that show them repaint, all before the
-//! browser shows the frame. Words, numbers and the drawing follow as soon as that frame is on the screen: they cost the
-//! browser more than the charts do, and nobody reads while dragging. Reading, computing, painting and telling never mix.
+//! A control edits [`Lab::scenario`]; the [pace](super::pace) takes the change up.
 
-use std::sync::Arc;
+use std::ops::Deref;
+use std::sync::{Arc, OnceLock};
 
-use gloo_timers::callback::Timeout;
 use leptos::prelude::*;
 
 use super::canvas;
 use super::format::NumberStyle;
+use super::pace::Pace;
+use super::relay::Session;
 use super::results::{Results, run_all};
-use super::start::{Control, StartFlags};
+use super::start::{Bench, Control, StartFlags};
 use super::texts::Language;
-use super::timing::Stopwatch;
 use crate::figure::{Palette, Style};
 use crate::plant::DisplayUnit;
-use crate::scenario::{self, Scenario, ScenarioError, Setup};
+use crate::scenario::tuning::TuningScenario;
+use crate::scenario::{self, Document, Scenario, ScenarioError, Setup};
 
 /// Something to tell at the top of the page.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,9 +30,21 @@ pub enum Notice {
     CopyByHand(String),
 }
 
-/// The state of the laboratory. A handle: copying it copies nothing.
+/// The state of the laboratory, which lives as long as the page. A handle of one pointer: views hold many of them, and what
+/// they hold is copied through all layers of Leptos.
 #[derive(Clone, Copy)]
-pub struct Lab {
+pub struct Lab(&'static State);
+
+impl Deref for Lab {
+    type Target = State;
+
+    fn deref(&self) -> &State {
+        self.0
+    }
+}
+
+/// What all benches share, and the document and results of the home bench.
+pub struct State {
     /// The document that all of it follows from.
     pub scenario: RwSignal<Scenario>,
     /// The results for the charts, new in every frame.
@@ -50,23 +61,17 @@ pub struct Lab {
     pub notice: RwSignal<Option<Notice>>,
     /// How the page was started.
     pub flags: StoredValue<StartFlags>,
-    backstage: StoredValue<Backstage, LocalStorage>,
-}
-
-/// What no view shows.
-#[derive(Default)]
-struct Backstage {
-    stopwatch: Stopwatch,
-    /// What comes after the frame. Kept, not forgotten: a forgotten timer is never freed.
-    next: Option<Timeout>,
-    /// What comes after the words.
-    told: Option<Timeout>,
+    /// The bench that is shown.
+    pub bench: RwSignal<Bench>,
+    /// The document of the relay-tuning bench.
+    pub tuning: RwSignal<TuningScenario>,
+    /// The relay-tuning bench, from the first time it is shown.
+    session: OnceLock<Session>,
+    /// Owns what stays when benches change.
+    owner: Owner,
     /// The setups of the pinned runs that are computed.
-    pinned: Vec<Setup>,
+    pinned: StoredValue<Vec<Setup>>,
 }
-
-/// Words that have to wait come when nothing has changed for so long (ms).
-const PAUSE_MS: u32 = 40;
 
 /// The laboratory of this page.
 pub fn use_lab() -> Lab {
@@ -79,7 +84,7 @@ impl Lab {
         let charts = Results::of(&scenario);
         let pinned = scenario.pinned.clone();
         let scenario = RwSignal::new(scenario);
-        let lab = Self {
+        let lab = Self(Box::leak(Box::new(State {
             charts,
             words: charts.shared(),
             unit: Memo::new(move |_| scenario.with(|s| s.setup.display_unit())).into(),
@@ -87,14 +92,25 @@ impl Lab {
             language: RwSignal::new(language),
             dark: RwSignal::new(dark),
             notice: RwSignal::new(None),
+            bench: RwSignal::new(flags.bench),
+            tuning: RwSignal::new(TuningScenario::default()),
             flags: StoredValue::new(flags),
-            backstage: StoredValue::new_local(Backstage { pinned, ..Backstage::default() }),
-        };
-        Effect::new(move || {
-            lab.scenario.track();
-            lab.request_frame();
-        });
+            session: OnceLock::new(),
+            owner: Owner::current().unwrap_or_default(),
+            pinned: StoredValue::new(pinned),
+        })));
+        Pace::follow(lab.scenario, move || lab.compute(), move || lab.words.follow(lab.charts));
         lab
+    }
+
+    /// The relay-tuning bench. It is computed when it is shown for the first time and stays.
+    pub fn session(self) -> Session {
+        *self.session.get_or_init(|| self.owner.with(|| Session::start(self)))
+    }
+
+    /// The id of a bench: that of the page while it is shown.
+    pub fn id_of(self, bench: Bench) -> Option<&'static str> {
+        (self.bench.get() == bench).then_some("bench")
     }
 
     /// Changes the run that is worked on.
@@ -102,15 +118,20 @@ impl Lab {
         self.scenario.update(|s| change(&mut s.setup));
     }
 
-    /// Replaces the whole document, as a link or a file does.
-    pub fn open(self, outcome: Result<Scenario, ScenarioError>) {
+    /// Replaces the whole document, as a link or a file does, and shows its bench.
+    pub fn open(self, outcome: Result<Document, ScenarioError>) {
         match outcome {
-            Ok(scenario) => {
+            Ok(Document::Quadruple(scenario)) => {
                 self.scenario.set(scenario);
-                self.notice.set(None);
+                self.bench.set(Bench::QuadrupleTank);
             }
-            Err(error) => self.notice.set(Some(Notice::Refused(error))),
+            Ok(Document::Tuning(scenario)) => {
+                self.tuning.set(scenario);
+                self.bench.set(Bench::RelayTuning);
+            }
+            Err(error) => return self.notice.set(Some(Notice::Refused(error))),
         }
+        self.notice.set(None);
     }
 
     /// A part of the setup, for controls.
@@ -146,74 +167,32 @@ impl Lab {
         Style { palette, decimal: self.number_style().decimal, scale: canvas::FINE }
     }
 
-    fn request_frame(self) {
-        if self.backstage.try_update_value(|b| b.stopwatch.begin()) == Some(true) {
-            request_animation_frame(move || self.frame());
-        }
-    }
-
-    /// One frame: compute what changed since the last one, hand it to the panels, and note how long it took.
-    fn frame(self) {
-        let Some(after) = self.scenario.try_get_untracked() else { return };
+    /// Computes what changed; what it returns hands that to the panels.
+    fn compute(self) -> Option<Box<dyn FnOnce()>> {
+        let after = self.scenario.try_get_untracked()?;
         let before = self.charts.setup.get_untracked();
-        self.backstage.update_value(|b| b.stopwatch.start_computing());
         let theory = (!same_theory(&before, &after.setup)).then(|| Arc::new(scenario::analyse(&after.setup)));
         let run = (*before != after.setup).then(|| {
             // A run may take megabytes: the last one goes before the next is made. Words may still hold the one they tell.
             self.charts.run.update_untracked(|last| *last = self.words.run.get_untracked());
             Arc::new(scenario::run(&after.setup))
         });
-        let pinned = self.backstage.with_value(|b| b.pinned != after.pinned).then(|| run_all(&after.pinned));
-        self.backstage.update_value(|b| b.stopwatch.stop_computing());
-        if run.is_some() {
-            self.charts.setup.set(Arc::new(after.setup));
-        }
-        if let Some(theory) = theory {
-            self.charts.analysis.set(theory);
-        }
-        if let Some(run) = run {
-            self.charts.run.set(run);
-        }
-        if let Some(pinned) = pinned {
-            self.backstage.update_value(|b| b.pinned = after.pinned);
-            self.charts.pinned.set(pinned);
-        }
-        // A task after this frame: by then the charts are painted.
-        self.after(0, Self::painted);
-    }
-
-    /// The charts are on the screen: the words follow, at once if it is time for them.
-    fn painted(self) {
-        let told_now = self.backstage.try_update_value(|b| {
-            b.stopwatch.end();
-            b.stopwatch.are_words_due()
-        });
-        match told_now {
-            Some(true) => self.tell(),
-            // The next frame replaces this timer and decides anew.
-            Some(false) => self.after(PAUSE_MS, Self::tell),
-            None => {}
-        }
-    }
-
-    fn after(self, delay_ms: u32, next: fn(Self)) {
-        let timer = Timeout::new(delay_ms, move || next(self));
-        self.backstage.try_update_value(|b| b.next = Some(timer));
-    }
-
-    fn tell(self) {
-        self.backstage.try_update_value(|b| b.stopwatch.tell());
-        self.words.follow(self.charts);
-        let told = Timeout::new(0, move || self.told());
-        self.backstage.try_update_value(|b| b.told = Some(told));
-    }
-
-    fn told(self) {
-        // Asking for a height lays the new words out now, not within the next frame of the charts.
-        if let Some(page) = document().body() {
-            page.offset_height();
-        }
-        self.backstage.try_update_value(|b| b.stopwatch.told());
+        let pinned = self.pinned.with_value(|pinned| *pinned != after.pinned).then(|| run_all(&after.pinned));
+        Some(Box::new(move || {
+            if run.is_some() {
+                self.charts.setup.set(Arc::new(after.setup));
+            }
+            if let Some(theory) = theory {
+                self.charts.analysis.set(theory);
+            }
+            if let Some(run) = run {
+                self.charts.run.set(run);
+            }
+            if let Some(pinned) = pinned {
+                self.pinned.set_value(after.pinned);
+                self.charts.pinned.set(pinned);
+            }
+        }))
     }
 }
 

@@ -1,15 +1,18 @@
 //! The Leptos user interface: benches, charts on screen, widgets, the drawing of the plant, texts.
 //!
-//! [`lab`] holds the state and the way of one change from an event to pixels; [`quadruple`] is the home bench;
+//! [`lab`] holds the state, [`pace`] the way of one change from an event to pixels; [`quadruple`] is the home bench, [`relay`] the one for relay tuning;
 //! [`widgets`] are the parts that any bench is made of. There is no control arithmetic here: every number comes from
 //! [`crate::scenario`].
 
 mod canvas;
 mod download;
 mod format;
+mod json;
 mod lab;
+mod pace;
 mod preset;
 mod quadruple;
+mod relay;
 mod results;
 mod share;
 mod shell;

@@ -1,10 +1,12 @@
 //! The choice of a published rig.
 
+use crate::app::widgets::handler;
 use leptos::prelude::*;
 
 use super::lab::{Lab, use_lab};
 use super::start::Control;
 use super::texts::{say, tr};
+use super::widgets::html::option;
 use crate::plant::PresetId;
 use crate::scenario::{PlantSpec, Scenario, setup_of};
 
@@ -75,25 +77,21 @@ pub fn PresetChoice() -> impl IntoView {
             load(lab, id);
         }
     };
-    let options = PresetId::ALL
-        .into_iter()
-        .map(|choice| {
-            view! {
-                <option value=choice.name() selected=move || id.get() == Some(choice)>{move || name_of(lab, choice)}</option>
-            }
-        })
-        .collect_view();
+    let options = Signal::derive(move || {
+        let id = id.get();
+        let published =
+            PresetId::ALL.into_iter().map(|choice| option(choice.name(), &name_of(lab, choice), id == Some(choice)));
+        let own = id.is_none().then(|| option("", tr!(lab, preset.own), true));
+        published.chain(own).collect::<String>()
+    });
     view! {
         <select
             data-testid="preset"
             aria-label=say!(lab, preset.choose)
             title=Signal::derive(move || remark_of(lab, id.get()))
             disabled=lab.locks(Control::Preset)
-            prop:value=move || id.get().map_or("", PresetId::name).to_owned()
-            on:change=on_change
-        >
-            {options}
-            {move || id.get().is_none().then(|| view! { <option value="" selected>{tr!(lab, preset.own)}</option> })}
-        </select>
+            on:change=handler(on_change)
+            inner_html=options
+        ></select>
     }
 }

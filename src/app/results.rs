@@ -57,7 +57,8 @@ impl Results {
     }
 }
 
-fn share<T: Send + Sync + 'static>(to: RwSignal<Arc<T>>, from: RwSignal<Arc<T>>) {
+/// Takes over a result if it is another one.
+pub(super) fn share<T: Send + Sync + 'static>(to: RwSignal<Arc<T>>, from: RwSignal<Arc<T>>) {
     let newest = from.get_untracked();
     if !to.with_untracked(|old| Arc::ptr_eq(old, &newest)) {
         to.set(newest);

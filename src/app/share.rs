@@ -3,22 +3,32 @@
 use leptos::prelude::*;
 
 use super::download::{copy, download_text};
+use super::json;
 use super::lab::{Lab, Notice};
-use crate::scenario::{Scenario, ScenarioError, from_json, from_link, to_json, to_link};
+use super::start::Bench;
+use crate::scenario::{Document, ScenarioError, json_of_link, to_json, to_link, tuning_to_json, tuning_to_link};
 
 /// What stands before the link text in the fragment of an address.
 const PREFIX: &str = "lab=";
 
-/// The scenario in the fragment of the address, if there is one.
-pub fn from_address() -> Option<Result<Scenario, ScenarioError>> {
+/// The document in the fragment of the address, if there is one.
+pub fn from_address() -> Option<Result<Document, ScenarioError>> {
     let fragment = window().location().hash().ok()?;
-    fragment.trim_start_matches('#').strip_prefix(PREFIX).map(from_link)
+    fragment.trim_start_matches('#').strip_prefix(PREFIX).map(|link| json::read(&json_of_link(link)?))
+}
+
+/// The link of the bench that is shown.
+fn link_of(lab: Lab) -> Result<String, ScenarioError> {
+    match lab.bench.get_untracked() {
+        Bench::QuadrupleTank => lab.scenario.with_untracked(to_link),
+        Bench::RelayTuning => lab.tuning.with_untracked(tuning_to_link),
+    }
 }
 
 /// The address that restores everything. Start flags stay; a page without an address of its own (`srcdoc`) has only the
 /// fragment to give.
-fn address_of(scenario: &Scenario) -> Result<String, ScenarioError> {
-    let link = to_link(scenario)?;
+fn address_of(lab: Lab) -> Result<String, ScenarioError> {
+    let link = link_of(lab)?;
     let here = window().location().href().unwrap_or_default();
     let page = here.split('#').next().unwrap_or_default();
     Ok(format!("{page}#{PREFIX}{link}"))
@@ -26,23 +36,16 @@ fn address_of(scenario: &Scenario) -> Result<String, ScenarioError> {
 
 /// The fragment that restores everything, for a link to another page.
 pub fn fragment(lab: Lab) -> Option<String> {
-    lab.scenario.with_untracked(to_link).ok().map(|link| format!("#{PREFIX}{link}"))
+    link_of(lab).ok().map(|link| format!("#{PREFIX}{link}"))
 }
 
 /// Puts the link on the clipboard and into the address bar, so that a reload restores the bench as well.
 pub fn share(lab: Lab) {
-    match lab.scenario.with_untracked(address_of) {
+    match address_of(lab) {
         Err(error) => lab.notice.set(Some(Notice::Refused(error))),
         Ok(address) => {
-            // A sandboxed page may not touch its address; the link is then on the clipboard only.
-            if let Ok(history) = window().history() {
-                let fragment = address.split_once('#').map_or("", |(_, fragment)| fragment);
-                let _ = history.replace_state_with_url(
-                    &leptos::wasm_bindgen::JsValue::NULL,
-                    "",
-                    Some(&format!("#{fragment}")),
-                );
-            }
+            let fragment = address.split_once('#').map_or("", |(_, fragment)| fragment);
+            show_address(&format!("#{fragment}"));
             copy(&address.clone(), move |copied| {
                 lab.notice.set(Some(if copied { Notice::Copied } else { Notice::CopyByHand(address) }));
             });
@@ -50,9 +53,31 @@ pub fn share(lab: Lab) {
     }
 }
 
+/// Shows an address without loading it. A sandboxed page may not touch its address, and goes on without.
+fn show_address(address: &str) {
+    if let Ok(history) = window().history() {
+        let _ = history.replace_state_with_url(&leptos::wasm_bindgen::JsValue::NULL, "", Some(address));
+    }
+}
+
+/// Shows another bench, also in the address, so that a reload comes back to it. A link in the address was of the last one.
+pub fn go_to(lab: Lab, bench: Bench) {
+    lab.bench.set(bench);
+    let location = window().location();
+    let query = location.search().unwrap_or_default();
+    let others =
+        query.trim_start_matches('?').split('&').filter(|pair| !pair.is_empty() && !pair.starts_with("bench="));
+    let query: Vec<String> = others.map(str::to_owned).chain([format!("bench={}", bench.name())]).collect();
+    show_address(&format!("{}?{}", location.pathname().unwrap_or_default(), query.join("&")));
+}
+
 /// Hands the experiment over as a file, as the command line reads it.
 pub fn save(lab: Lab) {
-    match lab.scenario.with_untracked(to_json) {
+    let text = match lab.bench.get_untracked() {
+        Bench::QuadrupleTank => lab.scenario.with_untracked(to_json),
+        Bench::RelayTuning => lab.tuning.with_untracked(tuning_to_json),
+    };
+    match text {
         Ok(text) => download_text("quadtank-experiment.json", "application/json", &text),
         Err(error) => lab.notice.set(Some(Notice::Refused(error))),
     }
@@ -63,6 +88,6 @@ pub fn open_file(lab: Lab, file: &web_sys::File) {
     let text = wasm_bindgen_futures::JsFuture::from(file.text());
     leptos::task::spawn_local(async move {
         let text = text.await.ok().and_then(|t| t.as_string()).unwrap_or_default();
-        lab.open(from_json(&text));
+        lab.open(json::read(&text));
     });
 }

@@ -7,11 +7,13 @@ use leptos::wasm_bindgen::JsCast;
 
 use super::lab::{Lab, Notice, use_lab};
 use super::quadruple::QuadrupleTankBench;
+use super::relay::RelayTuningBench;
 use super::share;
-use super::start::StartFlags;
+use super::start::{Bench, StartFlags};
 use super::storage::{LANGUAGE, THEME};
 use super::texts::{Language, say, tr};
-use crate::scenario::{Scenario, ScenarioError, setup_of};
+use super::widgets::handler;
+use crate::scenario::{Document, Scenario, ScenarioError, setup_of};
 
 /// The element of the page that the laboratory fills; it holds the static outline until then.
 const ROOT: &str = "app";
@@ -62,10 +64,30 @@ pub fn Laboratory() -> impl IntoView {
                 view! { <Header /> }.into_any()
             }}
             <Notices />
-            <QuadrupleTankBench />
-            {embed.then(|| view! { <EmbedFooter /> })}
+            {Vec::from(Bench::ALL.map(|bench| view! { <KeptBench bench /> }.into_any()))}
+            {embed.then(|| view! { <EmbedFooter /> }.into_any())}
         </div>
     }
+}
+
+/// A bench, made when it is shown first and hidden while another one is. It stays, because signals that outlive a view keep
+/// what is left of its effects until they change: going to and fro would leave kilobytes behind each time.
+#[component]
+fn KeptBench(bench: Bench) -> impl IntoView {
+    let lab = use_lab();
+    let seen = RwSignal::new(false);
+    Effect::new(move || {
+        if lab.bench.get() == bench && !seen.get_untracked() {
+            seen.set(true);
+        }
+    });
+    let content = move || {
+        seen.get().then(|| match bench {
+            Bench::QuadrupleTank => view! { <QuadrupleTankBench /> }.into_any(),
+            Bench::RelayTuning => view! { <RelayTuningBench /> }.into_any(),
+        })
+    };
+    view! { <div hidden=Signal::derive(move || lab.bench.get() != bench)>{content}</div> }
 }
 
 /// Closes the menus that are open, but for the one that was pressed.
@@ -88,20 +110,22 @@ fn start() -> Lab {
     let prefers_dark =
         || window().match_media("(prefers-color-scheme: dark)").ok().flatten().is_some_and(|query| query.matches());
     let dark = flags.theme.clone().or_else(|| THEME.read()).map_or_else(prefers_dark, |theme| theme == "dark");
-    let fallback = || {
-        let mut scenario = Scenario::default();
-        if let Some(id) = flags.preset {
-            scenario.setup = setup_of(id);
+    let mut scenario = Scenario::default();
+    if let Some(id) = flags.preset {
+        scenario.setup = setup_of(id);
+    }
+    // A run is computed at once, so the scenario of a link has to be there from the start.
+    let from_address = match share::from_address() {
+        Some(Ok(Document::Quadruple(linked))) => {
+            scenario = linked;
+            None
         }
-        scenario
-    };
-    let (scenario, refused) = match share::from_address() {
-        None => (fallback(), None),
-        Some(Ok(scenario)) => (scenario, None),
-        Some(Err(error)) => (fallback(), Some(Notice::Refused(error))),
+        other => other,
     };
     let lab = Lab::new(scenario, language.as_deref().map_or(Language::English, Language::of_tag), dark, flags);
-    lab.notice.set(refused);
+    if let Some(outcome) = from_address {
+        lab.open(outcome);
+    }
     lab
 }
 
@@ -117,9 +141,9 @@ fn Header() -> impl IntoView {
     view! {
         <header class="top">
             <h1>{say!(lab, app.title)}</h1>
-            <span class="tagline">{say!(lab, app.tagline)}</span>
+            <nav aria-label=say!(lab, app.benches)>{Vec::from(Bench::ALL.map(|bench| view! { <BenchLink bench /> }.into_any()))}</nav>
             <span class="spacer"></span>
-            <button type="button" class="button" data-testid="share" on:click=move |_| share::share(lab)>
+            <button type="button" class="button" data-testid="share" on:click=handler(move |_| share::share(lab))>
                 {say!(lab, app.share)}
             </button>
             <FileMenu />
@@ -133,6 +157,32 @@ fn Header() -> impl IntoView {
             <LanguageChoice />
             <ThemeSwitch />
         </header>
+    }
+}
+
+/// The way to a bench. It is an address, so it can be opened beside and bookmarked.
+#[component]
+fn BenchLink(bench: Bench) -> impl IntoView {
+    let lab = use_lab();
+    let text = match bench {
+        Bench::QuadrupleTank => say!(lab, app.quadruple_tank),
+        Bench::RelayTuning => say!(lab, app.relay_tuning),
+    };
+    let go = move |event: ev::MouseEvent| {
+        if !(event.ctrl_key() || event.meta_key() || event.shift_key()) {
+            event.prevent_default();
+            share::go_to(lab, bench);
+        }
+    };
+    view! {
+        <a
+            href=format!("?bench={}", bench.name())
+            data-testid=format!("bench-{}", bench.name())
+            aria-current=move || (lab.bench.get() == bench).then_some("page")
+            on:click=handler(go)
+        >
+            {text}
+        </a>
     }
 }
 
@@ -153,13 +203,13 @@ fn FileMenu() -> impl IntoView {
         <details class="menu" data-testid="file-menu">
             <summary>{say!(lab, app.export)}</summary>
             <div>
-                <button type="button" data-testid="save" on:click=move |_| share::save(lab)>{say!(lab, app.export_scenario)}</button>
-                <button type="button" data-testid="open" on:click=move |_| if let Some(input) = picker.get_untracked() { input.click() }>
+                <button type="button" data-testid="save" on:click=handler(move |_| share::save(lab))>{say!(lab, app.export_scenario)}</button>
+                <button type="button" data-testid="open" on:click=handler(move |_| if let Some(input) = picker.get_untracked() { input.click() })>
                     {say!(lab, app.open_scenario)}
                 </button>
-                {(!single).then(|| view! { <a href="quadtank.html" download="quadtank.html" data-testid="single-file">{say!(lab, app.single_file)}</a> })}
+                {(!single).then(|| view! { <a href="quadtank.html" download="quadtank.html" data-testid="single-file">{say!(lab, app.single_file)}</a> }.into_any())}
             </div>
-            <input type="file" accept=".json,application/json" hidden node_ref=picker data-testid="open-input" on:change=on_file />
+            <input type="file" accept=".json,application/json" hidden node_ref=picker data-testid="open-input" on:change=handler(on_file) />
         </details>
     }
 }
@@ -177,14 +227,21 @@ fn LanguageChoice() -> impl IntoView {
         lab.language.set(language);
         LANGUAGE.write(language.tag());
     };
-    let option = move |language: Language, name: &'static str| {
-        view! { <option value=language.tag() lang=language.tag() selected=move || lab.language.get() == language>{name}</option> }
-    };
+    let options = Signal::derive(move || {
+        let spoken = |language: Language, name: &str| {
+            let tag = language.tag();
+            let chosen = if lab.language.get() == language { " selected" } else { "" };
+            format!("<option value=\"{tag}\" lang=\"{tag}\"{chosen}>{name}</option>")
+        };
+        spoken(Language::English, "English") + &spoken(Language::Portuguese, "Português")
+    });
     view! {
-        <select data-testid="language" aria-label=say!(lab, app.language) on:change=choose prop:value=move || lab.language.get().tag().to_owned()>
-            {option(Language::English, "English")}
-            {option(Language::Portuguese, "Português")}
-        </select>
+        <select
+            data-testid="language"
+            aria-label=say!(lab, app.language)
+            on:change=handler(choose)
+            inner_html=options
+        ></select>
     }
 }
 
@@ -199,8 +256,8 @@ fn ThemeSwitch() -> impl IntoView {
         THEME.write(if lab.dark.get_untracked() { "dark" } else { "light" });
     };
     view! {
-        <button type="button" class="button" data-testid="theme" aria-label=name title=name on:click=switch>
-            {move || if lab.dark.get() { "☀" } else { "☾" }}
+        <button type="button" class="button" data-testid="theme" aria-label=name title=name on:click=handler(switch)>
+            {Signal::derive(move || if lab.dark.get() { "☀" } else { "☾" }.to_owned())}
         </button>
     }
 }
@@ -229,9 +286,10 @@ fn Notices() -> impl IntoView {
                 view! {
                     <div class=class data-testid="notice">
                         {content(notice)}
-                        <button type="button" class="button small" aria-label=tr!(lab, app.close) on:click=move |_| lab.notice.set(None)>"✕"</button>
+                        <button type="button" class="button small" aria-label=tr!(lab, app.close) on:click=handler(move |_| lab.notice.set(None))>"✕"</button>
                     </div>
                 }
+                .into_any()
             })}
         </div>
     }
@@ -281,7 +339,7 @@ fn EmbedFooter() -> impl IntoView {
     };
     view! {
         <footer class="page">
-            <a href=bare target="_blank" rel="noopener" data-testid="full-lab" on:click=on_click>{say!(lab, app.embedded)}</a>
+            <a href=bare target="_blank" rel="noopener" data-testid="full-lab" on:click=handler(on_click)>{say!(lab, app.embedded)}</a>
         </footer>
     }
 }

@@ -2,11 +2,34 @@
 //!
 //! `embed=1` hides the header and packs the bench; `panels=valves,zeros` shows only these; `lock=valves,gains` disables
 //! these controls; `lang=en|pt-BR` and `theme=light|dark` choose without being remembered; `preset=NAME` loads a
-//! published rig. A flag that is not understood is ignored.
+//! published rig; `bench=relay-tuning` shows that bench. A flag that is not understood is ignored.
 
 use crate::plant::PresetId;
 
-/// A card of the home bench.
+/// A bench.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Bench {
+    /// The home bench.
+    #[default]
+    QuadrupleTank,
+    /// Relay tests and ultimate-point placement.
+    RelayTuning,
+}
+
+impl Bench {
+    /// All benches, in the order of the navigation.
+    pub const ALL: [Self; 2] = [Self::QuadrupleTank, Self::RelayTuning];
+
+    /// Its name in an address.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::QuadrupleTank => "quadruple-tank",
+            Self::RelayTuning => "relay-tuning",
+        }
+    }
+}
+
+/// A card of a bench.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Panel {
     /// The drawing of the rig.
@@ -25,9 +48,17 @@ pub enum Panel {
     Why,
     /// The responses.
     Responses,
+    /// The plant of the relay-tuning bench and its published cases.
+    Plant,
+    /// The relay test.
+    Test,
+    /// The critical curve.
+    Curve,
+    /// The characteristic loci with their target.
+    Placement,
 }
 
-const PANELS: [(&str, Panel); 8] = [
+const PANELS: [(&str, Panel); 12] = [
     ("process", Panel::Process),
     ("valves", Panel::Valves),
     ("zeros", Panel::Zeros),
@@ -36,6 +67,10 @@ const PANELS: [(&str, Panel); 8] = [
     ("experiment", Panel::Experiment),
     ("why", Panel::Why),
     ("responses", Panel::Responses),
+    ("plant", Panel::Plant),
+    ("test", Panel::Test),
+    ("curve", Panel::Curve),
+    ("placement", Panel::Placement),
 ];
 
 /// A group of controls that can be disabled.
@@ -55,9 +90,17 @@ pub enum Control {
     Sampling,
     /// The experiment.
     Experiment,
+    /// The plant that is tuned, with the published cases.
+    Plant,
+    /// The relay test.
+    Test,
+    /// The critical point.
+    Point,
+    /// The target of the placement, method, action and root.
+    Target,
 }
 
-const CONTROLS: [(&str, Control); 7] = [
+const CONTROLS: [(&str, Control); 11] = [
     ("preset", Control::Preset),
     ("valves", Control::Valves),
     ("voltages", Control::Voltages),
@@ -65,11 +108,17 @@ const CONTROLS: [(&str, Control); 7] = [
     ("gains", Control::Gains),
     ("sampling", Control::Sampling),
     ("experiment", Control::Experiment),
+    ("plant", Control::Plant),
+    ("test", Control::Test),
+    ("point", Control::Point),
+    ("target", Control::Target),
 ];
 
 /// What the query asks for.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StartFlags {
+    /// The bench to show.
+    pub bench: Bench,
     /// No header, compact.
     pub embed: bool,
     /// The cards to show; empty for all.
@@ -92,6 +141,7 @@ impl StartFlags {
             let (name, value) = pair.split_once('=').unwrap_or((pair, ""));
             let value = value.replace("%2C", ",").replace("%2c", ",");
             match name {
+                "bench" => flags.bench = Bench::ALL.into_iter().find(|b| b.name() == value).unwrap_or_default(),
                 "embed" => flags.embed = value == "1",
                 "panels" => flags.panels = chosen(&value, &PANELS),
                 "lock" => flags.locked = chosen(&value, &CONTROLS),
@@ -137,6 +187,12 @@ mod tests {
     fn no_query_shows_everything_and_locks_nothing() {
         let flags = StartFlags::parse("");
         assert!(flags.shows(Panel::Process) && !flags.locks(Control::Preset) && !flags.embed);
+    }
+
+    #[test]
+    fn a_bench_is_found_by_its_name() {
+        assert_eq!(StartFlags::parse("?bench=relay-tuning&lang=en").bench, Bench::RelayTuning);
+        assert_eq!(StartFlags::parse("bench=nonsense").bench, Bench::QuadrupleTank);
     }
 
     #[test]

@@ -3,16 +3,17 @@
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 
-use super::{Axis, Chart, Course, Entry, Field, Layer, Marker, Pen, Role, Sample, Series, Shape};
+use super::{Anchor, Axis, Chart, Course, Entry, Field, Label, Layer, Marker, Pen, Role, Sample, Series, Shape};
+use crate::scalar::{larger, smaller};
 
 /// Steps of the shading along each axis, and its depth.
 const STEPS: usize = 60;
 const SHADE: f64 = -0.6;
 /// Corners of the unit circle.
 const CIRCLE: usize = 180;
-/// The loci are shown out to this distance at least and at most.
-const LEAST_REACH: f64 = 1.5;
-const MOST_REACH: f64 = 3.0;
+/// What is shown of the plane of the loci: with integral action they come from infinity, and all that counts is around −1.
+const ACROSS: (f64, f64) = (-1.6, 1.2);
+const UP: (f64, f64) = (-1.5, 1.3);
 
 fn line<'a>(
     name: &'a str,
@@ -36,36 +37,58 @@ pub struct CurveChart<'a> {
     pub curve: [&'a [f64]; 2],
     /// Corners of it.
     pub corners: &'a [(f64, f64)],
-    /// Estimates of relay tests by first harmonics.
-    pub estimates: &'a [(f64, f64)],
+    /// Estimates of relay tests by first harmonics, and by peaks.
+    pub estimates: [&'a [(f64, f64)]; 2],
+    /// Importances r2 whose rays are drawn, with their names.
+    pub rays: &'a [(f64, String)],
     /// The chosen point.
     pub chosen: Option<(f64, f64)>,
     /// Names of the axes.
     pub axes: [&'a str; 2],
-    /// Legend: curve, estimates.
-    pub texts: [&'a str; 2],
+    /// Legend: curve, estimates by first harmonics, by peaks, corner.
+    pub texts: [&'a str; 4],
 }
 
 /// The critical curve (Campestrini 2006, Fig. 25): stable gains are on the side of the origin; rays from there have one
-/// importance r2, the dashed one r2 = 1.
+/// importance r2.
 pub fn critical_curve<'a>(spec: &CurveChart<'a>) -> Chart<'a> {
     let [x, y] = spec.curve;
     let top = |values: &[f64]| values.iter().copied().filter(|v| v.is_finite()).fold(0.0, f64::max).max(1e-9) * 1.05;
     let mut chart =
         Chart::new(Axis::rounded(spec.axes[0], (0.0, top(x)), 5), Axis::rounded(spec.axes[1], (0.0, top(y)), 5));
     chart.layers.push(Layer::Field(stable_region(x, y, chart.x.range, chart.y.range)));
-    let reach = chart.x.range.1.min(chart.y.range.1);
-    chart.layers.push(line("", Role::Muted, Pen::Dashed, vec![0.0, reach], vec![0.0, reach]));
+    for (importance, name) in spec.rays {
+        chart.layers.extend(ray(*importance, name, (chart.x.range.1, chart.y.range.1)));
+    }
     chart.layers.push(line(spec.texts[0], Role::RightHalfPlane, Pen::Solid, x, y));
-    chart.layers.extend(spec.corners.iter().map(|&at| mark(at, Shape::Cross, Role::RightHalfPlane)));
-    chart.layers.extend(spec.estimates.iter().map(|&at| mark(at, Shape::Diamond, Role::ClosedLoop)));
-    chart.layers.extend(spec.chosen.map(|at| mark(at, Shape::Handle, Role::Neutral)));
+    let [harmonic, peak] = spec.estimates;
+    let marks = [
+        (spec.corners, Shape::Cross, Role::RightHalfPlane, spec.texts[3]),
+        (harmonic, Shape::Diamond, Role::ClosedLoop, spec.texts[1]),
+        (peak, Shape::Ring, Role::ClosedLoop, spec.texts[2]),
+    ];
     let entry = |sample, role, text: &str| Entry { sample, role, text: text.to_owned() };
     chart.legend.push(entry(Sample::Line(Pen::Solid), Role::RightHalfPlane, spec.texts[0]));
-    if !spec.estimates.is_empty() {
-        chart.legend.push(entry(Sample::Mark(Shape::Diamond), Role::ClosedLoop, spec.texts[1]));
+    for (points, shape, role, text) in marks {
+        chart.layers.extend(points.iter().map(|&at| mark(at, shape, role)));
+        if !points.is_empty() {
+            chart.legend.push(entry(Sample::Mark(shape), role, text));
+        }
     }
+    chart.layers.extend(spec.chosen.map(|at| mark(at, Shape::Handle, Role::Neutral)));
     chart
+}
+
+/// A dashed ray from the origin to the edge of the plot, with its name at the end.
+fn ray(importance: f64, name: &str, (right, top): (f64, f64)) -> [Layer<'static>; 2] {
+    let leaves_above = importance * right > top;
+    let end = if leaves_above { (top / importance, top) } else { (right, importance * right) };
+    let (offset, anchor) = if leaves_above { ((4.0, 10.0), Anchor::Left) } else { ((-4.0, -8.0), Anchor::Right) };
+    let text = name.to_owned();
+    [
+        line("", Role::Muted, Pen::Dashed, vec![0.0, end.0], vec![0.0, end.1]),
+        Layer::Label(Label { at: end, offset, anchor, text, role: Role::Muted, bold: false }),
+    ]
 }
 
 /// The gains within the curve, which is given from the x axis to the y axis. A direction without a limit is stable as far as
@@ -101,6 +124,8 @@ pub struct LociChart<'a> {
     pub before: [[&'a [f64]; 2]; 2],
     /// The target λ.
     pub target: (f64, f64),
+    /// Where rules move the critical point, with their names, which stand on the right where this is set.
+    pub rules: &'a [((f64, f64), &'static str, bool)],
     /// Names of the axes.
     pub axes: [&'a str; 2],
     /// Legend: locus 1, locus 2, before.
@@ -109,10 +134,7 @@ pub struct LociChart<'a> {
 
 /// Both characteristic loci around −1, with the unit circle (Campestrini 2006, Figs. 35 to 57).
 pub fn characteristic_loci<'a>(spec: &LociChart<'a>) -> Chart<'a> {
-    let reach = spec.loci.as_flattened().iter().flat_map(|column| column.iter()).filter(|v| v.is_finite());
-    let reach = reach.map(|v| v.abs()).fold(LEAST_REACH, f64::max).min(MOST_REACH);
-    let axis = |name| Axis::rounded(name, (-reach, reach), 6);
-    let mut chart = Chart::new(axis(spec.axes[0]), axis(spec.axes[1]));
+    let mut chart = Chart::new(Axis::new(spec.axes[0], ACROSS), Axis::new(spec.axes[1], UP));
     chart.square = true;
     chart.layers.push(Layer::Level { y: 0.0, role: Role::Muted, pen: Pen::Hair });
     chart.layers.push(Layer::Upright { x: 0.0, role: Role::Muted, pen: Pen::Hair });
@@ -126,6 +148,12 @@ pub fn characteristic_loci<'a>(spec: &LociChart<'a>) -> Chart<'a> {
         chart.layers.push(line(spec.texts[index], Role::of_loop(index), Pen::Solid, x, y));
     }
     chart.layers.push(mark((-1.0, 0.0), Shape::Cross, Role::RightHalfPlane));
+    for &(at, name, side) in spec.rules {
+        let (offset, anchor) = if side { ((7.0, 0.0), Anchor::Left) } else { ((-7.0, 0.0), Anchor::Right) };
+        chart.layers.push(mark(at, Shape::Point, Role::Neutral));
+        let text = name.to_owned();
+        chart.layers.push(Layer::Label(Label { at, offset, anchor, text, role: Role::Neutral, bold: false }));
+    }
     chart.layers.push(mark(spec.target, Shape::Handle, Role::Neutral));
     let entry = |pen, role, text: &str| Entry { sample: Sample::Line(pen), role, text: text.to_owned() };
     chart.legend.push(entry(Pen::Solid, Role::Loop1, spec.texts[0]));
@@ -134,15 +162,28 @@ pub fn characteristic_loci<'a>(spec: &LociChart<'a>) -> Chart<'a> {
     chart
 }
 
-/// What the charts of a run of two loops show.
+/// A record of two loops and how it is drawn.
 #[derive(Clone, Debug)]
-pub struct LoopsChart<'a> {
+pub struct LoopsRecord<'a> {
     /// Times of the rows.
     pub time: &'a [f64],
     /// Outputs.
     pub outputs: [&'a [f64]; 2],
     /// Inputs, which hold from a row to the next.
     pub inputs: [&'a [f64]; 2],
+    /// When each relay switched, marked if there is room.
+    pub switches: [&'a [(f64, bool)]; 2],
+    /// Its lines.
+    pub pen: Pen,
+}
+
+/// What the charts of runs of two loops show.
+#[derive(Clone, Debug)]
+pub struct LoopsChart<'a> {
+    /// The records, from the back to the front; the last one is the one that counts.
+    pub records: &'a [LoopsRecord<'a>],
+    /// The stretch of time that is shown.
+    pub window: (f64, f64),
     /// References, drawn dashed; `None` for a relay test.
     pub references: Option<[f64; 2]>,
     /// Name of the time axis, of the outputs and of the inputs.
@@ -151,34 +192,71 @@ pub struct LoopsChart<'a> {
     pub texts: [&'a str; 2],
 }
 
+/// Most marks of switches in sight: more would hide the curve.
+const MOST_MARKS: usize = 80;
+
 /// Outputs above, inputs below.
 pub fn two_loops<'a>(spec: &LoopsChart<'a>) -> [Chart<'a>; 2] {
-    let end = spec.time.last().copied().unwrap_or(1.0);
-    let chart = |columns: [&'a [f64]; 2], also: &[f64], name: &str, course: Course, weight: f64| {
-        let values = || columns.iter().flat_map(|column| column.iter()).chain(also).copied().filter(|v| v.is_finite());
-        let (low, high) = (values().fold(0.0, f64::min), values().fold(0.0, f64::max));
-        let mut chart = Chart::new(Axis::new(spec.axes[0], (0.0, end)), Axis::rounded(name, (low, high), 8));
-        chart.weight = weight;
-        for (index, column) in columns.into_iter().enumerate() {
-            let role = Role::of_loop(index);
-            let (x, y) = (spec.time.into(), column.into());
-            let series = Series { name: spec.texts[index].into(), role, pen: Pen::Solid, course, x, y, y_scale: 1.0 };
-            chart.layers.push(Layer::Line(series));
-        }
-        chart
-    };
     let references = spec.references.unwrap_or_default();
-    let mut outputs = chart(spec.outputs, &references, spec.axes[1], Course::Straight, 2.0);
+    let mut outputs = loops_chart(spec, spec.axes[1], |record| record.outputs, &references, Course::Straight);
     for (index, y) in spec.references.into_iter().flatten().enumerate() {
         outputs.layers.push(Layer::Level { y, role: Role::of_loop(index), pen: Pen::Dashed });
     }
+    if let Some(record) = spec.records.last() {
+        outputs.layers.extend(switch_marks(record, spec.window));
+    }
     // The chart below shows the same axis.
-    outputs.x = Axis { numbered: false, ..Axis::new("", (0.0, end)) };
+    outputs.x = Axis { numbered: false, ..Axis::new("", spec.window) };
+    outputs.weight = 2.0;
     outputs.legend = (0..2)
         .map(|i| Entry { sample: Sample::Line(Pen::Solid), role: Role::of_loop(i), text: spec.texts[i].to_owned() })
         .collect();
-    let inputs = chart(spec.inputs, &[], spec.axes[2], Course::Held, 1.0);
+    let inputs = loops_chart(spec, spec.axes[2], |record| record.inputs, &[], Course::Held);
     [outputs, inputs]
+}
+
+/// A chart of two columns of every record, from the lowest to the highest value in sight of the last one.
+fn loops_chart<'a>(
+    spec: &LoopsChart<'a>,
+    label: &str,
+    columns: impl Fn(&LoopsRecord<'a>) -> [&'a [f64]; 2],
+    also: &[f64],
+    course: Course,
+) -> Chart<'a> {
+    let (mut low, mut high) = also.iter().fold((0.0, 0.0), |(low, high): (f64, f64), &y| (low.min(y), high.max(y)));
+    if let Some(record) = spec.records.last() {
+        let first = record.time.partition_point(|&time| time < spec.window.0);
+        let last = record.time.partition_point(|&time| time <= spec.window.1);
+        for column in columns(record) {
+            for &y in column.get(first..last).unwrap_or_default().iter().filter(|y| y.is_finite()) {
+                (low, high) = (smaller(low, y), larger(high, y));
+            }
+        }
+    }
+    let mut chart = Chart::new(Axis::new(spec.axes[0], spec.window), Axis::rounded(label, (low, high), 8));
+    for record in spec.records {
+        for (index, column) in columns(record).into_iter().enumerate() {
+            let (x, y) = (record.time.into(), column.into());
+            let (name, role) = (spec.texts[index].into(), Role::of_loop(index));
+            chart.layers.push(Layer::Line(Series { name, role, pen: record.pen, course, x, y, y_scale: 1.0 }));
+        }
+    }
+    chart
+}
+
+/// A ring on the output at every instant at which its relay switched.
+fn switch_marks(record: &LoopsRecord, window: (f64, f64)) -> Vec<Layer<'static>> {
+    let mut marks = Vec::new();
+    for (index, switches) in record.switches.iter().enumerate() {
+        for &(time, _) in switches.iter().filter(|(time, _)| (window.0..=window.1).contains(time)) {
+            let row = record.time.partition_point(|&t| t < time);
+            if let Some(&y) = record.outputs[index].get(row) {
+                let (shape, role) = (Shape::Point, Role::of_loop(index));
+                marks.push(Layer::Marker(Marker { at: (time, y), shape, role, points_beyond: false }));
+            }
+        }
+    }
+    if marks.len() > MOST_MARKS { Vec::new() } else { marks }
 }
 
 #[cfg(test)]
@@ -202,28 +280,50 @@ mod tests {
             loci: [far, far],
             before: [far, far],
             target: (-0.3, -0.3),
+            rules: &[((-0.4, 0.08), "ZN", true)],
             axes: ["re", "im"],
             texts: ["1", "2", "0"],
         };
         let chart = characteristic_loci(&spec);
-        assert!(chart.square && chart.x.range == chart.y.range && chart.x.range.1 <= MOST_REACH + 1e-9);
+        assert!(chart.square && (chart.x.range, chart.y.range) == (ACROSS, UP));
+        // As wide as high, so the unit circle is one.
+        assert!((ACROSS.1 - ACROSS.0 - (UP.1 - UP.0)).abs() < 1e-12);
         assert_eq!(chart.legend.len(), 3);
     }
 
+    fn record<'a>(t: &'a [f64], y: &'a [f64], u: &'a [f64], switches: &'a [(f64, bool)]) -> LoopsRecord<'a> {
+        LoopsRecord { time: t, outputs: [y, y], inputs: [u, u], switches: [switches, &[]], pen: Pen::Solid }
+    }
+
+    fn loops<'a>(records: &'a [LoopsRecord<'a>], window: (f64, f64)) -> [Chart<'a>; 2] {
+        let (axes, texts) = (["t", "y", "u"], ["1", "2"]);
+        two_loops(&LoopsChart { records, window, references: Some([1.0, 0.0]), axes, texts })
+    }
+
     #[test]
-    fn inputs_hold_and_references_are_levels() {
-        let (t, y, u) = ([0.0, 1.0, 2.0], [0.0, 0.5, 0.9], [1.0, -1.0, 1.0]);
-        let spec = LoopsChart {
-            time: &t,
-            outputs: [&y, &y],
-            inputs: [&u, &u],
-            references: Some([1.0, 0.0]),
-            axes: ["t", "y", "u"],
-            texts: ["1", "2"],
-        };
-        let [outputs, inputs] = two_loops(&spec);
+    fn inputs_hold_references_are_levels_and_switches_are_marked() {
+        let records = [record(&[0.0, 1.0, 2.0], &[0.0, 0.5, 0.9], &[1.0, -1.0, 1.0], &[(1.0, false)])];
+        let [outputs, inputs] = loops(&records, (0.0, 2.0));
         assert!(inputs.series().all(|series| series.course == Course::Held));
         assert!(outputs.y.range.1 >= 1.0 && inputs.y.range == (-1.0, 1.0));
         assert_eq!(outputs.layers.iter().filter(|layer| matches!(layer, Layer::Level { .. })).count(), 2);
+        let marks: Vec<_> = outputs.layers.iter().filter(|layer| matches!(layer, Layer::Marker(_))).collect();
+        assert!(matches!(marks[..], [Layer::Marker(Marker { at: (1.0, 0.5), .. })]));
+    }
+
+    #[test]
+    fn what_stays_behind_does_not_set_the_axis_and_a_window_does() {
+        let (t, tall, low) = ([0.0, 1.0, 2.0], [0.0, 50.0, 9.0], [0.0, 3.0, 1.0]);
+        let records = [record(&t, &tall, &low, &[]), record(&t, &low, &low, &[])];
+        assert!(loops(&records, (0.0, 2.0))[0].y.range.1 < 10.0);
+        assert!(loops(&records, (1.5, 2.0))[0].y.range.1 < 3.0);
+    }
+
+    #[test]
+    fn a_ray_ends_at_the_edge() {
+        let [Layer::Line(flat), _] = ray(0.5, "r", (4.0, 3.0)) else { panic!("a line") };
+        let [Layer::Line(steep), _] = ray(3.0, "r", (4.0, 3.0)) else { panic!("a line") };
+        assert_eq!((flat.x[1], flat.y[1]), (4.0, 2.0));
+        assert_eq!((steep.x[1], steep.y[1]), (1.0, 3.0));
     }
 }

@@ -1,18 +1,10 @@
-use serde::Deserialize;
-use serde::de::DeserializeOwned;
-
 use super::path::path_at;
+use super::tree::{Tree, TreeError};
 use super::tuning::TuningScenario;
 use super::{Scenario, ScenarioError};
 
 /// Longest document that is read (bytes): far more than any scenario needs.
 pub const DOCUMENT_LIMIT: usize = 64 * 1024;
-
-/// The part of a document that every version has; all else is skipped.
-#[derive(Deserialize)]
-struct Versioned {
-    version: u64,
-}
 
 /// Reads a scenario from JSON: length, then version, then shape, then every number.
 ///
@@ -20,15 +12,35 @@ struct Versioned {
 /// [`ScenarioError::TooLong`], [`ScenarioError::UnknownVersion`], [`ScenarioError::Malformed`] (which names the field),
 /// or what [`Scenario::validate`] finds.
 pub fn from_json(text: &str) -> Result<Scenario, ScenarioError> {
+    let tree = tree_of(text)?;
+    match version_of(&tree)? {
+        1 => scenario_of(&tree),
+        found => Err(ScenarioError::UnknownVersion { found, newest: Scenario::VERSION }),
+    }
+}
+
+fn tree_of(text: &str) -> Result<Tree, ScenarioError> {
     if text.len() > DOCUMENT_LIMIT {
         return Err(ScenarioError::TooLong { length: text.len(), max: DOCUMENT_LIMIT });
     }
-    let Versioned { version } = parse(text)?;
-    // A later version is read here too: into its own types, then brought up to date.
-    let scenario: Scenario = match version {
-        1 => parse(text)?,
-        found => return Err(ScenarioError::UnknownVersion { found, newest: Scenario::VERSION }),
-    };
+    serde_json::from_str(text).map_err(|error| {
+        let path = path_at(text, error.line(), error.column());
+        malformed(&path, &error)
+    })
+}
+
+/// The version of a document, which comes before anything else.
+fn version_of(tree: &Tree) -> Result<u64, ScenarioError> {
+    match tree.get("version") {
+        Some(Tree::Unsigned(version)) => Ok(*version),
+        Some(_) => Err(malformed("version", &"no whole number")),
+        None => Err(malformed("", &"missing field `version`")),
+    }
+}
+
+/// A later version is read here too: into its own types, then brought up to date.
+fn scenario_of(tree: &Tree) -> Result<Scenario, ScenarioError> {
+    let scenario: Scenario = tree.read().map_err(|error| misread(&error))?;
     scenario.validate()?;
     Ok(scenario)
 }
@@ -48,16 +60,22 @@ pub enum Document {
 /// # Errors
 /// As [`from_json`].
 pub fn document_from_json(text: &str) -> Result<Document, ScenarioError> {
-    match from_json(text) {
-        Err(ScenarioError::UnknownVersion { found: 2, .. }) => {
-            let scenario: TuningScenario = parse(text)?;
+    document_from_tree(&tree_of(text)?)
+}
+
+/// Reads a document of any kind from what JSON was parsed to.
+///
+/// # Errors
+/// As [`document_from_json`], but for what concerns the text.
+pub fn document_from_tree(tree: &Tree) -> Result<Document, ScenarioError> {
+    match version_of(tree)? {
+        1 => scenario_of(tree).map(Document::Quadruple),
+        2 => {
+            let scenario: TuningScenario = tree.read().map_err(|error| misread(&error))?;
             scenario.validate()?;
             Ok(Document::Tuning(scenario))
         }
-        Err(ScenarioError::UnknownVersion { found, .. }) => {
-            Err(ScenarioError::UnknownVersion { found, newest: TuningScenario::VERSION })
-        }
-        result => result.map(Document::Quadruple),
+        found => Err(ScenarioError::UnknownVersion { found, newest: TuningScenario::VERSION }),
     }
 }
 
@@ -82,14 +100,11 @@ pub fn to_json(scenario: &Scenario) -> Result<String, ScenarioError> {
 /// Path of an error that concerns no single field.
 const DOCUMENT: &str = "document";
 
-/// Reads JSON to its end; an error names the field by its path.
-fn parse<T: DeserializeOwned>(text: &str) -> Result<T, ScenarioError> {
-    serde_json::from_str(text).map_err(|error| {
-        let path = path_at(text, error.line(), error.column());
-        malformed(if path.is_empty() { DOCUMENT } else { &path }, &error)
-    })
+fn misread(error: &TreeError) -> ScenarioError {
+    malformed(error.path(), error)
 }
 
-fn malformed(path: &str, reason: &serde_json::Error) -> ScenarioError {
+fn malformed(path: &str, reason: &dyn std::fmt::Display) -> ScenarioError {
+    let path = if path.is_empty() { DOCUMENT } else { path };
     ScenarioError::Malformed { path: path.to_owned(), reason: reason.to_string() }
 }

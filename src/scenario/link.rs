@@ -53,9 +53,17 @@ fn write(format: usize, json: &str) -> Result<String, ScenarioError> {
 /// Reads a document from the text that [`to_link`] or [`tuning_to_link`] writes.
 ///
 /// # Errors
-/// [`ScenarioError::TooLong`] beyond [`LINK_LIMIT`]; [`ScenarioError::UnknownVersion`] for a format of a later program;
-/// [`ScenarioError::DamagedLink`] when it is cut off, changed or no link at all; else as [`document_from_json`].
+/// As [`json_of_link`] and [`document_from_json`].
 pub fn document_from_link(link: &str) -> Result<Document, ScenarioError> {
+    document_from_json(&json_of_link(link)?)
+}
+
+/// The JSON in the text that [`to_link`] or [`tuning_to_link`] writes.
+///
+/// # Errors
+/// [`ScenarioError::TooLong`] beyond [`LINK_LIMIT`]; [`ScenarioError::UnknownVersion`] for a format of a later program;
+/// [`ScenarioError::DamagedLink`] when it is cut off, changed or no link at all.
+pub fn json_of_link(link: &str) -> Result<String, ScenarioError> {
     if link.len() > LINK_LIMIT {
         return Err(ScenarioError::TooLong { length: link.len(), max: LINK_LIMIT });
     }
@@ -67,5 +75,5 @@ pub fn document_from_link(link: &str) -> Result<Document, ScenarioError> {
     let dictionary = dictionary.ok_or(ScenarioError::UnknownVersion { found, newest: NEWEST })?;
     let packed = URL_SAFE_NO_PAD.decode(payload).map_err(|_| ScenarioError::DamagedLink)?;
     let text = unpack(dictionary, &packed, DOCUMENT_LIMIT).ok_or(ScenarioError::DamagedLink)?;
-    document_from_json(&String::from_utf8(text).map_err(|_| ScenarioError::DamagedLink)?)
+    String::from_utf8(text).map_err(|_| ScenarioError::DamagedLink)
 }

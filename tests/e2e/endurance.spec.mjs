@@ -136,6 +136,37 @@ test('2,000 random events leave no error, no NaN and a flat heap', async ({ lab,
   expect(await lab.text('stability')).toContain('Closed loop stable');
 });
 
+test('600 random events on the relay-tuning bench leave no error and no NaN, and 100 changes of the bench no memory', async ({ lab, page }) => {
+  test.setTimeout(300_000);
+  await lab.open('bench=relay-tuning');
+  const next = random(20261122);
+  for (let k = 0; k < 600; k += BATCH) {
+    await batch(page, Array.from({ length: BATCH }, () => [next(), next(), next(), next()]));
+    await lab.clean();
+    expect(lab.complaints).toEqual([]);
+  }
+  await lab.id('language').selectOption('en');
+  await lab.id('plant').selectOption('wood-berry');
+  await lab.settle();
+  expect(await lab.text('placement-verdict')).toContain('Stable');
+  const client = await page.context().newCDPSession(page);
+  await client.send('Performance.enable');
+  const change = async (times) => {
+    for (let k = 0; k < times; k += 1) {
+      await lab.id('bench-quadruple-tank').click();
+      await lab.ready();
+      await lab.id('bench-relay-tuning').click();
+      await lab.ready();
+    }
+    return memory(page, client);
+  };
+  const [warm, late] = [await change(10), await change(50)];
+  expect(late.js).toBeLessThan(warm.js * 1.05 + 200_000);
+  expect(late.nodes).toBeLessThan(warm.nodes * 1.05 + 100);
+  expect(late.listeners).toBeLessThan(warm.listeners * 1.05 + 20);
+  expect(late.wasm - warm.wasm).toBeLessThanOrEqual(4 * PAGE);
+});
+
 // A move that leaves anything behind shows here long before a lecture is over.
 const MOVES = 1000;
 for (const [name, value] of [['gamma1', (k) => 0.3 + (0.4 * ((k * 7) % 100)) / 100], ['gain1', (k) => 200 + ((k * 7) % 100)]]) {

@@ -1,12 +1,14 @@
 //! The decentralised PI controller.
 
+use crate::app::widgets::handler;
 use leptos::prelude::*;
 
 use super::sentences::{self};
 use crate::app::lab::use_lab;
 use crate::app::start::Control;
 use crate::app::texts::{say, tr};
-use crate::app::widgets::{NumberField, Scale, Segmented, SliderField, rich};
+use crate::app::widgets::html::rich;
+use crate::app::widgets::{NumberField, Scale, Segmented, SliderField};
 use crate::control::{AntiWindup, LoopMode, Pairing, PiSettings};
 use crate::interaction::PairingVerdict;
 use crate::scenario::{Setup, limits};
@@ -40,7 +42,7 @@ pub fn ControllerCard() -> impl IntoView {
         <section class="card pi" aria-labelledby="pi-title">
             <header>
                 <h2 id="pi-title">{say!(lab, pi.title)}</h2>
-                <span class="remark">{remark}</span>
+                <span class="remark">{Signal::derive(remark)}</span>
             </header>
             <PairingSwitch />
             <LoopControls index=0 />
@@ -49,9 +51,7 @@ pub fn ControllerCard() -> impl IntoView {
                 <summary data-testid="pi-more">{say!(lab, pi.more)}</summary>
                 <FinePrint />
             </details>
-            <p class="sentence" class:warm=move || stability().1 role="status" data-testid="stability">
-                {move || rich(&stability().0)}
-            </p>
+            <p class=move || if stability().1 { "sentence warm" } else { "sentence" }.to_owned() role="status" data-testid="stability" inner_html=Signal::derive(move || rich(&stability().0))></p>
         </section>
     }
 }
@@ -93,7 +93,7 @@ fn PairingSwitch() -> impl IntoView {
             }
             disabled=lab.locks(Control::Pairing)
         />
-        {move || against().then(|| view! { <p class="remark warm">{tr!(lab, pi.against)}</p> })}
+        <p class="remark warm" hidden=move || !against()>{say!(lab, pi.against)}</p>
     }
 }
 
@@ -110,7 +110,7 @@ fn LoopControls(index: usize) -> impl IntoView {
     let most = limits::GAIN_MAGNITUDE.max;
     let locked = lab.locks(Control::Gains);
     view! {
-        <h3 class=if index == 0 { "loop1" } else { "loop2" }>{heading}</h3>
+        <h3 class=if index == 0 { "loop1" } else { "loop2" }>{Signal::derive(heading)}</h3>
         <SliderField
             id=GAIN_IDS[index]
             label=format!("K{}", ["₁", "₂"][index])
@@ -192,7 +192,7 @@ fn FinePrint() -> impl IntoView {
                 data-testid="antiwindup"
                 prop:checked=guarded
                 disabled=locked
-                on:change=switch_windup
+                on:change=handler(switch_windup)
             />
             {say!(lab, pi.antiwindup)}
         </label>
@@ -209,7 +209,8 @@ fn FinePrint() -> impl IntoView {
             class="wide"
             disabled=Signal::derive(move || locked || !guarded.get())
         />
-        {(0..2).map(|index| view! { <ManualMode index /> }).collect_view()}
+        <ManualMode index=0 />
+        <ManualMode index=1 />
     }
 }
 
@@ -243,7 +244,7 @@ fn ManualMode(index: usize) -> impl IntoView {
     view! {
         <div class="toolbar">
             <label class="check">
-                <input type="checkbox" data-testid=check_id prop:checked=by_hand disabled=locked on:change=switch />
+                <input type="checkbox" data-testid=check_id prop:checked=by_hand disabled=locked on:change=handler(switch) />
                 {say!(lab, pi.manual, level = index + 1)}
             </label>
             <button
@@ -252,7 +253,7 @@ fn ManualMode(index: usize) -> impl IntoView {
                 data-testid=SIGN_IDS[index]
                 disabled=lab.locks(Control::Gains)
                 aria-label=say!(lab, pi.sign, level = index + 1)
-                on:click=move |_| lab.edit(|s| s.controller.loops[index].gain *= -1.0)
+                on:click=handler(move |_| lab.edit(|s| s.controller.loops[index].gain *= -1.0))
             >
                 "±K"{["₁", "₂"][index]}
             </button>
@@ -286,6 +287,6 @@ fn ManualMode(index: usize) -> impl IntoView {
                     <span class="unit">"V"</span>
                 </div>
             </div>
-        })}
+        }.into_any())}
     }
 }

@@ -1,10 +1,12 @@
 //! The cursor in time: it says which moment the drawing shows, and it can run.
 
+use crate::app::widgets::handler;
 use gloo_timers::callback::Interval;
 use leptos::prelude::*;
 
 use crate::app::lab::use_lab;
 use crate::app::texts::{say, tr};
+use crate::app::widgets::html::option;
 
 /// Between two steps of a running cursor (ms).
 const TICK_MS: u32 = 50;
@@ -44,29 +46,32 @@ pub fn PlayControls() -> impl IntoView {
         playing.set(true);
         timer.set_value(Some(Interval::new(TICK_MS, tick)));
     };
+    let text = Signal::derive(move || {
+        let (sign, name) =
+            if playing.get() { ("❚❚", tr!(lab, experiment.pause)) } else { ("▶", tr!(lab, experiment.play)) };
+        format!("{sign} {name}")
+    });
     on_cleanup(move || timer.dispose());
-    let speeds = SPEEDS
-        .map(|choice| view! { <option value=choice.to_string() selected=choice == USUAL_SPEED>{format!("{choice}×")}</option> })
-        .collect_view();
+    let speeds =
+        SPEEDS.map(|choice| option(&choice.to_string(), &format!("{choice}×"), choice == USUAL_SPEED)).concat();
     view! {
         <div class="toolbar play">
             <button
                 type="button"
                 class="button"
                 data-testid="play"
-                aria-pressed=move || if playing.get() { "true" } else { "false" }
+                aria-pressed=move || playing.get().to_string()
                 title=say!(lab, experiment.play_name)
-                on:click=move |_| if playing.get_untracked() { stop() } else { start() }
+                on:click=handler(move |_| if playing.get_untracked() { stop() } else { start() })
             >
-                {move || if playing.get() { format!("❚❚ {}", tr!(lab, experiment.pause)) } else { format!("▶ {}", tr!(lab, experiment.play)) }}
+                {text}
             </button>
             <select
                 data-testid="speed"
                 aria-label=say!(lab, experiment.speed)
-                on:change=move |event| if let Ok(choice) = event_target_value(&event).parse() { speed.set(choice) }
-            >
-                {speeds}
-            </select>
+                on:change=handler(move |event| if let Ok(choice) = event_target_value(&event).parse() { speed.set(choice) })
+                inner_html=speeds
+            ></select>
         </div>
     }
 }

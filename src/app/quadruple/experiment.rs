@@ -1,5 +1,6 @@
 //! What is done to the loop: steps, a load, noise, how long, and the run played on the drawing.
 
+use crate::app::widgets::handler;
 use leptos::prelude::*;
 
 use super::cursor::PlayControls;
@@ -7,6 +8,7 @@ use crate::app::lab::{Lab, use_lab};
 use crate::app::shown::{CM3_PER_M3, MM2_PER_M2, to_metres, to_shown, unit_name};
 use crate::app::start::Control;
 use crate::app::texts::{say, tr};
+use crate::app::widgets::html::option;
 use crate::app::widgets::{NumberField, Scale, SliderField};
 use crate::scenario::limits;
 use crate::sim::{Experiment, Load, LoadStep, SetPointStep};
@@ -39,7 +41,8 @@ pub fn ExperimentCard() -> impl IntoView {
                 <h2 id="experiment-title">{say!(lab, experiment.title)}</h2>
                 <span class="remark">{say!(lab, experiment.remark)}</span>
             </header>
-            {(0..2).map(|level| view! { <ReferenceStep level /> }).collect_view()}
+            <ReferenceStep level=0 />
+            <ReferenceStep level=1 />
             <LoadControls />
             <SliderField
                 id=("noise", "noise-number")
@@ -74,11 +77,11 @@ pub fn ExperimentCard() -> impl IntoView {
                     data-testid="quantised"
                     prop:checked=lab.part(|s| s.experiment.measurement.quantised)
                     disabled=locked
-                    on:change=move |event| { let on = event_target_checked(&event); lab.edit(|s| s.experiment.measurement.quantised = on) }
+                    on:change=handler(move |event| { let on = event_target_checked(&event); lab.edit(|s| s.experiment.measurement.quantised = on) })
                 />
                 {say!(lab, experiment.quantised)}
             </label>
-            {move || Some(further()).filter(|&count| count > 0).map(|count| view! { <p class="remark">{tr!(lab, experiment.further, count = count)}</p> })}
+            <p class="remark" hidden=move || further() == 0>{say!(lab, experiment.further, count = further())}</p>
             <PlayControls />
         </section>
     }
@@ -236,22 +239,20 @@ fn LoadControls() -> impl IntoView {
             Load::Leak { area, .. } => *area = v / MM2_PER_M2,
         });
     };
-    let options = move || {
-        let pumps = (0..2).map(|k| (format!("pump{k}"), tr!(lab, experiment.load_pump, pump = k + 1).to_string()));
-        let leaks = (0..4).map(|k| (format!("leak{k}"), tr!(lab, experiment.load_leak, tank = k + 1).to_string()));
-        std::iter::once(("none".to_owned(), tr!(lab, experiment.load_none).to_string()))
-            .chain(pumps)
-            .chain(leaks)
-            .map(|(value, text)| {
-                let chosen = value == kind.get();
-                view! { <option value=value selected=chosen>{text}</option> }
-            })
-            .collect_view()
-    };
+    let options = Signal::derive(move || {
+        let kind = kind.get();
+        let pump = |k: usize| (format!("pump{k}"), tr!(lab, experiment.load_pump, pump = k + 1));
+        let leak = |k: usize| (format!("leak{k}"), tr!(lab, experiment.load_leak, tank = k + 1));
+        std::iter::once(("none".to_owned(), tr!(lab, experiment.load_none).to_owned()))
+            .chain((0..2).map(pump))
+            .chain((0..4).map(leak))
+            .map(|(value, text)| option(&value, &text, value == kind))
+            .collect::<String>()
+    });
     view! {
         <div class="row load">
             <label for="load-kind">{say!(lab, experiment.load)}</label>
-            <select id="load-kind" data-testid="load-kind" disabled=locked on:change=choose>{options}</select>
+            <select id="load-kind" data-testid="load-kind" disabled=locked on:change=handler(choose) inner_html=options></select>
         </div>
         {move || present.get().then(|| view! { <div class="timed">
             <SliderField
@@ -277,7 +278,7 @@ fn LoadControls() -> impl IntoView {
                 value=time
                 on_change=move |t| edit(&move |s| s.time_s = t)
             />
-        </div> })}
+        </div> }.into_any())}
     }
 }
 

@@ -5,6 +5,7 @@ use leptos::prelude::*;
 use crate::app::lab::{Lab, use_lab};
 use crate::app::shown::{length_digits, per_metre, to_shown, unit_name};
 use crate::app::texts::{say, tr};
+use crate::app::widgets::html::{cells, element, escape, headings};
 use crate::sim::{LoopMetrics, Settling};
 
 /// A row of the table: its name, the class of its colour, its figures.
@@ -18,34 +19,32 @@ struct Row {
 #[component]
 pub fn MetricsTable() -> impl IntoView {
     let lab = use_lab();
-    let rows = move || rows(lab).iter().map(|row| row_view(lab, row)).collect_view();
-    let unit = move || unit_name(lab.unit.get());
-    let column = |text: Signal<String>| view! { <th scope="col">{text}</th> };
-    let plain = move |read: fn(Lab) -> String| column(Signal::derive(move || read(lab)));
     view! {
         <div class="scroll" tabindex="0" role="region" aria-label=say!(lab, responses.metrics)>
-            <table class="plain" data-testid="metrics">
-                <caption class="visually-hidden">{say!(lab, responses.metrics)}</caption>
-                <thead>
-                    <tr>
-                        {plain(|lab| tr!(lab, responses.run).to_string())}
-                        {plain(|lab| tr!(lab, responses.rise).to_string())}
-                        {plain(|lab| tr!(lab, responses.settling_2).to_string())}
-                        {plain(|lab| tr!(lab, responses.settling_5).to_string())}
-                        {plain(|lab| tr!(lab, responses.overshoot).to_string())}
-                        {plain(|lab| tr!(lab, responses.undershoot).to_string())}
-                        {column(say!(lab, responses.other, unit = unit()))}
-                        {column(say!(lab, responses.iae, unit = unit()))}
-                        {column(say!(lab, responses.ise, unit = unit()))}
-                        {column(say!(lab, responses.itae, unit = unit()))}
-                        {plain(|lab| tr!(lab, responses.variation).to_string())}
-                        {plain(|lab| tr!(lab, responses.saturated).to_string())}
-                    </tr>
-                </thead>
-                <tbody>{rows}</tbody>
-            </table>
+            <table class="plain" data-testid="metrics" inner_html=Signal::derive(move || table(lab))></table>
         </div>
     }
+}
+
+fn table(lab: Lab) -> String {
+    let unit = unit_name(lab.unit.get());
+    let columns = [
+        tr!(lab, responses.run).to_owned(),
+        tr!(lab, responses.rise).to_owned(),
+        tr!(lab, responses.settling_2).to_owned(),
+        tr!(lab, responses.settling_5).to_owned(),
+        tr!(lab, responses.overshoot).to_owned(),
+        tr!(lab, responses.undershoot).to_owned(),
+        tr!(lab, responses.other, unit = unit),
+        tr!(lab, responses.iae, unit = unit),
+        tr!(lab, responses.ise, unit = unit),
+        tr!(lab, responses.itae, unit = unit),
+        tr!(lab, responses.variation).to_owned(),
+        tr!(lab, responses.saturated).to_owned(),
+    ];
+    let caption = element("caption", "class=\"visually-hidden\"", &escape(tr!(lab, responses.metrics)));
+    let rows: String = rows(lab).iter().map(|row| row_html(lab, row)).collect();
+    caption + &element("thead", "", &headings(&columns)) + &element("tbody", "", &rows)
 }
 
 fn rows(lab: Lab) -> Vec<Row> {
@@ -70,7 +69,7 @@ fn rows(lab: Lab) -> Vec<Row> {
     rows
 }
 
-fn row_view(lab: Lab, row: &Row) -> impl IntoView + use<> {
+fn row_html(lab: Lab, row: &Row) -> String {
     let style = lab.number_style();
     let unit = lab.unit.get();
     let m = row.metrics;
@@ -82,7 +81,7 @@ fn row_view(lab: Lab, row: &Row) -> impl IntoView + use<> {
         Some(Settling::After { time_s }) => style.significant(time_s, 3),
     };
     let percent = |share: Option<f64>| share.map_or_else(none, |s| format!("{}\u{a0}%", style.fixed(100.0 * s, 1)));
-    let cells = [
+    let figures = [
         time(m.rise_time_s),
         settling(m.settling_2_percent),
         settling(m.settling_5_percent),
@@ -95,7 +94,6 @@ fn row_view(lab: Lab, row: &Row) -> impl IntoView + use<> {
         style.fixed(m.total_variation, 2),
         style.fixed(m.saturated_s, 0),
     ];
-    let cells = cells.into_iter().map(|text| view! { <td>{text}</td> }).collect_view();
-    let (name, class) = (row.name.clone(), row.class);
-    view! { <tr><th scope="row" class=class>{name}</th>{cells}</tr> }
+    let name = element("th", &format!("scope=\"row\" class=\"{}\"", row.class), &escape(&row.name));
+    element("tr", "", &(name + &cells(&figures)))
 }

@@ -20,7 +20,7 @@ mod why;
 use leptos::prelude::*;
 
 use super::lab::use_lab;
-use super::start::Panel;
+use super::start::{Bench, Panel};
 use moment::provide_moment;
 
 /// The home bench, or those of its cards that the start flags ask for.
@@ -31,7 +31,7 @@ pub fn QuadrupleTankBench() -> impl IntoView {
     let shows = move |panel| lab.flags.with_value(|f| f.shows(panel));
     let chosen = lab.flags.with_value(|f| !f.panels.is_empty());
     view! {
-        <main class=if chosen { "bench chosen" } else { "bench" } id="bench">
+        <main class=if chosen { "bench chosen" } else { "bench" } id=move || lab.id_of(Bench::QuadrupleTank)>
             <div class="side left">
                 {shows(Panel::Process).then(|| view! { <process::ProcessCard /> }.into_any())}
                 {shows(Panel::Why).then(|| view! { <why::WhyCard /> }.into_any())}

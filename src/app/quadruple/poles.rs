@@ -6,7 +6,8 @@ use super::pictures;
 use super::sentences::{self};
 use crate::app::lab::{Lab, use_lab};
 use crate::app::texts::{say, tr};
-use crate::app::widgets::{ChartCanvas, ChartMenu, rich};
+use crate::app::widgets::html::rich;
+use crate::app::widgets::{ChartCanvas, ChartMenu};
 use crate::figure::Frame;
 use crate::linear::Complex;
 
@@ -28,7 +29,7 @@ pub fn PolesAndZerosCard() -> impl IntoView {
             <div class="chart">
                 <ChartCanvas picture frames summary name="pole-zero" />
             </div>
-            <p class="sentence" data-testid="zeros-sentence">{move || rich(&sentences::of_direction(lab))}</p>
+            <p class="sentence" data-testid="zeros-sentence" inner_html=Signal::derive(move || rich(&sentences::of_direction(lab)))></p>
         </section>
     }
 }

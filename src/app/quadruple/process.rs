@@ -1,5 +1,6 @@
 //! The card with the drawing of the rig, the valves, and one sentence about where the zero is.
 
+use crate::app::widgets::handler;
 use leptos::prelude::*;
 
 use super::moment::use_moment;
@@ -10,7 +11,8 @@ use crate::app::lab::use_lab;
 use crate::app::preset::{PresetChoice, PresetRemark};
 use crate::app::start::Control;
 use crate::app::texts::{say, tr};
-use crate::app::widgets::{NumberField, Scale, SliderField, rich};
+use crate::app::widgets::html::{element, rich};
+use crate::app::widgets::{NumberField, Scale, SliderField};
 use crate::scenario::{OperatingPointSpec, Setup};
 
 const GAMMA_IDS: [(&str, &str); 2] = [("gamma1", "gamma1-number"), ("gamma2", "gamma2-number")];
@@ -27,8 +29,10 @@ pub fn ProcessCard() -> impl IntoView {
     };
     let open = RwSignal::new(false);
     let sentence = move || sentences::of_zero(lab);
-    let warnings =
-        move || sentences::of_equilibrium(lab).into_iter().map(|s| view! { <p>{rich(&s)}</p> }).collect_view();
+    let paragraphs = Signal::derive(move || {
+        let all = std::iter::once(sentence().0).chain(sentences::of_equilibrium(lab));
+        all.map(|text| element("p", "", &rich(&text))).collect::<String>()
+    });
     view! {
         <section class="card process" aria-labelledby="process-title">
             <header>
@@ -37,20 +41,24 @@ pub fn ProcessCard() -> impl IntoView {
             </header>
             <p class="remark moment">{Signal::derive(remark)}</p>
             <Rig />
-            <div>{(0..2).map(|valve| view! { <ValveSlider valve /> }).collect_view()}</div>
+            <div>
+                <ValveSlider valve=0 />
+                <ValveSlider valve=1 />
+            </div>
             <div
                 class=move || if sentence().1 { "verdict warm" } else { "verdict" }.to_owned()
                 role="status"
                 data-testid="process-sentence"
-            >
-                <p>{move || rich(&sentence().0)}</p>
-                {warnings}
-            </div>
-            <details class="more" on:toggle=move |_| open.update(|o| *o = !*o)>
+                inner_html=paragraphs
+            ></div>
+            <details class="more" on:toggle=handler(move |_| open.update(|o| *o = !*o))>
                 <summary>{say!(lab, process.operating_point)}</summary>
                 <PresetRemark />
-                <div class="fields">{(0..2).map(|pump| view! { <VoltageField pump /> }).collect_view()}</div>
-                {move || open.get().then(|| view! { <PublishedFigures /> })}
+                <div class="fields">
+                    <VoltageField pump=0 />
+                    <VoltageField pump=1 />
+                </div>
+                {move || open.get().then(|| view! { <PublishedFigures /> }.into_any())}
             </details>
         </section>
     }

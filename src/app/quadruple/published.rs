@@ -2,10 +2,11 @@
 
 use leptos::prelude::*;
 
-use crate::app::lab::use_lab;
+use crate::app::lab::{Lab, use_lab};
 use crate::app::preset::chosen;
 use crate::app::shown::{length_digits, to_shown, unit_name};
 use crate::app::texts::{say, tr};
+use crate::app::widgets::html::{element, headings};
 use crate::plant::{Preset, PresetId};
 
 /// A row: what, computed, printed.
@@ -17,23 +18,13 @@ pub fn PublishedFigures() -> impl IntoView {
     let lab = use_lab();
     let rig = chosen(lab);
     let preset = move || rig.get().map(PresetId::preset);
-    let rows = move || {
-        rows(lab, preset().as_ref())
-            .into_iter()
-            .map(|(name, exact, printed)| {
-                let key = name.clone();
-                view! {
-                    <tr>
-                        <td>{name}</td>
-                        <td data-exact=key.clone()>{exact}</td>
-                        <td data-printed=key>{printed.unwrap_or_else(|| "–".to_owned())}</td>
-                    </tr>
-                }
-            })
-            .collect_view()
-    };
-    let note = move || {
-        preset().map(|p| {
+    let table = Signal::derive(move || {
+        let columns = [tr!(lab, process.quantity), tr!(lab, process.exact), tr!(lab, process.printed)];
+        let rows: String = rows(lab, preset().as_ref()).into_iter().map(row_html).collect();
+        element("thead", "", &headings(&columns.map(str::to_owned))) + &element("tbody", "", &rows)
+    });
+    let note = Signal::derive(move || {
+        preset().map_or_else(String::new, |p| {
             if p.printed.is_none() {
                 return tr!(lab, process.none_printed, source = p.source).to_string();
             }
@@ -42,25 +33,21 @@ pub fn PublishedFigures() -> impl IntoView {
             let rest = if at_home { String::new() } else { format!(" {}", tr!(lab, process.printed_for)) };
             lead + &rest
         })
-    };
+    });
     view! {
         <div class="scroll" tabindex="0" role="region" aria-label=say!(lab, process.operating_point)>
-            <table class="plain" data-testid="published">
-                <thead>
-                    <tr>
-                        <th scope="col">{say!(lab, process.quantity)}</th>
-                        <th scope="col">{say!(lab, process.exact)}</th>
-                        <th scope="col">{say!(lab, process.printed)}</th>
-                    </tr>
-                </thead>
-                <tbody>{rows}</tbody>
-            </table>
+            <table class="plain" data-testid="published" inner_html=table></table>
         </div>
         <p class="remark">{note}</p>
     }
 }
 
-fn rows(lab: crate::app::lab::Lab, preset: Option<&Preset>) -> Vec<Row> {
+fn row_html((name, exact, printed): Row) -> String {
+    let printed = printed.unwrap_or_else(|| "–".to_owned());
+    format!("<tr><td>{name}</td><td data-exact=\"{name}\">{exact}</td><td data-printed=\"{name}\">{printed}</td></tr>")
+}
+
+fn rows(lab: Lab, preset: Option<&Preset>) -> Vec<Row> {
     let style = lab.number_style();
     let unit = lab.unit.get();
     let printed = preset.and_then(|p| p.printed);

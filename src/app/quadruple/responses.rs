@@ -1,5 +1,6 @@
 //! The step responses: levels and pump voltages, with cursor, zoom, pinned runs, metrics and a data table.
 
+use crate::app::widgets::handler;
 use leptos::prelude::*;
 
 use super::metrics::MetricsTable;
@@ -9,7 +10,8 @@ use super::set_points::SetPoints;
 use crate::app::lab::{Lab, use_lab};
 use crate::app::shown::{length_digits, to_shown, unit_name};
 use crate::app::texts::{say, tr};
-use crate::app::widgets::{ChartCanvas, ChartMenu, DataTable, TimeAxis, TimeSurface, ZoomButtons, rich};
+use crate::app::widgets::html::rich;
+use crate::app::widgets::{ChartCanvas, ChartMenu, DataTable, TimeAxis, TimeSurface, ZoomButtons};
 use crate::figure::Frame;
 use crate::scenario::Scenario;
 use crate::sim::{EventKind, LoopMetrics, Settling, Stability};
@@ -53,7 +55,7 @@ pub fn ResponsesCard() -> impl IntoView {
                     <SetPoints frames held />
                 </div>
             </div>
-            <p class="sentence" role="status" data-testid="responses-sentence">{move || rich(&sentence(lab))}</p>
+            <p class="sentence" role="status" data-testid="responses-sentence" inner_html=Signal::derive(move || rich(&sentence(lab)))></p>
             <MetricsTable />
             <DataTable picture=table_picture id="data-table" />
         </section>
@@ -63,8 +65,6 @@ pub fn ResponsesCard() -> impl IntoView {
 #[component]
 fn Toolbar(axis: TimeAxis) -> impl IntoView {
     let lab = use_lab();
-    let pinned = lab.words.pinned;
-    let count = move || pinned.with(|p| p.len());
     let pin = move |_| {
         lab.scenario.update(|s| {
             let setup = s.setup.clone();
@@ -77,18 +77,22 @@ fn Toolbar(axis: TimeAxis) -> impl IntoView {
     let linear = move || lab.scenario.with(|s| !s.view.hide_linear);
     view! {
         <div class="toolbar">
-            <button type="button" class="button small" data-testid="pin" on:click=pin>{say!(lab, responses.pin)}</button>
-            {move || (count() > 0).then(|| view! {
-                <button type="button" class="button small" data-testid="unpin" on:click=move |_| lab.scenario.update(|s| s.pinned.clear())>
-                    {tr!(lab, responses.unpin)}
-                </button>
-            })}
+            <button type="button" class="button small" data-testid="pin" on:click=handler(pin)>{say!(lab, responses.pin)}</button>
+            <button
+                type="button"
+                class="button small"
+                data-testid="unpin"
+                hidden=move || lab.words.pinned.with(|p| p.is_empty())
+                on:click=handler(move |_| lab.scenario.update(|s| s.pinned.clear()))
+            >
+                {say!(lab, responses.unpin)}
+            </button>
             <button
                 type="button"
                 class="button small"
                 data-testid="linear"
-                aria-pressed=move || if linear() { "true" } else { "false" }
-                on:click=move |_| lab.scenario.update(|s| s.view.hide_linear = !s.view.hide_linear)
+                aria-pressed=move || linear().to_string()
+                on:click=handler(move |_| lab.scenario.update(|s| s.view.hide_linear = !s.view.hide_linear))
             >
                 {say!(lab, responses.hide_linear)}
             </button>

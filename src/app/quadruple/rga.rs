@@ -4,7 +4,7 @@ use leptos::prelude::*;
 
 use crate::app::lab::{Lab, use_lab};
 use crate::app::texts::{say, tr};
-use crate::app::widgets::rich;
+use crate::app::widgets::html::{element, escape, rich};
 use crate::interaction::{PairingReason, PairingVerdict};
 use crate::scenario::Analysis;
 
@@ -13,6 +13,9 @@ use crate::scenario::Analysis;
 pub fn RelativeGainCard() -> impl IntoView {
     let lab = use_lab();
     let verdict = move || lab.words.with_analysis(|a| a.verdict);
+    let text = Signal::derive(move || {
+        rich(&verdict().map_or_else(|| tr!(lab, process.no_equilibrium).to_owned(), |v| of_verdict(lab, v)))
+    });
     let warm = move || matches!(verdict(), Some(PairingVerdict::None(_)) | None);
     view! {
         <section class="card rga" aria-labelledby="rga-title">
@@ -20,77 +23,62 @@ pub fn RelativeGainCard() -> impl IntoView {
                 <h2 id="rga-title">{say!(lab, rga.title)}</h2>
                 <span class="remark">{say!(lab, rga.remark)}</span>
             </header>
-            <Gains />
-            <Formula />
+            <table class="gains" inner_html=Signal::derive(move || gains(lab))></table>
+            <div class="formula" inner_html=Signal::derive(move || formula(lab))></div>
             <div class=move || if warm() { "verdict warm" } else { "verdict" }.to_owned() role="status" data-testid="rga-verdict">
-                <p>{move || rich(&verdict().map_or_else(|| tr!(lab, process.no_equilibrium).to_string(), |v| of_verdict(lab, v)))}</p>
+                <p inner_html=text></p>
             </div>
-            <p class="remark" data-testid="niederlinski">{move || of_niederlinski(lab)}</p>
+            <p class="remark" data-testid="niederlinski">{Signal::derive(move || of_niederlinski(lab))}</p>
         </section>
     }
 }
 
 /// Λ as a table; rows and columns sum to 1, so one number makes it.
-#[component]
-fn Gains() -> impl IntoView {
-    let lab = use_lab();
-    let rga = move || lab.words.with_analysis(Analysis::rga).flatten();
-    let chosen = move |row: usize, column: usize| match lab.words.with_analysis(|a| a.verdict) {
+fn gains(lab: Lab) -> String {
+    let rga = lab.words.with_analysis(Analysis::rga).flatten();
+    let chosen = |row: usize, column: usize| match lab.words.with_analysis(|a| a.verdict) {
         Some(PairingVerdict::Diagonal(_)) => row == column,
         Some(PairingVerdict::Swapped(_)) => row != column,
         _ => false,
     };
-    let cell = move |row: usize, column: usize| {
-        let gain = move || rga().map(|gains| gains[row][column]);
-        let class = move || {
-            let sign = if gain().is_some_and(|g| g > 0.0) { "positive" } else { "negative" };
-            if chosen(row, column) { format!("{sign} chosen") } else { sign.to_owned() }
-        };
-        let text = move || gain().map_or_else(|| "∞".to_owned(), |g| lab.number_style().fixed(g, 2));
-        let note = move || {
-            chosen(row, column)
-                .then(|| view! { <span class="visually-hidden">{format!(" ({})", tr!(lab, rga.suggested))}</span> })
-        };
-        view! { <td class=class><span data-testid=format!("lambda-{}{}", row + 1, column + 1)>{text}</span>{note}</td> }
-    };
-    let heading = move |column: usize| view! { <th scope="col">{say!(lab, rga.pump, number = column + 1)}</th> };
-    let row = move |row: usize| {
-        view! {
-            <tr>
-                <th scope="row">{say!(lab, rga.level, number = row + 1)}</th>
-                {cell(row, 0)}
-                {cell(row, 1)}
-            </tr>
+    let cell = |row: usize, column: usize| {
+        let gain = rga.map(|gains| gains[row][column]);
+        let sign = if gain.is_some_and(|g| g > 0.0) { "positive" } else { "negative" };
+        let text = gain.map_or_else(|| "∞".to_owned(), |g| lab.number_style().fixed(g, 2));
+        let number = element("span", &format!("data-testid=\"lambda-{}{}\"", row + 1, column + 1), &text);
+        if chosen(row, column) {
+            let note = format!(" ({})", escape(tr!(lab, rga.suggested)));
+            let note = element("span", "class=\"visually-hidden\"", &note);
+            element("td", &format!("class=\"{sign} chosen\""), &(number + &note))
+        } else {
+            element("td", &format!("class=\"{sign}\""), &number)
         }
     };
-    view! {
-        <table class="gains">
-            <caption class="visually-hidden">{say!(lab, rga.table)}</caption>
-            <thead><tr><td></td>{heading(0)}{heading(1)}</tr></thead>
-            <tbody>{row(0)}{row(1)}</tbody>
-        </table>
-    }
+    let heading = |scope: &str, text: String| element("th", &format!("scope=\"{scope}\""), &escape(&text));
+    let pump = |column: usize| heading("col", tr!(lab, rga.pump, number = column + 1));
+    let row = |row: usize| {
+        let level = heading("row", tr!(lab, rga.level, number = row + 1));
+        format!("<tr>{level}{}{}</tr>", cell(row, 0), cell(row, 1))
+    };
+    let caption = element("caption", "class=\"visually-hidden\"", &escape(tr!(lab, rga.table)));
+    let head = format!("<thead><tr><td></td>{}{}</tr></thead>", pump(0), pump(1));
+    format!("{caption}{head}<tbody>{}{}</tbody>", row(0), row(1))
 }
 
 /// λ11 = γ1γ2/(γ1+γ2−1) with the numbers in it (Cocota 2009, eq. 4.10).
-#[component]
-fn Formula() -> impl IntoView {
-    let lab = use_lab();
-    let number = move |v: f64| lab.number_style().fixed(v, 2);
-    let value = move || lab.words.with_analysis(|a| a.rga_11.ok()).flatten().map_or_else(|| "∞".to_owned(), number);
-    let formula = move || {
-        let [g1, g2] = lab.words.setup.with(|s| s.valves);
-        let (first, second, below, value) = (number(g1), number(g2), number(g1 + g2 - 1.0), value());
-        let gamma = |k: u8| format!("<msub><mi>γ</mi><mn>{k}</mn></msub>");
-        let (one, two) = (gamma(1), gamma(2));
-        format!(
-            "<math><msub><mi>λ</mi><mn>11</mn></msub><mo>=</mo>\
-             <mfrac><mrow>{one}{two}</mrow><mrow>{one}<mo>+</mo>{two}<mo>−</mo><mn>1</mn></mrow></mfrac><mo>=</mo>\
-             <mfrac><mrow><mn>{first}</mn><mo>·</mo><mn>{second}</mn></mrow><mn>{below}</mn></mfrac><mo>=</mo>\
-             <mn data-testid=\"lambda\">{value}</mn></math>"
-        )
-    };
-    view! { <div class="formula" inner_html=formula></div> }
+fn formula(lab: Lab) -> String {
+    let number = |v: f64| lab.number_style().fixed(v, 2);
+    let value = lab.words.with_analysis(|a| a.rga_11.ok()).flatten().map_or_else(|| "∞".to_owned(), number);
+    let [g1, g2] = lab.words.setup.with(|s| s.valves);
+    let (first, second, below) = (number(g1), number(g2), number(g1 + g2 - 1.0));
+    let gamma = |k: u8| format!("<msub><mi>γ</mi><mn>{k}</mn></msub>");
+    let (one, two) = (gamma(1), gamma(2));
+    format!(
+        "<math><msub><mi>λ</mi><mn>11</mn></msub><mo>=</mo>\
+         <mfrac><mrow>{one}{two}</mrow><mrow>{one}<mo>+</mo>{two}<mo>−</mo><mn>1</mn></mrow></mfrac><mo>=</mo>\
+         <mfrac><mrow><mn>{first}</mn><mo>·</mo><mn>{second}</mn></mrow><mn>{below}</mn></mfrac><mo>=</mo>\
+         <mn data-testid=\"lambda\">{value}</mn></math>"
+    )
 }
 
 fn of_verdict(lab: Lab, verdict: PairingVerdict) -> String {

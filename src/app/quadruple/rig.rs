@@ -4,10 +4,11 @@ use leptos::prelude::*;
 
 use super::moment::{Moment, use_moment};
 use super::valves::{STEP, on_grid};
-use crate::app::lab::use_lab;
+use crate::app::lab::{Lab, use_lab};
 use crate::app::shown::{length_digits, to_shown, unit_name};
 use crate::app::start::Control;
 use crate::app::texts::{say, tr};
+use crate::app::widgets::html::{element, escape};
 use crate::app::widgets::{Drag, Handle, Nudge};
 use crate::plant::{Disturbance, QuadrupleTank, Tank};
 
@@ -20,8 +21,18 @@ const WIDEST_STREAM: f64 = 7.0;
 const LEAST_BOTTOM: f64 = 0.8;
 /// The number of the level stands so far above the bottom, and higher by so much of what the far wall leans.
 const NUMBER_AT: (f64, f64) = (8.0, 2.8);
+const PIPES: &str = "<path class=\"pipe\" d=\"M42 258 V18 H206 V34\"/><path class=\"pipe\" d=\"M42 148 H70 V152\"/>\
+    <path class=\"pipe\" d=\"M234 258 V26 H70 V34\"/><path class=\"pipe\" d=\"M234 148 H206 V152\"/>";
+const BASIN: &str = "<rect class=\"basin\" x=\"24\" y=\"262\" width=\"228\" height=\"30\" rx=\"3\"/>";
+/// Where the pipes end above the tanks, tank 1 first, with the colour of their pump.
+const INLETS: [(f64, f64, &str); 4] =
+    [(70.0, 152.0, "stroke1"), (206.0, 152.0, "stroke2"), (70.0, 34.0, "stroke2"), (206.0, 34.0, "stroke1")];
 /// The valves, left and right.
 const VALVES: [(f64, f64); 2] = [(42.0, 148.0), (234.0, 148.0)];
+const VALVE_LOOKS: [&str; 2] = [
+    "<circle class=\"halo\" r=\"13\"/><path class=\"one\" d=\"M-6 -8 H6 L0 0 L6 8 H-6 L0 0 Z\"/>",
+    "<circle class=\"halo\" r=\"13\"/><path class=\"two\" d=\"M-6 -8 H6 L0 0 L6 8 H-6 L0 0 Z\"/>",
+];
 const VALVE_IDS: [&str; 2] = ["valve1", "valve2"];
 /// How far a valve is dragged from shut to open (CSS px).
 const VALVE_TRAVEL_PX: f64 = 120.0;
@@ -53,121 +64,112 @@ pub fn Rig() -> impl IntoView {
             })
             .unwrap_or_default()
     });
+    let drawing = Signal::derive(move || drawing(lab, moment.get().as_ref()));
     view! {
         <svg class="rig" viewBox="0 0 276 296" role="group" aria-label=summary data-testid="rig">
-            <g aria-hidden="true">
-                <Pipes />
-                {(0..4).map(|tank| view! { <TankView tank /> }).collect_view()}
-                {move || moment.get().map(|m| streams(&lab.words.setup.with(|s| s.plant()), &m))}
-                <rect class="basin" x="24" y="262" width="228" height="30" rx="3" />
-                {(0..2).map(|pump| view! { <PumpView pump /> }).collect_view()}
-            </g>
-            {(0..2).map(|valve| view! { <ValveView valve /> }).collect_view()}
+            <g aria-hidden="true" inner_html=drawing></g>
+            <ValveView valve=0 />
+            <ValveView valve=1 />
         </svg>
     }
 }
 
-#[component]
-fn Pipes() -> impl IntoView {
-    view! {
-        <path class="pipe" d="M42 258 V18 H206 V34" />
-        <path class="pipe" d="M42 148 H70 V152" />
-        <path class="pipe" d="M234 258 V26 H70 V34" />
-        <path class="pipe" d="M234 148 H206 V152" />
-    }
+/// All that is only looked at, from the back to the front; without a moment nothing runs and the tanks are dry.
+fn drawing(lab: Lab, moment: Option<&Moment>) -> String {
+    let plant = lab.words.setup.with(|s| s.plant());
+    let levels = moment.map_or([0.0; 4], |m| m.levels);
+    let tanks: String = (0..4).map(|k| tank(lab, k, &plant.tanks[k], levels[k])).collect();
+    let streams = moment.map_or_else(String::new, |m| streams(&plant, m));
+    let pumps: String = (0..2).map(|k| pump(lab, k, moment.map(|m| m.pump_voltage[k]))).collect();
+    let valves: String = (0..2).map(|k| valve_texts(lab, k)).collect();
+    format!("{PIPES}{tanks}{streams}{BASIN}{pumps}{valves}")
 }
 
 /// One tank: walls, water, name, level, and a word where it overflows or is dry.
-#[component]
-fn TankView(tank: usize) -> impl IntoView {
-    let lab = use_lab();
-    let moment = use_moment();
-    let (left, top) = TANKS[tank];
-    let level = move || moment.get().map_or(0.0, |m| m.levels[tank]);
-    let height = lab.part(move |s| s.plant().tanks[tank].height);
-    let share = move || (level() / height.get()).clamp(0.0, 1.0);
+fn tank(lab: Lab, index: usize, tank: &Tank, level: f64) -> String {
+    let (left, top) = TANKS[index];
+    let unit = lab.unit.get();
+    let dryness = 1.0 - share(tank, level);
     // How far the far wall leans outwards over the height of the tank, for a trapezoidal tank.
-    let lean = lab.part(move |s| {
-        let Tank { section, height, .. } = s.plant().tanks[tank];
-        TANK.0 * (1.0 - (section.area(0.0) / section.area(height)).clamp(LEAST_BOTTOM, 1.0))
-    });
-    let walls =
-        move || format!("M{left} {top} V{} H{} L{} {top}", top + TANK.1, left + TANK.0 - lean.get(), left + TANK.0);
-    let water = move || {
-        let surface = top + TANK.1 * (1.0 - share());
-        let brim = left + TANK.0 - lean.get() * (1.0 - share());
-        format!("M{left} {surface} V{} H{} L{brim} {surface} Z", top + TANK.1, left + TANK.0 - lean.get())
-    };
-    let shown = move || {
-        let unit = lab.unit.get();
-        let number = lab.number_style().fixed(to_shown(level(), unit), length_digits(unit));
-        format!("{number} {}", unit_name(unit))
-    };
-    let alarm = move || {
-        let (level, height) = (level(), height.get());
-        if level >= height {
-            Some(tr!(lab, process.full).to_string())
-        } else if level <= 0.0 {
-            Some(tr!(lab, process.dry).to_string())
-        } else {
-            None
-        }
-    };
-    let middle = left + TANK.0 / 2.0;
+    let lean = TANK.0 * (1.0 - (tank.section.area(0.0) / tank.section.area(tank.height)).clamp(LEAST_BOTTOM, 1.0));
+    let (right, bottom, foot) = (left + TANK.0, top + TANK.1, left + TANK.0 - lean);
+    let (surface, brim) = (top + TANK.1 * dryness, right - lean * dryness);
     // Where the tank is narrow below, its number stands higher.
-    let number_at = move || {
-        let above_bottom = NUMBER_AT.0 + NUMBER_AT.1 * lean.get();
-        (middle - lean.get() / 2.0 * (1.0 - above_bottom / TANK.1), top + TANK.1 - above_bottom)
+    let above_bottom = NUMBER_AT.0 + NUMBER_AT.1 * lean;
+    let (middle, below) = (left + TANK.0 / 2.0, bottom - above_bottom);
+    let number_at = middle - lean / 2.0 * (1.0 - above_bottom / TANK.1);
+    let number = lab.number_style().fixed(to_shown(level, unit), length_digits(unit));
+    let alarm = if level >= tank.height {
+        tr!(lab, process.full)
+    } else if level <= 0.0 {
+        tr!(lab, process.dry)
+    } else {
+        ""
     };
-    let colour = if tank == 0 || tank == 3 { "water1" } else { "water2" };
-    view! {
-        <path class=colour d=water stroke-width="0" />
-        <path class="wall" d=walls />
-        <text class="name" x=middle y=top + 12.0 text-anchor="middle">{say!(lab, process.tank, number = tank + 1)}</text>
-        <text class="value" x=move || number_at().0 y=move || number_at().1 text-anchor="middle" data-testid=format!("rig-level-{}", tank + 1)>
-            {shown}
-        </text>
-        <text class="alarm" x=middle y=top + 26.0 text-anchor="middle">{alarm}</text>
-    }
+    let colour = if index == 0 || index == 3 { "water1" } else { "water2" };
+    let text = |attributes: &str, (x, y): (f64, f64), words: &str| {
+        let place = format!("x=\"{x}\" y=\"{y}\" text-anchor=\"middle\" {attributes}");
+        element("text", &place, &escape(words))
+    };
+    let name = text("class=\"name\"", (middle, top + 12.0), &tr!(lab, process.tank, number = index + 1));
+    let value = format!("class=\"value\" data-testid=\"rig-level-{}\"", index + 1);
+    let value = text(&value, (number_at, below), &format!("{number} {}", unit_name(unit)));
+    let alarm = text("class=\"alarm\"", (middle, top + 26.0), alarm);
+    format!(
+        "<path class=\"{colour}\" d=\"M{left} {surface} V{bottom} H{foot} L{brim} {surface} Z\" stroke-width=\"0\"/>\
+         <path class=\"wall\" d=\"M{left} {top} V{bottom} H{foot} L{right} {top}\"/>{name}{value}{alarm}"
+    )
+}
+
+fn share(tank: &Tank, level: f64) -> f64 {
+    (level / tank.height).clamp(0.0, 1.0)
 }
 
 /// The water that runs: into each tank from its pump, and out of each tank.
-fn streams(plant: &QuadrupleTank, moment: &Moment) -> impl IntoView + use<> {
+fn streams(plant: &QuadrupleTank, moment: &Moment) -> String {
     let most = plant.pumps.iter().map(|p| p.gain * p.voltage_max).fold(f64::MIN_POSITIVE, f64::max);
     let inflow = plant.valve_flows(&moment.pump_voltage, &Disturbance::default());
     let outflow = plant.outflows(&moment.levels);
-    let width = move |flow: f64| format!("{:.2}", (flow / most).clamp(0.0, 1.5).sqrt() * WIDEST_STREAM);
-    let inlets = [(70.0, 152.0, 1), (206.0, 152.0, 2), (70.0, 34.0, 2), (206.0, 34.0, 1)];
-    let falling = inlets.into_iter().zip(inflow).zip(TANKS).zip(moment.levels).zip(plant.tanks).map(
-        move |((((inlet, flow), (_, top)), level), tank)| {
-            let (x, y, pump) = inlet;
-            let surface = top + TANK.1 * (1.0 - (level / tank.height).clamp(0.0, 1.0));
-            let class = format!("flow stroke{pump}");
-            view! { <line class=class x1=x y1=y x2=x y2=surface stroke-width=width(flow) /> }
-        },
-    );
-    let drains = TANKS.into_iter().zip(outflow).enumerate().map(move |(tank, ((left, top), flow))| {
-        // The upper tanks pour into the lower ones; the lower ones into the basin.
-        let below = if tank < 2 { 268.0 } else { TANKS[tank - 2].1 + 14.0 };
-        let x = left + TANK.0 / 2.0;
-        view! { <line class="flow drain" x1=x y1=top + TANK.1 + 1.0 x2=x y2=below stroke-width=width(flow) /> }
+    let stream = |class: &str, x: f64, (from, to): (f64, f64), flow: f64| {
+        let width = (flow / most).clamp(0.0, 1.5).sqrt() * WIDEST_STREAM;
+        format!(
+            "<line class=\"flow {class}\" x1=\"{x}\" y1=\"{from}\" x2=\"{x}\" y2=\"{to}\" stroke-width=\"{width:.2}\"/>"
+        )
+    };
+    let falling = INLETS.into_iter().enumerate().map(|(k, (x, y, class))| {
+        let surface = TANKS[k].1 + TANK.1 * (1.0 - share(&plant.tanks[k], moment.levels[k]));
+        stream(class, x, (y, surface), inflow[k])
     });
-    (falling.collect_view(), drains.collect_view())
+    let drains = TANKS.into_iter().enumerate().map(|(k, (left, top))| {
+        // The upper tanks pour into the lower ones; the lower ones into the basin.
+        let below = if k < 2 { 268.0 } else { TANKS[k - 2].1 + 14.0 };
+        stream("drain", left + TANK.0 / 2.0, (top + TANK.1 + 1.0, below), outflow[k])
+    });
+    falling.chain(drains).collect()
 }
 
-#[component]
-fn PumpView(pump: usize) -> impl IntoView {
-    let lab = use_lab();
-    let moment = use_moment();
-    let (x, colour, anchor, at) = if pump == 0 { (42.0, "one", "start", 60.0) } else { (234.0, "two", "end", 216.0) };
-    let voltage = move || {
-        moment.get().map(|m| format!("v{} {} V", ["₁", "₂"][pump], lab.number_style().fixed(m.pump_voltage[pump], 2)))
+fn pump(lab: Lab, index: usize, voltage: Option<f64>) -> String {
+    let (x, colour, anchor, at) = if index == 0 { (42, "one", "start", 60) } else { (234, "two", "end", 216) };
+    let (left, right) = (x - 6, x + 6);
+    let number = index + 1;
+    let voltage =
+        voltage.map_or_else(String::new, |v| format!("v{} {} V", ["₁", "₂"][index], lab.number_style().fixed(v, 2)));
+    format!(
+        "<circle class=\"pump\" cx=\"{x}\" cy=\"258\" r=\"11\"/>\
+         <path class=\"{colour}\" d=\"M{left} 262 L{x} 251 L{right} 262 Z\"/>\
+         <text class=\"value\" x=\"{at}\" y=\"282\" text-anchor=\"{anchor}\" data-testid=\"rig-voltage-{number}\">{voltage}</text>"
+    )
+}
+
+/// Name and setting beside a valve. A text in a drawing is dear to lay out: it comes with the words.
+fn valve_texts(lab: Lab, index: usize) -> String {
+    let (anchor, x) = if index == 0 { ("end", 33) } else { ("start", 243) };
+    let text = |y: f64, words: &str| {
+        format!("<text class=\"value\" x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\">{words}</text>")
     };
-    view! {
-        <circle class="pump" cx=x cy="258" r="11" />
-        <path class=colour d=format!("M{} 262 L{x} 251 L{} 262 Z", x - 6.0, x + 6.0) />
-        <text class="value" x=at y="282" text-anchor=anchor data-testid=format!("rig-voltage-{}", pump + 1)>{voltage}</text>
-    }
+    let setting = lab.number_style().fixed(lab.words.setup.with(|s| s.valves[index]), 2);
+    let y = VALVES[index].1;
+    text(y - 2.0, ["γ₁", "γ₂"][index]) + &text(y + 10.0, &setting)
 }
 
 /// A valve, which is opened and closed by dragging it up and down.
@@ -177,11 +179,7 @@ fn ValveView(valve: usize) -> impl IntoView {
     let gamma = lab.part(move |s| s.valves[valve]);
     let set = move |gamma: f64| lab.edit(|s| s.valves[valve] = on_grid(gamma));
     let grabbed = StoredValue::new(0.0);
-    let (x, y) = VALVES[valve];
-    let (colour, anchor, at) = if valve == 0 { ("one", "end", 33.0) } else { ("two", "start", 243.0) };
     let number = move |gamma: f64| lab.number_style().fixed(gamma, 2);
-    // A text in a drawing is dear to lay out: it comes with the words.
-    let shown = move || number(lab.words.setup.with(|s| s.valves[valve]));
     view! {
         <Handle
             id=VALVE_IDS[valve]
@@ -193,11 +191,8 @@ fn ValveView(valve: usize) -> impl IntoView {
             on_grab=move |()| grabbed.set_value(gamma.get_untracked())
             on_drag=move |drag: Drag| set(grabbed.get_value() - drag.moved.1 / VALVE_TRAVEL_PX)
             on_nudge=move |by: Nudge| set(gamma.get_untracked() + STEP * by.along())
-        >
-            <circle class="halo" cx=x cy=y r="13" />
-            <path class=colour d=format!("M{} {} H{} L{x} {y} L{} {} H{} L{x} {y} Z", x - 6.0, y - 8.0, x + 6.0, x - 6.0, y + 8.0, x + 6.0) />
-        </Handle>
-        <text class="value" x=at y=y - 2.0 text-anchor=anchor aria-hidden="true">{format!("γ{}", ["₁", "₂"][valve])}</text>
-        <text class="value" x=at y=y + 10.0 text-anchor=anchor aria-hidden="true">{shown}</text>
+            at=VALVES[valve]
+            look=VALVE_LOOKS[valve]
+        />
     }
 }

@@ -11,6 +11,10 @@ use crate::app::widgets::{Drag, Handle, Nudge};
 use crate::figure::Frame;
 use crate::scenario::limits;
 
+const LOOKS: [&str; 2] = [
+    "<circle class=\"halo\" r=\"12\"/><circle class=\"dot one\" r=\"5.5\"/>",
+    "<circle class=\"halo\" r=\"12\"/><circle class=\"dot two\" r=\"5.5\"/>",
+];
 const IDS: [&str; 2] = ["set-point1", "set-point2"];
 /// Step of the left and right arrow keys (s); dragging goes by whole seconds.
 const TIME_STEP_S: f64 = 10.0;
@@ -23,7 +27,12 @@ pub fn SetPoints(
     /// What the level axis has to show while a set-point is dragged.
     held: RwSignal<Option<(f64, f64)>>,
 ) -> impl IntoView {
-    view! { <svg class="over handles">{(0..2).map(|level| view! { <SetPoint level frames held /> }).collect_view()}</svg> }
+    view! {
+        <svg class="over handles">
+            <SetPoint level=0 frames held />
+            <SetPoint level=1 frames held />
+        </svg>
+    }
 }
 
 #[component]
@@ -41,8 +50,6 @@ fn SetPoint(level: usize, frames: RwSignal<Vec<Frame>>, held: RwSignal<Option<(f
         let plot = frame.plot;
         ((plot.left..=plot.right()).contains(&x) && (plot.top..=plot.bottom()).contains(&y)).then_some((x, y))
     };
-    let x = move || place().map_or(0.0, |p| p.0);
-    let y = move || place().map_or(0.0, |p| p.1);
     let reach = lab.part(|s| s.plant().tanks[0].height.min(s.plant().tanks[1].height));
     let set = move |new_size: f64, new_time_s: f64| {
         let unit = lab.unit.get_untracked();
@@ -94,10 +101,9 @@ fn SetPoint(level: usize, frames: RwSignal<Vec<Frame>>, held: RwSignal<Option<(f
                 on_drag
                 on_release=move |()| held.set(None)
                 on_nudge
-            >
-                <circle class="halo" cx=x cy=y r="12" />
-                <circle class=["dot one", "dot two"][level] cx=x cy=y r="5.5" />
-            </Handle>
+                at=Signal::derive(move || place().unwrap_or_default())
+                look=LOOKS[level]
+            />
         </g>
     }
 }

@@ -1,25 +1,23 @@
 //! The valve plane: γ1 across, γ2 upwards, shaded by the right-most zero, with a point to drag.
 
+use crate::app::widgets::handler;
 use leptos::ev::KeyboardEvent;
 use leptos::prelude::*;
 
 use super::{pictures, sentences};
-use crate::app::lab::use_lab;
+use crate::app::lab::{Lab, use_lab};
 use crate::app::preset::{chosen, load, name_of};
 use crate::app::start::Control;
 use crate::app::texts::{say, tr};
-use crate::app::widgets::{ChartCanvas, ChartMenu, Drag, Handle, Nudge, rich};
-use crate::figure::{Frame, Rect};
+use crate::app::widgets::html::{escape, rich};
+use crate::app::widgets::{ChartCanvas, ChartMenu, Nudge, PointHandle, first_frame};
+use crate::figure::Frame;
 use crate::plant::PresetId;
 
 /// Steps of the arrow keys between shut and open.
 const STEPS: f64 = 100.0;
 /// Step of the arrow keys.
 pub const STEP: f64 = 1.0 / STEPS;
-
-const NO_PLACE: Rect = Rect { left: 0.0, top: 0.0, width: 1.0, height: 1.0 };
-/// The frame before the picture has been painted for the first time.
-const NOWHERE: Frame = Frame { outer: NO_PLACE, plot: NO_PLACE, x: (0.0, 1.0), y: (0.0, 1.0) };
 
 /// The valve plane.
 #[component]
@@ -44,7 +42,7 @@ pub fn ValvePlaneCard() -> impl IntoView {
                 <ChartCanvas picture frames summary=Signal::derive(summary) name="valve-plane" />
                 <Overlay frames />
             </div>
-            <p class="sentence" data-testid="valves-sentence">{move || rich(&sentences::of_rightmost(lab))}</p>
+            <p class="sentence" data-testid="valves-sentence" inner_html=Signal::derive(move || rich(&sentences::of_rightmost(lab)))></p>
         </section>
     }
 }
@@ -55,28 +53,25 @@ fn Overlay(frames: RwSignal<Vec<Frame>>) -> impl IntoView {
     // The overlay stands from the start and moves with the picture: rebuilding it would take the focus from the handle.
     view! {
         <svg class="over" aria-hidden="false">
-            <Guides frames />
+            <g inner_html=guides(use_lab(), frames)></g>
             <PublishedPoints frames />
             <SettingHandle frames />
         </svg>
     }
 }
 
-fn frame_of(frames: RwSignal<Vec<Frame>>) -> Frame {
-    frames.with(|f| f.first().copied()).unwrap_or(NOWHERE)
-}
-
-#[component]
-fn Guides(frames: RwSignal<Vec<Frame>>) -> impl IntoView {
-    let lab = use_lab();
+/// From the point to both axes.
+fn guides(lab: Lab, frames: RwSignal<Vec<Frame>>) -> Signal<String> {
     let [gamma_1, gamma_2] = [0, 1].map(|valve| lab.part(move |s| s.valves[valve]));
-    let at = move || frame_of(frames).to_px((gamma_1.get(), gamma_2.get()));
-    let left = move || frame_of(frames).plot.left;
-    let bottom = move || frame_of(frames).plot.bottom();
-    view! {
-        <line class="guide" x1=left y1=move || at().1 x2=move || at().0 y2=move || at().1 />
-        <line class="guide" x1=move || at().0 y1=bottom x2=move || at().0 y2=move || at().1 />
-    }
+    Signal::derive(move || {
+        let frame = first_frame(frames);
+        let (left, bottom) = (frame.plot.left, frame.plot.bottom());
+        let (x, y) = frame.to_px((gamma_1.get(), gamma_2.get()));
+        format!(
+            "<line class=\"guide\" x1=\"{left}\" y1=\"{y}\" x2=\"{x}\" y2=\"{y}\"/>\
+             <line class=\"guide\" x1=\"{x}\" y1=\"{bottom}\" x2=\"{x}\" y2=\"{y}\"/>"
+        )
+    })
 }
 
 /// Settings of the same source, to load with a click.
@@ -89,8 +84,8 @@ fn PublishedPoints(frames: RwSignal<Vec<Frame>>) -> impl IntoView {
         PresetId::ALL
             .into_iter()
             .filter(|id| Some(id.preset().source) == source)
-            .map(|id| view! { <PublishedPoint id frames /> })
-            .collect_view()
+            .map(|id| view! { <PublishedPoint id frames /> }.into_any())
+            .collect::<Vec<_>>()
     };
     view! { {points} }
 }
@@ -99,7 +94,10 @@ fn PublishedPoints(frames: RwSignal<Vec<Frame>>) -> impl IntoView {
 fn PublishedPoint(id: PresetId, frames: RwSignal<Vec<Frame>>) -> impl IntoView {
     let lab = use_lab();
     let valves = id.preset().plant.valves;
-    let at = move || frame_of(frames).to_px(valves.into());
+    let place = move || {
+        let (x, y) = first_frame(frames).to_px(valves.into());
+        format!("translate({x} {y})")
+    };
     let short = match id {
         PresetId::JohanssonMinimumPhase | PresetId::CocotaMinimumPhase => "P−",
         PresetId::JohanssonNonMinimumPhase | PresetId::CocotaNonMinimumPhase => "P+",
@@ -110,6 +108,13 @@ fn PublishedPoint(id: PresetId, frames: RwSignal<Vec<Frame>>) -> impl IntoView {
         let style = lab.number_style();
         let (gamma1, gamma2) = (style.fixed(valves[0], 2), style.fixed(valves[1], 2));
         tr!(lab, valves.published, name = name_of(lab, id), gamma1 = gamma1, gamma2 = gamma2).to_string()
+    });
+    let look = Signal::derive(move || {
+        format!(
+            "<title>{}</title><circle class=\"hit\" r=\"14\"/><circle class=\"mark\" r=\"4.5\"/>\
+             <text x=\"9\" y=\"4\">{short}</text>",
+            escape(&label.get())
+        )
     });
     let choose = move || {
         if !lab.locks(Control::Preset) {
@@ -123,13 +128,17 @@ fn PublishedPoint(id: PresetId, frames: RwSignal<Vec<Frame>>) -> impl IntoView {
         }
     };
     view! {
-        <g class="published" role="button" tabindex="0" aria-label=label data-testid=format!("point-{}", id.name())
-            on:click=move |_| choose() on:keydown=on_key>
-            <title>{label}</title>
-            <circle class="hit" cx=move || at().0 cy=move || at().1 r="14" />
-            <circle class="mark" cx=move || at().0 cy=move || at().1 r="4.5" />
-            <text x=move || at().0 + 9.0 y=move || at().1 + 4.0>{short}</text>
-        </g>
+        <g
+            class="published"
+            role="button"
+            tabindex="0"
+            aria-label=label
+            data-testid=format!("point-{}", id.name())
+            transform=place
+            on:click=handler(move |_| choose())
+            on:keydown=handler(on_key)
+            inner_html=look
+        ></g>
     }
 }
 
@@ -138,7 +147,6 @@ fn PublishedPoint(id: PresetId, frames: RwSignal<Vec<Frame>>) -> impl IntoView {
 fn SettingHandle(frames: RwSignal<Vec<Frame>>) -> impl IntoView {
     let lab = use_lab();
     let [gamma_1, gamma_2] = [0, 1].map(|valve| lab.part(move |s| s.valves[valve]));
-    let at = move || frame_of(frames).to_px((gamma_1.get(), gamma_2.get()));
     let set = move |(g1, g2): (f64, f64)| lab.edit(|s| s.valves = [g1, g2].map(on_grid));
     let spoken = move || {
         let style = lab.number_style();
@@ -149,20 +157,18 @@ fn SettingHandle(frames: RwSignal<Vec<Frame>>) -> impl IntoView {
         set((moved(gamma_1.get_untracked(), by.right), moved(gamma_2.get_untracked(), by.up)));
     };
     view! {
-        <Handle
+        <PointHandle
             id="valve-handle"
             label=say!(lab, valves.handle)
+            at=Signal::derive(move || (gamma_1.get(), gamma_2.get()))
             value=gamma_1
             limits=(0.0, 1.0)
             spoken=Signal::derive(spoken)
             locked=lab.locks(Control::Valves)
-            on_grab=|()| ()
-            on_drag=move |drag: Drag| set(untrack(|| frame_of(frames)).to_data(drag.at))
+            on_move=set
             on_nudge
-        >
-            <circle class="halo" cx=move || at().0 cy=move || at().1 r="17" />
-            <circle class="dot" cx=move || at().0 cy=move || at().1 r="8.5" />
-        </Handle>
+            frames
+        />
     }
 }
 

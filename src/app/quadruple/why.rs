@@ -3,7 +3,7 @@
 use leptos::prelude::*;
 
 use super::sentences::{ZeroSituation, situation};
-use crate::app::lab::use_lab;
+use crate::app::lab::{Lab, use_lab};
 use crate::app::shown::{to_shown, unit_name};
 use crate::app::texts::{say, tr};
 
@@ -11,38 +11,38 @@ use crate::app::texts::{say, tr};
 #[component]
 pub fn WhyCard() -> impl IntoView {
     let lab = use_lab();
-    let text = move || match situation(lab) {
+    let text = Signal::derive(move || match situation(lab) {
         Some(ZeroSituation::Right(z)) => tr!(lab, why.right, zero = lab.number_style().significant(z, 3)).to_string(),
         Some(ZeroSituation::Left(_) | ZeroSituation::Uncoupled) => tr!(lab, why.left).to_string(),
         Some(ZeroSituation::Origin) => tr!(lab, why.origin).to_string(),
         Some(ZeroSituation::Degenerate) => tr!(lab, why.degenerate).to_string(),
         Some(ZeroSituation::NoFinite) | None => tr!(lab, why.none).to_string(),
-    };
-    let constraint = move || {
-        // At the origin rounding decides on which side the zero lies: there is nothing to divide by.
-        if !matches!(situation(lab), Some(ZeroSituation::Right(_))) {
-            return None;
-        }
-        lab.words.setup.with(|s| lab.words.with_analysis(|a| a.interpolation_integral(&s.experiment))).flatten()
-    };
+    });
+    let formula = Signal::derive(move || formula(lab).unwrap_or_default());
     view! {
         <section class="card why" aria-labelledby="why-title">
             <header><h2 id="why-title">{say!(lab, why.title)}</h2></header>
             <p class="sentence" data-testid="why">{text}</p>
-            {move || constraint().map(|integral| {
-                let unit = lab.unit.get();
-                let style = lab.number_style();
-                let value = style.significant(to_shown(integral, unit), 3);
-                let unit = unit_name(unit);
-                let formula = format!(
-                    "<math><msubsup><mo>∫</mo><mn>0</mn><mi>∞</mi></msubsup><msup><mi>η</mi><mi>T</mi></msup><mi>e</mi>\
-                     <mo stretchy=\"false\">(</mo><mi>t</mi><mo stretchy=\"false\">)</mo>\
-                     <msup><mi>e</mi><mrow><mo>−</mo><mi>z</mi><mi>t</mi></mrow></msup><mi>d</mi><mi>t</mi><mo>=</mo>\
-                     <mfrac><mrow><msup><mi>η</mi><mi>T</mi></msup><mi>r</mi></mrow><mi>z</mi></mfrac></math>\
-                     <math><mo>=</mo><mn>{value}</mn><mtext>\u{a0}{unit}\u{a0}s</mtext></math>"
-                );
-                view! { <div class="formula" inner_html=formula></div> }
-            })}
+            <div class="formula" hidden=move || formula.with(String::is_empty) inner_html=formula></div>
         </section>
     }
+}
+
+fn formula(lab: Lab) -> Option<String> {
+    // At the origin rounding decides on which side the zero lies: there is nothing to divide by.
+    if !matches!(situation(lab), Some(ZeroSituation::Right(_))) {
+        return None;
+    }
+    let experiment = lab.words.setup.with(|s| s.experiment.clone());
+    let integral = lab.words.with_analysis(|a| a.interpolation_integral(&experiment)).flatten()?;
+    let unit = lab.unit.get();
+    let value = lab.number_style().significant(to_shown(integral, unit), 3);
+    let unit = unit_name(unit);
+    Some(format!(
+        "<math><msubsup><mo>∫</mo><mn>0</mn><mi>∞</mi></msubsup><msup><mi>η</mi><mi>T</mi></msup><mi>e</mi>\
+         <mo stretchy=\"false\">(</mo><mi>t</mi><mo stretchy=\"false\">)</mo>\
+         <msup><mi>e</mi><mrow><mo>−</mo><mi>z</mi><mi>t</mi></mrow></msup><mi>d</mi><mi>t</mi><mo>=</mo>\
+         <mfrac><mrow><msup><mi>η</mi><mi>T</mi></msup><mi>r</mi></mrow><mi>z</mi></mfrac></math>\
+         <math><mo>=</mo><mn>{value}</mn><mtext>\u{a0}{unit}\u{a0}s</mtext></math>"
+    ))
 }

@@ -1,5 +1,6 @@
 use std::sync::Arc;
 
+use super::handler;
 use leptos::html::Canvas;
 use leptos::prelude::*;
 use web_sys::HtmlCanvasElement;
@@ -98,30 +99,35 @@ pub fn ChartMenu(
 ) -> impl IntoView {
     let lab = use_lab();
     let (for_csv, for_svg, for_png) = (picture.clone(), picture.clone(), picture);
-    let save_csv = move |_| {
+    let save_csv = move || {
         let text = untrack(|| (for_csv.csv)());
         download_text(&format!("{file}.csv"), "text/csv", &text);
     };
-    let save_svg = move |_| {
+    let save_svg = move || {
         let text = untrack(|| {
             let style = lab.chart_style();
             for_svg.visit(|charts| to_svg(charts, EXPORT, &style, &title.get(), ""))
         });
         download_text(&format!("{file}.svg"), "image/svg+xml", &text);
     };
-    let save_png = move |_| {
+    let save_png = move || {
         let style = untrack(|| lab.chart_style());
         if let Some(canvas) = untrack(|| for_png.visit(|charts| off_screen(charts, &style))) {
             download_canvas(&format!("{file}.png"), &canvas);
         }
     };
+    // One closure for all kinds, so that their buttons are one view.
+    let button = |kind: &'static str, save: Box<dyn Fn()>| {
+        let id = format!("{file}-{}", kind.to_ascii_lowercase());
+        view! { <button type="button" data-testid=id on:click=handler(move |_| save())>{kind}</button> }.into_any()
+    };
     view! {
         <details class="menu small" data-testid=format!("{file}-menu")>
             <summary aria-label=Signal::derive(move || format!("{}: {}", tr!(lab, chart.export), title.get()))>"⤓"</summary>
             <div>
-                <button type="button" data-testid=format!("{file}-csv") on:click=save_csv>"CSV"</button>
-                <button type="button" data-testid=format!("{file}-svg") on:click=save_svg>"SVG"</button>
-                <button type="button" data-testid=format!("{file}-png") on:click=save_png>"PNG"</button>
+                {button("CSV", Box::new(save_csv))}
+                {button("SVG", Box::new(save_svg))}
+                {button("PNG", Box::new(save_png))}
             </div>
         </details>
     }

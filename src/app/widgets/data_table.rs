@@ -1,3 +1,4 @@
+use super::handler;
 use leptos::prelude::*;
 
 use super::Picture;
@@ -27,10 +28,10 @@ pub fn DataTable(
             return String::new();
         }
         let caption = element("caption", "class=\"visually-hidden\"", &escape(tr!(lab, chart.table_caption)));
-        caption + &rows(picture.visit(|charts| table(charts, ROWS)), lab.number_style())
+        caption + &rows(&picture.visit(|charts| table(charts, ROWS)), lab.number_style())
     });
     view! {
-        <details class="more" on:toggle=move |_| open.update(|o| *o = !*o)>
+        <details class="more" on:toggle=handler(move |_| open.update(|o| *o = !*o))>
             <summary data-testid=id>{say!(lab, chart.table)}</summary>
             <div class="scroll" tabindex="0" role="region" aria-label=say!(lab, chart.table_caption)>
                 <table class="plain" inner_html=content></table>
@@ -39,8 +40,11 @@ pub fn DataTable(
     }
 }
 
-fn rows(table: Table, style: NumberStyle) -> String {
-    let row = |values: Vec<f64>| cells(values.into_iter().map(|value| style.significant(value, DIGITS)));
-    let rows: String = table.rows.into_iter().map(|values| element("tr", "", &row(values))).collect();
-    element("thead", "", &headings(table.columns)) + &element("tbody", "", &rows)
+fn rows(table: &Table, style: NumberStyle) -> String {
+    let row = |values: &Vec<f64>| {
+        let texts: Vec<String> = values.iter().map(|&value| style.significant(value, DIGITS)).collect();
+        element("tr", "", &cells(&texts))
+    };
+    let rows: String = table.rows.iter().map(row).collect();
+    element("thead", "", &headings(&table.columns)) + &element("tbody", "", &rows)
 }

@@ -1,3 +1,4 @@
+use super::handler;
 use leptos::ev::KeyboardEvent;
 use leptos::prelude::*;
 
@@ -135,17 +136,17 @@ pub fn NumberField(
             autocomplete="off"
             data-testid=id
             aria-label=name
-            aria-invalid=move || (refused.get() && draft.get().is_some()).then_some("true")
+            aria-invalid=move || (refused.get() && draft.get().is_some()).then(|| "true".to_owned())
             aria-describedby=move || refused.get().then(|| format!("{id}-problem"))
             prop:value=move || draft.get().unwrap_or_else(|| show(value.get()))
             disabled=disabled
-            on:input=on_input
-            on:keydown=on_key
-            on:blur=move |_| draft.set(None)
+            on:input=handler(on_input)
+            on:keydown=handler(on_key)
+            on:blur=handler(move |_| draft.set(None))
         />
         {move || {
             problem()
-                .map(|text| view! { <span class="problem" role="alert" id=format!("{id}-problem")>{text}</span> })
+                .map(|text| view! { <span class="problem" role="alert" id=format!("{id}-problem")>{text}</span> }.into_any())
         }}
     }
 }
@@ -225,7 +226,7 @@ pub fn SliderField(
                 step=move || range().2.to_string()
                 prop:value=move || position().to_string()
                 disabled=disabled
-                on:input=on_input
+                on:input=handler(on_input)
             />
             <NumberField id=id.1 name value on_change limits=limits.unwrap_or(travel) scale digits smallest disabled />
             <span class="unit">{unit}</span>

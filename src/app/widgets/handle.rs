@@ -1,3 +1,4 @@
+use super::handler;
 use leptos::ev::{KeyboardEvent, PointerEvent, TouchEvent};
 use leptos::prelude::*;
 use leptos::wasm_bindgen::JsCast;
@@ -81,8 +82,11 @@ pub fn Handle(
     /// Called for a key.
     #[prop(into)]
     on_nudge: Callback<Nudge>,
-    /// What is seen of it.
-    children: Children,
+    /// Where it stands in the drawing.
+    #[prop(into)]
+    at: Signal<(f64, f64)>,
+    /// What is seen of it, about the origin, as SVG.
+    look: &'static str,
 ) -> impl IntoView {
     let grabbed_at = StoredValue::new(None::<(f64, f64)>);
     let position = |event: &PointerEvent| (f64::from(event.client_x()), f64::from(event.client_y()));
@@ -125,21 +129,22 @@ pub fn Handle(
             role="slider"
             tabindex="0"
             data-testid=id
+            transform=move || { let (x, y) = at.get(); format!("translate({x} {y})") }
             aria-label=label
             aria-valuemin=move || limits.get().0.to_string()
             aria-valuemax=move || limits.get().1.to_string()
             aria-valuenow=move || value.get().to_string()
             aria-valuetext=spoken
             aria-disabled=locked.then_some("true")
-            on:pointerdown=on_down
-            on:pointermove=on_move
+            on:pointerdown=handler(on_down)
+            on:pointermove=handler(on_move)
             // A finger on the handle drags it; anywhere else on the drawing it scrolls the page.
-            on:touchstart=|event: TouchEvent| event.prevent_default()
-            on:pointerup=release
-            on:pointercancel=release
-            on:keydown=on_key
+            on:touchstart=handler(|event: TouchEvent| event.prevent_default())
+            on:pointerup=handler(release)
+            on:pointercancel=handler(release)
+            on:keydown=handler(on_key)
+            inner_html=look
         >
-            {children()}
         </g>
     }
 }

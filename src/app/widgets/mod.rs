@@ -1,19 +1,23 @@
 //! Parts that every bench is made of. None of them knows what it shows.
 
 mod chart;
+mod choice;
 mod data_table;
 mod element_size;
 mod field;
 mod handle;
+mod handler;
 pub mod html;
-mod rich;
+mod point;
 mod segmented;
 mod time_surface;
 
 pub use chart::{ChartCanvas, ChartMenu, Picture};
+pub use choice::Choice;
 pub use data_table::DataTable;
 pub use field::{NumberField, Scale, SliderField};
 pub use handle::{Drag, Handle, Nudge};
-pub use rich::rich;
+pub use handler::handler;
+pub use point::{PointHandle, first_frame};
 pub use segmented::Segmented;
 pub use time_surface::{TimeAxis, TimeSurface, ZoomButtons};

@@ -1,3 +1,4 @@
+use super::handler;
 use leptos::prelude::*;
 
 /// A choice of one among few, as a row of buttons.
@@ -28,14 +29,15 @@ where
                 <button
                     type="button"
                     data-testid=name
-                    aria-pressed=move || if value.get() == choice { "true" } else { "false" }
+                    aria-pressed=move || (value.get() == choice).to_string()
                     disabled=disabled
-                    on:click=move |_| on_choose.run(choice)
+                    on:click=handler(move |_| on_choose.run(choice))
                 >
                     {text}
                 </button>
             }
+            .into_any()
         })
-        .collect_view();
+        .collect::<Vec<_>>();
     view! { <div class="segmented" role="group" aria-label=label>{buttons}</div> }
 }

@@ -1,6 +1,7 @@
 //! What lies over charts that share a time axis: the cursor with its values, and whatever mouse, finger and keyboard do to
 //! them.
 
+use super::handler;
 use leptos::ev::{KeyboardEvent, PointerEvent, WheelEvent};
 use leptos::prelude::*;
 use leptos::wasm_bindgen::JsCast;
@@ -160,13 +161,13 @@ pub fn TimeSurface(
             aria-valuemax=move || axis.whole.get().1.to_string()
             aria-valuenow=move || axis.cursor.get().unwrap_or_else(|| axis.whole.get().0).to_string()
             aria-valuetext=move || Some(spoken.get()).filter(|text| !text.is_empty())
-            on:pointerdown=on_down
-            on:pointermove=on_move
-            on:pointerup=on_up
-            on:pointercancel=move |_| drag.set(None)
-            on:pointerleave=on_leave
-            on:wheel=move |event| axis.on_wheel(&event)
-            on:keydown=move |event| axis.on_key(&event)
+            on:pointerdown=handler(on_down)
+            on:pointermove=handler(on_move)
+            on:pointerup=handler(on_up)
+            on:pointercancel=handler(move |_| drag.set(None))
+            on:pointerleave=handler(on_leave)
+            on:wheel=handler(move |event| axis.on_wheel(&event))
+            on:keydown=handler(move |event| axis.on_key(&event))
             inner_html=drawing
         ></svg>
         <Readout axis frames readout />
@@ -204,9 +205,9 @@ pub fn ZoomButtons(
     let lab = use_lab();
     let [zoom_in, zoom_out, whole] = ids;
     view! {
-        <button type="button" class="button small" data-testid=zoom_in aria-label=say!(lab, chart.zoom_in) on:click=move |_| axis.zoom(ZOOM)>"+"</button>
-        <button type="button" class="button small" data-testid=zoom_out aria-label=say!(lab, chart.zoom_out) on:click=move |_| axis.zoom(1.0 / ZOOM)>"−"</button>
-        <button type="button" class="button small" data-testid=whole on:click=move |_| axis.on_show.run(None)>{say!(lab, chart.zoom_reset)}</button>
+        <button type="button" class="button small" data-testid=zoom_in aria-label=say!(lab, chart.zoom_in) on:click=handler(move |_| axis.zoom(ZOOM))>"+"</button>
+        <button type="button" class="button small" data-testid=zoom_out aria-label=say!(lab, chart.zoom_out) on:click=handler(move |_| axis.zoom(1.0 / ZOOM))>"−"</button>
+        <button type="button" class="button small" data-testid=whole on:click=handler(move |_| axis.on_show.run(None))>{say!(lab, chart.zoom_reset)}</button>
     }
 }
 

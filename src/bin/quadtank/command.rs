@@ -274,8 +274,13 @@ fn list_of_presets() -> String {
 
 fn list_of_cases() -> String {
     PublishedCase::all().fold(String::new(), |mut list, case| {
+        let place = match case.table {
+            0 => "§6.4, solvents column".to_owned(),
+            88 => "eq. 88".to_owned(),
+            table => format!("Table {table}, row {}", case.row),
+        };
         // Writing to a String cannot fail.
-        let _ = writeln!(list, "{:<16} Campestrini (2006), Table {}, row {}", case.name(), case.table, case.row);
+        let _ = writeln!(list, "{:<16} Campestrini (2006), {place}", case.name());
         list
     })
 }

@@ -1,16 +1,15 @@
 //! Relay tuning without a screen: what a session finds, as JSON, CSV or a picture.
 
-use std::fmt::Write as _;
-
 use clap::ValueEnum;
 use nalgebra::DMatrix;
 use quadtank::control::{IsaPid, ParallelPid};
 use quadtank::figure::{
-    CurveChart, LociChart, LoopsChart, Size, Style, characteristic_loci, critical_curve, to_svg, two_loops,
+    Chart, CurveChart, LociChart, LoopsChart, LoopsRecord, Pen, Size, Style, characteristic_loci, critical_curve,
+    to_svg, two_loops,
 };
-use quadtank::interaction::{niederlinski, relative_gain_array};
+use quadtank::interaction::niederlinski;
 use quadtank::linear::{Closure, Complex, Loci, LoopStability};
-use quadtank::scenario::tuning::{DesignRoot, Designed, Tested, Tuning, TuningSetup, tune};
+use quadtank::scenario::tuning::{DesignRoot, Designed, Tested, Tuning, TuningSetup, record_to_csv, tune};
 use quadtank::sim::{Halt, LoopTrace, StepFigures};
 use quadtank::tuning::{
     CurveDistance, GainLimit, RelayReading, RelayVerdict, TestAndSettings, TuningError, dynamic_relative_gain,
@@ -43,7 +42,6 @@ fn rows<T>(entry: impl Fn(usize, usize) -> T) -> [[T; 2]; 2] {
 pub fn analysis(setup: &TuningSetup) -> Result<Value, TuningError> {
     let found = tune(setup)?;
     let gain = DMatrix::from_fn(2, 2, |row, column| found.study.dc_gain[(row, column)]);
-    let relative = relative_gain_array(&gain).map(|array| array[(0, 0)]).ok();
     let points: Vec<Value> = found
         .study
         .curve
@@ -63,7 +61,7 @@ pub fn analysis(setup: &TuningSetup) -> Result<Value, TuningError> {
         .collect();
     Ok(json!({
         "dc_gain": rows(|row, column| gain[(row, column)]),
-        "rga_11": relative,
+        "rga_11": found.study.rga_11,
         "niederlinski_diagonal": niederlinski(&gain)[0],
         "critical_curve": points,
         "corners": corners,
@@ -208,22 +206,12 @@ fn record(test: &Tested) -> Option<&LoopTrace> {
 /// The response of the design, one row per sample and per arrival of what a dead time had held back.
 pub fn response_csv(setup: &TuningSetup) -> Result<String, TuningError> {
     let found = tune(setup)?;
-    Ok(found.design.map(|design| csv(&design.response.trace)).unwrap_or_default())
+    Ok(found.design.map(|design| record_to_csv(&design.response.trace)).unwrap_or_default())
 }
 
 /// The record of the relay test, one row per step, switch and arrival.
 pub fn test_csv(setup: &TuningSetup) -> Result<String, TuningError> {
-    Ok(record(&tune(setup)?.test).map(csv).unwrap_or_default())
-}
-
-fn csv(trace: &LoopTrace) -> String {
-    let mut text = "time,output_1,output_2,input_1,input_2\n".to_owned();
-    for (row, time) in trace.time.iter().enumerate() {
-        let ([y1, y2], [u1, u2]) = (&trace.outputs, &trace.inputs);
-        // Writing to a String cannot fail.
-        let _ = writeln!(text, "{time},{},{},{},{}", y1[row], y2[row], u1[row], u2[row]);
-    }
-    text
+    Ok(record(&tune(setup)?.test).map(record_to_csv).unwrap_or_default())
 }
 
 /// Draws a picture of a session as an SVG document.
@@ -240,11 +228,12 @@ pub fn svg(setup: &TuningSetup, picture: Picture, style: &Style) -> Result<Strin
     Ok(match picture {
         Picture::Test => {
             let trace = record(&found.test).unwrap_or(&empty);
-            to_svg(&two_loops(&loops(trace, None)), size, style, title, description)
+            loops_svg(trace, None, |charts| to_svg(charts, size, style, title, description))
         }
         Picture::Response => {
             let trace = found.design.as_ref().map_or(&empty, |design| &design.response.trace);
-            to_svg(&two_loops(&loops(trace, Some(setup.response.references))), size, style, title, description)
+            let references = Some(setup.response.references);
+            loops_svg(trace, references, |charts| to_svg(charts, size, style, title, description))
         }
         Picture::Curve => curve(&found, |chart| to_svg(&[critical_curve(chart)], size, style, title, description)),
         Picture::Loci => {
@@ -253,15 +242,18 @@ pub fn svg(setup: &TuningSetup, picture: Picture, style: &Style) -> Result<Strin
     })
 }
 
-fn loops(trace: &LoopTrace, references: Option<[f64; 2]>) -> LoopsChart<'_> {
-    LoopsChart {
+/// Charts of a record, as SVG.
+fn loops_svg(trace: &LoopTrace, references: Option<[f64; 2]>, draw: impl Fn(&[Chart]) -> String) -> String {
+    let record = LoopsRecord {
         time: &trace.time,
         outputs: trace.outputs.each_ref().map(Vec::as_slice),
         inputs: trace.inputs.each_ref().map(Vec::as_slice),
-        references,
-        axes: ["time", "output", "input"],
-        texts: ["loop 1", "loop 2"],
-    }
+        switches: trace.switches.each_ref().map(Vec::as_slice),
+        pen: Pen::Solid,
+    };
+    let window = (0.0, trace.time.last().copied().unwrap_or(1.0));
+    let (axes, texts) = (["time", "output", "input"], ["loop 1", "loop 2"]);
+    draw(&two_loops(&LoopsChart { records: &[record], window, references, axes, texts }))
 }
 
 fn curve<T>(found: &Tuning, draw: impl Fn(&CurveChart) -> T) -> T {
@@ -275,20 +267,21 @@ fn curve<T>(found: &Tuning, draw: impl Fn(&CurveChart) -> T) -> T {
     let (x, y): (Vec<f64>, Vec<f64>) = found.study.curve.points.iter().map(|at| point(&at.limit)).unzip();
     let corners: Vec<(f64, f64)> =
         found.study.curve.corners.iter().map(|corner| normal(corner.points[0].gains)).collect();
-    let estimates: Vec<(f64, f64)> = match &found.test {
-        Tested::Simultaneous(test, _) => test.reading.oscillation.and_then(|o| o.gains_by_harmonic()).map(normal),
+    let oscillation = match &found.test {
+        Tested::Simultaneous(test, _) => test.reading.oscillation,
         Tested::Single(..) | Tested::Independent(_) | Tested::Sequential(_) => None,
-    }
-    .into_iter()
-    .collect();
+    };
+    let harmonic: Vec<(f64, f64)> = oscillation.and_then(|o| o.gains_by_harmonic()).map(normal).into_iter().collect();
+    let peak: Vec<(f64, f64)> = oscillation.and_then(|o| o.gains_by_peak()).map(normal).into_iter().collect();
     let chosen = found.design.as_ref().map(|design| normal(design.critical_gains));
     draw(&CurveChart {
         curve: [&x, &y],
         corners: &corners,
-        estimates: &estimates,
+        estimates: [&harmonic, &peak],
+        rays: &[(1.0, "r2 = 1".to_owned())],
         chosen,
         axes: ["k1 g11(0)", "k2 g22(0)"],
-        texts: ["critical curve", "relay test, first harmonics"],
+        texts: ["critical curve", "relay test, first harmonics", "relay test, peaks", "corner"],
     })
 }
 
@@ -307,6 +300,7 @@ fn loci<T>(found: &Tuning, setup: &TuningSetup, draw: impl Fn(&LociChart) -> T) 
         loci: after.each_ref().map(|parts| parts.each_ref().map(Vec::as_slice)),
         before: before.each_ref().map(|parts| parts.each_ref().map(Vec::as_slice)),
         target: (re, im),
+        rules: &[],
         axes: ["real part", "imaginary part"],
         texts: ["locus 1", "locus 2", "at the critical gains"],
     })

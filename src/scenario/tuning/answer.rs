@@ -1,6 +1,7 @@
-use nalgebra::Matrix2;
+use nalgebra::{DMatrix, Matrix2};
 
 use crate::control::{PidMatrix, Relay};
+use crate::interaction::relative_gain_array;
 use crate::linear::{Complex, DelayedPlant, LinearError, TransferMatrix};
 use crate::tuning::{
     CriticalCurve, CriticalSearch, CurveDistance, RelayTest, SequentialStep, TestAndSettings, TestTime, TuningError,
@@ -21,6 +22,8 @@ pub struct Study {
     pub plant: TransferMatrix,
     /// G(0).
     pub dc_gain: Matrix2<f64>,
+    /// λ11 of the relative gain array; `None` where G(0) is singular.
+    pub rga_11: Option<f64>,
     /// The boundary of the stable gains.
     pub curve: CriticalCurve,
     /// Finds critical points in any direction.
@@ -88,7 +91,9 @@ impl Study {
         let (low, high) = frequency_range(&plant)?;
         let search = CriticalSearch::new(&plant, low, high);
         let curve = CriticalCurve::of(&plant, &search, DIRECTIONS);
-        Ok(Self { plant, dc_gain, curve, search })
+        let gain = DMatrix::from_fn(2, 2, |row, column| dc_gain[(row, column)]);
+        let rga_11 = relative_gain_array(&gain).ok().map(|array| array[(0, 0)]);
+        Ok(Self { plant, dc_gain, rga_11, curve, search })
     }
 
     /// The relay test of a session.

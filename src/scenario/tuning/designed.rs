@@ -55,6 +55,9 @@ pub struct Answered {
     pub trace: LoopTrace,
     /// Its figures.
     pub figures: [StepFigures; 2],
+    /// Whether the figures mean something: the loop is stable as far as is known, and the record went to its end. With a
+    /// decoupler, which the count of encirclements does not see, only the record can tell.
+    pub is_meant: bool,
 }
 
 /// Other controllers on the same plant.
@@ -106,7 +109,9 @@ impl Study {
             Ok::<_, TuningError>(design.loci_between(SHOWN.0 * frequency, SHOWN.1 * frequency))
         };
         let loci = [shown(proportional)?, shown(chosen)?];
-        let response = self.decoupled_response(chosen, setup)?;
+        let mut response = self.decoupled_response(chosen, setup)?;
+        let stable = roots[spec.root - 1].stability == LoopStability::Stable;
+        response.is_meant &= stable || spec.decoupler != DecouplerSpec::None;
         let rival = self.rival(setup, critical_gains, frequency)?;
         Ok(Some(Designed { critical_gains, frequency, g, roots, loci, response, rival }))
     }
@@ -151,7 +156,9 @@ impl Study {
             CompareSpec::Nothing | CompareSpec::Full => return Ok(None),
         };
         let stability = Design::new(&self.plant, controllers)?.stability();
-        Ok(Some(Rival { controllers, stability, response: self.response(controllers, setup)? }))
+        let mut response = self.response(controllers, setup)?;
+        response.is_meant &= stability == LoopStability::Stable;
+        Ok(Some(Rival { controllers, stability, response }))
     }
 }
 
@@ -173,5 +180,6 @@ fn linear_response(paths: &[Path], controllers: PidMatrix, setup: &TuningSetup) 
 
 fn answered(trace: LoopTrace, setup: &TuningSetup) -> Answered {
     let figures = trace.step_figures(setup.response.references);
-    Answered { trace, figures }
+    let is_meant = trace.halt.is_none();
+    Answered { trace, figures, is_meant }
 }

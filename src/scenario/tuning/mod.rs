@@ -1,6 +1,7 @@
 //! The document of a relay-tuning session, version 2, and what follows from it.
 
 mod answer;
+mod csv;
 mod designed;
 mod document;
 mod printed;
@@ -9,6 +10,7 @@ mod rig;
 mod start;
 
 pub use answer::{FoundPoint, Study, Tested, Tuning, tune};
+pub use csv::{curve_to_csv, loci_to_csv, record_to_csv};
 pub use designed::{Answered, DesignRoot, Designed, Rival};
 pub use document::{
     Behind, CompareSpec, CriticalSpec, DecouplerSpec, DesignSpec, Element, ResponseSpec, TestKind, TestSpec,

@@ -1,0 +1,155 @@
+//! Step 2: the critical curve, and the point on it that the placement starts from.
+
+use leptos::prelude::*;
+
+use super::card::{Step, card, figures, remark};
+use super::controls::{Knob, knob};
+use super::errors;
+use super::pictures;
+use super::session::{Session, time_unit, use_session};
+use crate::app::start::Control;
+use crate::app::texts::{say, tr};
+use crate::app::widgets::{Nudge, PointHandle, Scale, html};
+use crate::figure::Frame;
+use crate::scenario::tuning::{CriticalSpec, TuningSetup};
+use crate::tuning::{GainLimit, importance_direction};
+
+/// Importances that can be chosen.
+const IMPORTANCES: (f64, f64) = (0.001, 1000.0);
+/// Ratio of one step of the arrow keys.
+const STEP: f64 = 1.05;
+
+/// The critical curve.
+#[component]
+pub fn CurveCard() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let frames = RwSignal::new(Vec::<Frame>::new());
+    let chosen = Signal::from(Memo::new(move |_| pictures::chosen_point(session.charts)));
+    let picture = pictures::curve(session, chosen);
+    let importance = Knob {
+        id: ("importance", "importance-number"),
+        label: "r₂",
+        name: say!(lab, relay.importance),
+        read: importance,
+        write: |s, r| s.design.critical = CriticalSpec::Importance(r),
+        limits: IMPORTANCES,
+        travel: Some(IMPORTANCES),
+        scale: Scale::Logarithmic,
+        is_time: false,
+        class: "",
+        lock: Control::Point,
+    };
+    let table = Signal::derive(move || table(session));
+    let settings = vec![
+        knob(session, &importance),
+        figures("critical-point", say!(lab, relay.curve_caption), table),
+        remark(say!(lab, relay.importance_formula)),
+    ];
+    card(Step {
+        name: "curve",
+        number: 2,
+        title: say!(lab, relay.curve),
+        toolbar: remark(say!(lab, relay.curve_remark)),
+        picture,
+        frames,
+        place: "chart",
+        overlay: view! { <svg class="over"><CriticalHandle frames chosen /></svg> }.into_any(),
+        settings: settings.into_any(),
+        verdict: Signal::derive(move || sentence(session)),
+        below: ().into_any(),
+    })
+}
+
+/// r2 of the critical point of a session, `kc2 g22(0)/(kc1 g11(0))`, 1 where there is none (Campestrini 2006, eq. 94).
+fn importance(setup: &TuningSetup) -> f64 {
+    match setup.design.critical {
+        CriticalSpec::Importance(r) => r,
+        CriticalSpec::Point { gains, .. } => {
+            let gain = setup.plant.transfer_matrix().map(|plant| plant.dc_gain());
+            let direction = gain.map_or([1.0; 2], |gain| importance_direction(&gain, 1.0));
+            (gains[1] / direction[1] / (gains[0] / direction[0])).abs().clamp(IMPORTANCES.0, IMPORTANCES.1)
+        }
+    }
+}
+
+/// The chosen point: dragged to another importance, moved along the curve by keys.
+#[component]
+fn CriticalHandle(frames: RwSignal<Vec<Frame>>, chosen: Signal<Option<(f64, f64)>>) -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let value = session.part(importance);
+    let set = move |r: f64| {
+        if r.is_finite() {
+            session.edit(|s| s.design.critical = CriticalSpec::Importance(r.clamp(IMPORTANCES.0, IMPORTANCES.1)));
+        }
+    };
+    let at = Signal::derive(move || chosen.get().unwrap_or((0.0, 0.0)));
+    view! {
+        <PointHandle
+            id="critical-handle"
+            label=say!(lab, relay.critical_handle)
+            at
+            value
+            limits=IMPORTANCES
+            spoken=Signal::derive(move || format!("r₂ {}", lab.number_style().significant(value.get(), 3)))
+            locked=lab.locks(Control::Point)
+            on_move=move |(x, y): (f64, f64)| set(y.max(0.0) / x.max(1e-9))
+            on_nudge=move |by: Nudge| set(value.get_untracked() * STEP.powf((by.up - by.right + by.page).clamp(-200.0, 200.0)))
+            frames
+        />
+    }
+}
+
+/// What bounds the gains in the chosen direction, and whether all is well.
+fn sentence(session: Session) -> (bool, String) {
+    let lab = session.lab;
+    let study = session.words.study.get();
+    let study = match study.as_ref() {
+        Ok(study) => study,
+        Err(error) => return (false, errors::sentence(lab, error)),
+    };
+    let style = lab.number_style();
+    let r = session.words.setup.with(|s| importance(s));
+    let unit = session.words.setup.with(|s| time_unit(&s.plant));
+    let mut sentence = match study.search.limit(importance_direction(&study.dc_gain, r)) {
+        GainLimit::Oscillation(point) => {
+            (true, tr!(lab, relay.ultimate, period = style.significant(point.period(), 4), unit = unit).to_string())
+        }
+        GainLimit::RealPole { .. } => (false, tr!(lab, relay.real_pole).to_owned()),
+        GainLimit::None => (false, tr!(lab, relay.no_ultimate).to_owned()),
+    };
+    if let Some(corner) = study.curve.corners.first() {
+        let [slow, quick] = corner.points.map(|point| style.significant(point.period(), 4));
+        let importance = style.significant(corner.importance, 3);
+        sentence.1 += " ";
+        sentence.1 += &tr!(lab, relay.corner_at, importance = importance, slow = slow, quick = quick, unit = unit);
+    }
+    sentence
+}
+
+/// Gains and period of the chosen point as it is in the document, and where the curve is in its direction.
+fn table(session: Session) -> String {
+    let lab = session.lab;
+    let style = lab.number_style();
+    let unit = session.words.setup.with(|s| time_unit(&s.plant));
+    let study = session.words.study.get();
+    let Ok(study) = study.as_ref() else { return String::new() };
+    let Some((gains, frequency)) = session.words.with_design(|design| (design.critical_gains, design.frequency)) else {
+        return String::new();
+    };
+    let on_curve = study.search.nearest(gains);
+    let number = |v: Option<f64>| v.map_or_else(|| "–".to_owned(), |v| style.significant(v, 4));
+    let row =
+        |name: String, chosen: f64, curve: Option<f64>| html::row("", &name, &[number(Some(chosen)), number(curve)]);
+    let rows = row("kc₁".to_owned(), gains[0], on_curve.map(|p| p.gains[0]))
+        + &row("kc₂".to_owned(), gains[1], on_curve.map(|p| p.gains[1]))
+        + &row(format!("Tc ({unit})"), std::f64::consts::TAU / frequency, on_curve.map(|p| p.period()))
+        + &row(format!("ωc (rad/{unit})"), frequency, on_curve.map(|p| p.frequency));
+    let names = [
+        tr!(lab, process.quantity).to_owned(),
+        tr!(lab, relay.col_chosen).to_owned(),
+        tr!(lab, relay.col_curve).to_owned(),
+    ];
+    html::table(tr!(lab, relay.curve_caption), &names, &rows)
+}

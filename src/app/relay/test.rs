@@ -1,0 +1,362 @@
+//! Step 1: the relay test, its record and what it says.
+
+use leptos::prelude::*;
+
+use super::card::{Step, card, figures, hideable};
+use super::controls::{Knob, choice, knob, segmented};
+use super::errors;
+use super::pictures::{self, record_of, short_name};
+use super::readout::{readout, surface};
+use super::session::{Session, time_unit, use_session};
+use super::timeline::timeline;
+use crate::app::start::Control;
+use crate::app::texts::{say, tr};
+use crate::app::widgets::html::{cells, element, escape, option};
+use crate::app::widgets::{DataTable, Scale, ZoomButtons, html};
+use crate::control::IsaPid;
+use crate::figure::Frame;
+use crate::scenario::tuning::{Behind, TestKind, Tested, TuningSetup};
+use crate::tuning::{CurveDistance, RelayReading, RelayVerdict, TestAndSettings, TuningRule};
+
+const KINDS: [TestKind; 4] = [TestKind::Single, TestKind::Independent, TestKind::Sequential, TestKind::Simultaneous];
+/// Ratios of the amplitudes that the slider covers.
+const RATIOS: (f64, f64) = (0.02, 20.0);
+/// Modulus that the estimator of a point begins with.
+const FIRST_MODULUS: f64 = 0.2;
+const SIZES: (f64, f64) = (1e-6, 1e6);
+
+/// The relay test.
+#[component]
+pub fn TestCard() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let frames = RwSignal::new(Vec::<Frame>::new());
+    let axis = timeline(session.part(|s| s.test.duration));
+    let picture = pictures::test(session, axis.window);
+    let verdict = Signal::derive(move || sentence(session));
+    let values = readout(session, axis.cursor, move |show| {
+        session.words.test.with(|outcome| {
+            if let Some(trace) = outcome.as_ref().as_ref().ok().and_then(record_of) {
+                show(trace);
+            }
+        });
+    });
+    let ids = ["test-zoom-in", "test-zoom-out", "test-zoom-reset"];
+    let label = say!(lab, relay.test_cursor);
+    card(Step {
+        name: "test",
+        number: 1,
+        title: say!(lab, relay.test),
+        toolbar: view! { <div class="toolbar"><ZoomButtons axis ids /></div> }.into_any(),
+        frames,
+        place: "chart",
+        overlay: surface("test-surface", axis, frames, label, values),
+        settings: settings(session),
+        verdict,
+        below: view! { <DataTable picture=picture.clone() id="test-table" /> }.into_any(),
+        picture,
+    })
+}
+
+fn settings(session: Session) -> AnyView {
+    let lab = session.lab;
+    let kinds = vec![
+        ("test-single", say!(lab, relay.single)),
+        ("test-independent", say!(lab, relay.independent)),
+        ("test-sequential", say!(lab, relay.sequential)),
+        ("test-simultaneous", say!(lab, relay.simultaneous)),
+    ];
+    let kind = |s: &TuningSetup| KINDS.iter().position(|&k| k == s.test.kind).unwrap_or(3);
+    let table = Signal::derive(move || table(session));
+    vec![
+        segmented(session, say!(lab, relay.kind), kinds, kind, |s, k| s.test.kind = KINDS[k], Control::Test),
+        hideable("", session.flag(|s| s.test.kind != TestKind::Single), single(session)),
+        hideable("pairs", Signal::stored(false), sizes(session)),
+        hideable("pairs four", session.flag(|s| is_tuned(s.test.kind)), relays(session)),
+        hideable("", session.flag(|s| !is_tuned(s.test.kind)), vec![rule(session)]),
+        hideable("pairs", session.flag(|s| s.test.kind != TestKind::Independent), detuning(session)),
+        hideable("pairs", session.flag(|s| s.test.kind != TestKind::Sequential), passes(session)),
+        figures("test-figures", say!(lab, relay.test_caption), table),
+    ]
+    .into_any()
+}
+
+/// A number field of the test.
+fn field(
+    id: &'static str,
+    label: &'static str,
+    name: Signal<String>,
+    read: fn(&TuningSetup) -> f64,
+    write: fn(&mut TuningSetup, f64),
+    limits: (f64, f64),
+) -> Knob {
+    let (travel, scale, is_time, class) = (None, Scale::Linear(0.05), false, "");
+    Knob { id: (id, ""), label, name, read, write, limits, travel, scale, is_time, class, lock: Control::Test }
+}
+
+/// Amplitudes, by the first one and the ratio, and duration.
+fn sizes(session: Session) -> Vec<AnyView> {
+    let lab = session.lab;
+    let set_ratio = |s: &mut TuningSetup, v: f64| s.test.amplitudes[1] = v * s.test.amplitudes[0];
+    let ratio = Knob {
+        id: ("ratio", "ratio-number"),
+        travel: Some(RATIOS),
+        scale: Scale::Logarithmic,
+        ..field("", "d₂/d₁", say!(lab, relay.ratio), ratio_of, set_ratio, RATIOS)
+    };
+    let first = |s: &TuningSetup| s.test.amplitudes[0];
+    let amplitude = field("test-amplitude", "d₁", say!(lab, relay.amplitude), first, set_amplitude, (0.001, 1e4));
+    let read = |s: &TuningSetup| s.test.duration;
+    let duration = field("test-duration", "t", say!(lab, relay.duration), read, set_duration, (1.0, 1e5));
+    vec![knob(session, &ratio), knob(session, &amplitude), knob(session, &Knob { is_time: true, ..duration })]
+}
+
+/// What a test of a single element has besides.
+fn single(session: Session) -> Vec<AnyView> {
+    let lab = session.lab;
+    let loops = vec![
+        ("test-loop1", say!(lab, relay.loop_name, number = 1)),
+        ("test-loop2", say!(lab, relay.loop_name, number = 2)),
+    ];
+    let which = |s: &TuningSetup| s.test.number - 1;
+    let set_which = |s: &mut TuningSetup, k: usize| s.test.number = k + 1;
+    let choose = move |name: String| session.edit(|s| s.test.behind = behind_named(&name));
+    let modulus = |s: &TuningSetup| if let Behind::Modulus(r) = s.test.behind { r } else { FIRST_MODULUS };
+    let set_modulus = |s: &mut TuningSetup, v: f64| s.test.behind = Behind::Modulus(v);
+    let modulus = field("test-modulus", "r", say!(lab, relay.modulus), modulus, set_modulus, SIZES);
+    vec![
+        segmented(session, say!(lab, relay.which_loop), loops, which, set_which, Control::Test),
+        choice("test-behind", say!(lab, relay.behind), behind_options(session), choose, Control::Test),
+        hideable("", session.flag(|s| behind_index(s) != 2), vec![knob(session, &modulus)]),
+    ]
+}
+
+/// Hysteresis and bias of both relays.
+fn relays(session: Session) -> Vec<AnyView> {
+    let lab = session.lab;
+    let hysteresis = |id, label, number: usize, read, write| {
+        field(id, label, say!(lab, relay.hysteresis, number = number), read, write, (0.0, 1e6))
+    };
+    let bias = |id, label, number: usize, read, write| {
+        field(id, label, say!(lab, relay.bias, number = number), read, write, (-1e6, 1e6))
+    };
+    let fields = [
+        hysteresis("test-hysteresis1", "ε₁", 1, |s| s.test.hysteresis[0], |s, v| s.test.hysteresis[0] = v),
+        hysteresis("test-hysteresis2", "ε₂", 2, |s| s.test.hysteresis[1], |s, v| s.test.hysteresis[1] = v),
+        bias("test-bias1", "b₁", 1, |s| s.test.bias[0], |s, v| s.test.bias[0] = v),
+        bias("test-bias2", "b₂", 2, |s| s.test.bias[1], |s, v| s.test.bias[1] = v),
+    ];
+    by_loop(session, fields)
+}
+
+/// The factors by which independent tests are made weaker.
+fn detuning(session: Session) -> Vec<AnyView> {
+    let lab = session.lab;
+    let factor = |id, label, number: usize, read, write| {
+        field(id, label, say!(lab, relay.detuning, number = number), read, write, (0.1, 100.0))
+    };
+    let fields = [
+        factor("test-detuning1", "f₁", 1, |s| s.test.detuning[0], |s, v| s.test.detuning[0] = v),
+        factor("test-detuning2", "f₂", 2, |s| s.test.detuning[1], |s, v| s.test.detuning[1] = v),
+    ];
+    by_loop(session, fields)
+}
+
+/// Fields of loop 1 and loop 2 in turn, in their colours.
+fn by_loop<const N: usize>(session: Session, fields: [Knob; N]) -> Vec<AnyView> {
+    let coloured = fields.into_iter().enumerate().map(|(k, field)| Knob { class: ["loop1", "loop2"][k % 2], ..field });
+    coloured.map(|field| knob(session, &field)).collect()
+}
+
+fn passes(session: Session) -> Vec<AnyView> {
+    let name = say!(session.lab, relay.passes);
+    let passes = field("test-passes", "n", name, |s| s.test.passes as f64, set_passes, (1.0, 8.0));
+    vec![knob(session, &Knob { scale: Scale::Linear(1.0), ..passes })]
+}
+
+fn rule(session: Session) -> AnyView {
+    let choose = move |name: String| choose_rule(session, &name);
+    choice("test-rule", say!(session.lab, relay.rule), rule_options(session), choose, Control::Test)
+}
+
+/// Whether the test ends in controller settings.
+fn is_tuned(kind: TestKind) -> bool {
+    matches!(kind, TestKind::Independent | TestKind::Sequential)
+}
+
+fn ratio_of(setup: &TuningSetup) -> f64 {
+    setup.test.amplitudes[1] / setup.test.amplitudes[0]
+}
+
+/// Both amplitudes, so that the ratio stays.
+fn set_amplitude(setup: &mut TuningSetup, d1: f64) {
+    let ratio = ratio_of(setup);
+    setup.test.amplitudes = [d1, d1 * ratio];
+}
+
+/// The record keeps its number of rows.
+fn set_duration(setup: &mut TuningSetup, duration: f64) {
+    let factor = duration / setup.test.duration;
+    setup.test.duration = duration;
+    setup.test.step *= factor;
+    setup.test.release = setup.test.release.min(duration);
+}
+
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the field allows 1 to 8")]
+fn set_passes(setup: &mut TuningSetup, passes: f64) {
+    setup.test.passes = passes.round() as usize;
+}
+
+const BEHINDS: [&str; 3] = ["nothing", "integrator", "modulus"];
+
+fn behind_options(session: Session) -> Signal<String> {
+    let lab = session.lab;
+    Signal::derive(move || {
+        let chosen = lab.tuning.with(|s| behind_index(&s.tuning));
+        let texts = [tr!(lab, relay.behind_nothing), tr!(lab, relay.behind_integrator), tr!(lab, relay.behind_modulus)];
+        (0..3).map(|k| option(BEHINDS[k], texts[k], chosen == k)).collect()
+    })
+}
+
+fn behind_index(setup: &TuningSetup) -> usize {
+    match setup.test.behind {
+        Behind::Nothing => 0,
+        Behind::Integrator => 1,
+        Behind::Modulus(_) => 2,
+    }
+}
+
+fn behind_named(name: &str) -> Behind {
+    match BEHINDS.iter().position(|&known| known == name) {
+        Some(1) => Behind::Integrator,
+        Some(2) => Behind::Modulus(FIRST_MODULUS),
+        _ => Behind::Nothing,
+    }
+}
+
+fn rule_options(session: Session) -> Signal<String> {
+    Signal::derive(move || {
+        let chosen = session.lab.tuning.with(|s| s.tuning.test.rule);
+        TuningRule::ALL.iter().map(|&rule| option(short_name(rule), short_name(rule), rule == chosen)).collect()
+    })
+}
+
+fn choose_rule(session: Session, name: &str) {
+    if let Some(rule) = TuningRule::ALL.into_iter().find(|&rule| short_name(rule) == name) {
+        session.edit(|s| s.test.rule = rule);
+    }
+}
+
+/// The readings of a test with the settings that follow, in the order of the experiments.
+fn readings(test: &Tested) -> Vec<(String, RelayReading, Option<IsaPid>)> {
+    match test {
+        Tested::Single(test, _) | Tested::Simultaneous(test, _) => vec![(String::new(), test.reading, None)],
+        Tested::Independent(loops) => {
+            let row = |(k, (test, settings)): (usize, &TestAndSettings)| ((k + 1).to_string(), test.reading, *settings);
+            loops.iter().enumerate().map(row).collect()
+        }
+        Tested::Sequential(steps) => steps
+            .iter()
+            .map(|step| (format!("{}·{}", step.pass, step.index + 1), step.test.reading, step.settings))
+            .collect(),
+    }
+}
+
+/// The verdict in words, and whether all is well.
+fn sentence(session: Session) -> (bool, String) {
+    let lab = session.lab;
+    let style = lab.number_style();
+    let unit = session.words.setup.with(|s| time_unit(&s.plant));
+    session.words.test.with(|outcome| {
+        let test = match outcome.as_ref() {
+            Ok(test) => test,
+            Err(error) => return (false, errors::sentence(lab, error)),
+        };
+        let all = readings(test);
+        let Some((_, reading, _)) = all.iter().find(|(_, reading, _)| reading.oscillation.is_none()).or(all.last())
+        else {
+            return (false, String::new());
+        };
+        let period = reading.oscillation.map_or_else(String::new, |o| style.significant(o.period, 4));
+        let (good, mut text) = match reading.verdict {
+            RelayVerdict::Unimodal => (true, tr!(lab, relay.unimodal, period = period, unit = unit).to_string()),
+            RelayVerdict::Multimodal { switches: [one, two] } => {
+                (false, tr!(lab, relay.multimodal, period = period, unit = unit, one = one, two = two).to_string())
+            }
+            RelayVerdict::NotPeriodic => (false, tr!(lab, relay.not_periodic).to_owned()),
+            RelayVerdict::Chattering { relay } => (false, tr!(lab, relay.chattering, number = relay + 1).to_string()),
+            RelayVerdict::NoOscillation => (false, tr!(lab, relay.no_oscillation).to_owned()),
+            RelayVerdict::Diverged => (false, tr!(lab, relay.diverged).to_owned()),
+        };
+        let good = good
+            && match test {
+                Tested::Simultaneous(test, [_, by_harmonic]) => {
+                    let proportional = test.reading.oscillation.is_none_or(|o| o.is_proportional());
+                    let same = by_harmonic.is_none_or(|distance| distance.same_branch);
+                    if !same {
+                        text = text + " " + tr!(lab, relay.other_branch);
+                    } else if !proportional {
+                        text = text + " " + tr!(lab, relay.not_proportional);
+                    }
+                    same && proportional
+                }
+                Tested::Single(_, Some(found)) => {
+                    let (modulus, exact) = (style.significant(found.modulus, 3), found.response);
+                    let (norm, degrees) = (exact.norm(), exact.arg().to_degrees());
+                    let (norm, degrees) = (style.significant(norm, 3), style.fixed(degrees, 0));
+                    text = text + " " + &tr!(lab, relay.found_point, modulus = modulus, norm = norm, degrees = degrees);
+                    true
+                }
+                _ => true,
+            };
+        (good, text)
+    })
+}
+
+/// Amplitudes and gains of every experiment, and how far they are from the curve.
+fn table(session: Session) -> String {
+    let lab = session.lab;
+    let style = lab.number_style();
+    let number = |v: Option<f64>| v.map_or_else(|| "–".to_owned(), |v| style.significant(v, 4));
+    session.words.test.with(|outcome| {
+        let Ok(test) = outcome.as_ref() else { return String::new() };
+        let distances = if let Tested::Simultaneous(_, distances) = test { *distances } else { [None; 2] };
+        let has_settings = matches!(test, Tested::Independent(_) | Tested::Sequential(_));
+        let mut names = vec![
+            tr!(lab, relay.col_loop).to_owned(),
+            tr!(lab, relay.col_period).to_owned(),
+            "a".to_owned(),
+            tr!(lab, relay.col_peak).to_owned(),
+            tr!(lab, relay.col_harmonic).to_owned(),
+        ];
+        if has_settings {
+            names.extend(["K", "Ti", "Td"].map(str::to_owned));
+        }
+        let second = session.words.setup.with(|s| s.test.kind == TestKind::Single && s.test.number == 2);
+        let mut rows = String::new();
+        for (name, reading, settings) in readings(test) {
+            let Some(oscillation) = reading.oscillation else { continue };
+            for (k, of) in oscillation.loops.iter().enumerate().filter(|(_, of)| of.gain_by_peak.is_some()) {
+                let label = if name.is_empty() { (k + 1).to_string() } else { name.clone() };
+                let is_second = label.ends_with('2') || second;
+                let figures = [Some(oscillation.period), Some(of.amplitude), of.gain_by_peak, of.gain_by_harmonic];
+                let mut figures = figures.map(number).to_vec();
+                if has_settings {
+                    let finite = |v: f64| Some(v).filter(|v| v.is_finite());
+                    let settings = settings
+                        .map_or([None; 3], |s| [finite(s.gain), finite(s.integral_time), finite(s.derivative_time)]);
+                    figures.extend(settings.map(number));
+                }
+                rows += &html::row(["loop1", "loop2"][usize::from(is_second)], &label, &figures);
+            }
+        }
+        let percent = |distance: Option<CurveDistance>| {
+            distance.map_or_else(|| "–".to_owned(), |d| format!("{}\u{a0}%", style.fixed(100.0 * d.excess, 1)))
+        };
+        if distances.iter().any(Option::is_some) {
+            let name = element("th", "scope=\"row\" colspan=\"3\"", &escape(tr!(lab, relay.distance)));
+            rows += &element("tr", "", &(name + &cells(&distances.map(percent))));
+        }
+        html::table(tr!(lab, relay.test_caption), &names, &rows)
+    })
+}

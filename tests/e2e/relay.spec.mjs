@@ -1,0 +1,281 @@
+// The relay-tuning bench: relay test, critical curve, placement, response, and what the source prints beside it.
+import { expect, test } from './lab.mjs';
+
+const BENCH = 'bench=relay-tuning';
+
+async function choose(lab, name, value) {
+  await lab.id(name).selectOption(value);
+  await lab.settle();
+}
+
+/** Presses Tab until an element has the focus, as somebody without a mouse does. */
+async function tabTo(lab, page, name) {
+  for (let k = 0; k < 80; k += 1) {
+    if ((await page.evaluate(() => document.activeElement?.dataset?.testid)) === name) return;
+    await page.keyboard.press('Tab');
+  }
+  throw new Error(`Tab does not reach ${name}`);
+}
+
+/** A session as the file menu saves it, changed, and opened again. */
+async function openChanged(lab, page, change) {
+  await lab.page.locator('[data-testid=file-menu] > summary').click();
+  const [download] = await Promise.all([page.waitForEvent('download'), lab.id('save').click()]);
+  const chunks = [];
+  for await (const chunk of await download.createReadStream()) chunks.push(chunk);
+  const session = JSON.parse(Buffer.concat(chunks).toString());
+  change(session);
+  const buffer = Buffer.from(JSON.stringify(session));
+  await lab.id('open-input').setInputFiles({ name: 'session.json', mimeType: 'application/json', buffer });
+  await page.waitForTimeout(50);
+  await lab.settle();
+  await page.keyboard.press('Escape');
+}
+
+test('from a relay test to a stable design by keyboard alone', async ({ lab, page }) => {
+  await lab.open(BENCH);
+  expect(await lab.text('test-verdict')).toContain('Unimodal');
+  const first = await lab.picture('test');
+  await tabTo(lab, page, 'ratio');
+  await page.keyboard.press('PageDown');
+  await lab.settle();
+  // Between 0.6 and 0.15 no test of Wood and Berry's column is unimodal (Campestrini 2006, §4.3).
+  expect(await lab.value('ratio-number')).toBeCloseTo(0.5, 1);
+  expect(await lab.text('test-verdict')).toMatch(/^(Multimodal|Not periodic)/);
+  expect((await lab.picture('test')).hash).not.toBe(first.hash);
+
+  await tabTo(lab, page, 'critical-handle');
+  const before = await lab.value('importance-number');
+  for (let k = 0; k < 5; k += 1) await page.keyboard.press('ArrowUp');
+  await lab.settle();
+  expect(await lab.value('importance-number')).toBeCloseTo(before * 1.05 ** 5, 2);
+
+  await tabTo(lab, page, 'target-handle');
+  // To λ = −0.6 + 0.1j and beyond: unstable with the chosen root.
+  for (let k = 0; k < 8; k += 1) await page.keyboard.press('Shift+ArrowLeft');
+  for (let k = 0; k < 8; k += 1) await page.keyboard.press('Shift+ArrowUp');
+  await lab.settle();
+  expect(await lab.value('target-re')).toBeCloseTo(-0.6, 9);
+  expect(await lab.value('target-im')).toBeCloseTo(0.1, 9);
+  expect(await lab.text('placement-verdict')).toContain('Unstable');
+  expect(await lab.text('response-verdict')).toContain('unstable');
+  // And back into the third quadrant.
+  for (let k = 0; k < 8; k += 1) await page.keyboard.press('Shift+ArrowRight');
+  for (let k = 0; k < 8; k += 1) await page.keyboard.press('Shift+ArrowDown');
+  await lab.settle();
+  expect(await lab.text('placement-verdict')).toContain('Stable');
+  expect(await lab.text('response-verdict')).toContain('settles within 2 %');
+  await expect(lab.id('target-handle')).toBeFocused();
+  await lab.clean();
+});
+
+test('the target λ is dragged, and loci, gains and response follow', async ({ lab, page }) => {
+  await lab.open(BENCH);
+  const before = { gains: await lab.text('gains'), loci: await lab.picture('placement'), response: await lab.picture('response') };
+  const curve = await lab.picture('curve');
+  const from = await lab.middle('target-handle');
+  await page.mouse.move(from.x, from.y);
+  await page.mouse.down();
+  await page.mouse.move(from.x - 25, from.y + 10, { steps: 8 });
+  await page.mouse.up();
+  await lab.settle();
+  expect(await lab.value('target-re')).toBeLessThan(-0.25);
+  expect(await lab.value('target-im')).toBeLessThan(-0.3);
+  expect(await lab.text('gains')).not.toBe(before.gains);
+  expect((await lab.picture('placement')).hash).not.toBe(before.loci.hash);
+  expect((await lab.picture('response')).hash).not.toBe(before.response.hash);
+  // Neither the curve nor the point on it depend on the target.
+  expect((await lab.picture('curve')).hash).toBe(curve.hash);
+});
+
+test('the critical point is dragged along the curve', async ({ lab, page }) => {
+  await lab.open(BENCH);
+  const box = await lab.id('curve').boundingBox();
+  const from = await lab.middle('critical-handle');
+  await page.mouse.move(from.x, from.y);
+  await page.mouse.down();
+  await page.mouse.move(box.x + box.width * 0.25, box.y + box.height * 0.35, { steps: 8 });
+  await page.mouse.up();
+  await lab.settle();
+  expect(await lab.value('importance-number')).toBeGreaterThan(1);
+  // The chosen point is on the curve, in gains, period and frequency.
+  const rows = await lab.id('critical-point').locator('tbody tr').allInnerTexts();
+  expect(rows).toHaveLength(4);
+  for (const row of rows) expect(row.split('\t')[1]).toBe(row.split('\t')[2]);
+});
+
+/** Symbols whose computed number is not the printed one; all others agree within the last printed digit. */
+const DIFFERENT = {
+  'table-3-row-1': ['Kc', 'Tc', 'kp', 'ki'],
+  'table-3-row-2': ['Tc', 'kp'],
+  'equation-88': ['kp11', 'kp21', 'ki21', 'kp22', 'ki22'],
+  'table-5-row-1': ['ki2'],
+  'table-7-row-1': ['r2', 'Tc'],
+  'table-7-row-2': ['Tc'],
+  'table-7-row-4': ['kc1', 'Tc'],
+  'table-9-row-1': ['ki2'],
+  'table-13-row-2': ['r2', 'Tc'],
+  'table-13-row-3': ['Tc'],
+  usol: ['td'],
+};
+
+test('every published case stands beside what is computed', async ({ lab }) => {
+  test.setTimeout(120_000);
+  await lab.open(BENCH);
+  const names = await lab.id('case').locator('option').evaluateAll((options) => options.map((o) => o.value).filter(Boolean));
+  expect(names).toHaveLength(37);
+  for (const name of names) {
+    await choose(lab, 'case', name);
+    const table = lab.id('printed');
+    const symbols = await table.locator('thead th').allInnerTexts();
+    const agrees = await table.locator('tbody td[data-agrees]').evaluateAll((cells) => cells.map((c) => c.dataset.agrees));
+    expect(symbols.length, name).toBe(agrees.length);
+    expect(symbols.filter((_, k) => agrees[k] === 'false'), name).toEqual(DIFFERENT[name] ?? []);
+    await lab.clean();
+  }
+  // One in full: Table 6, controller 1, as printed; the controllers of step 3 are the same.
+  await choose(lab, 'case', 'table-6-row-1');
+  const printed = await lab.id('printed').locator('tbody tr').first().locator('td').allInnerTexts();
+  expect(printed).toEqual(['0.567', '0.336', '0.239', '−0.102', '−0.018', '−0.144']);
+  expect(await lab.text('gains')).toContain('0.56660.33640.2386');
+  expect(await lab.text('printed-remark')).toContain('does not say which critical point');
+  // The only published placement that is unstable.
+  await choose(lab, 'case', 'table-15-row-2');
+  expect(await lab.text('placement-verdict')).toContain('Unstable');
+  expect(await lab.text('placement-verdict')).toContain('det(G(0) diag ki) ≤ 0');
+  // The figures of an unstable loop are none, also of a pinned one.
+  await lab.id('response-pin').click();
+  await lab.settle();
+  const cells = await lab.id('response-figures').locator('tbody td').allInnerTexts();
+  expect(cells).toEqual(Array(16).fill('–'));
+});
+
+test('every kind of test says what it found', async ({ lab }) => {
+  await lab.open(BENCH);
+  await choose(lab, 'plant', 'process-two');
+  expect(await lab.text('test-verdict')).toContain('Unimodal');
+  await lab.id('test-independent').click();
+  await lab.settle();
+  // Loop 1 alone: exact limit cycle with a period of 0.89585 s.
+  expect(await lab.text('test-figures')).toContain('0.8959');
+  await lab.id('test-sequential').click();
+  await lab.type('test-passes', '3');
+  expect(await lab.id('test-figures').locator('tbody tr').count()).toBe(6);
+  await lab.id('test-single').click();
+  await lab.settle();
+  expect(await lab.id('test-figures').locator('tbody tr').count()).toBe(1);
+  await choose(lab, 'test-behind', 'integrator');
+  expect(await lab.text('test-verdict')).toMatch(/at −(89|90|91)°/);
+  await lab.clean();
+});
+
+test('what cannot be has its sentence and leaves the bench alive', async ({ lab, page }) => {
+  await lab.open(BENCH);
+  await lab.type('target-re', '0');
+  await lab.type('target-im', '0');
+  expect(await lab.text('placement-verdict')).toContain('λ = 0');
+  await lab.type('target-re', '-1');
+  expect(await lab.text('placement-verdict')).toContain('λ is −1 itself');
+  await lab.type('target-im', '-0.3');
+  await lab.type('target-re', '-0.2');
+  expect(await lab.text('placement-verdict')).toContain('Stable');
+  // A relay without amplitude is refused by its field, which says the limits.
+  await lab.id('test-amplitude').fill('0');
+  await expect(lab.id('test-amplitude')).toHaveAttribute('aria-invalid', 'true');
+  await lab.id('test-amplitude').blur();
+  await lab.type('test-hysteresis1', '1000');
+  await lab.type('test-hysteresis2', '1000');
+  expect(await lab.text('test-verdict')).toContain('No oscillation');
+  // The minimum-phase tank has no ultimate point until something delays it (it chatters), and the pairing that drifts.
+  await choose(lab, 'plant', 'johansson-2000-minimum-phase');
+  expect(await lab.text('curve-verdict')).toContain('oscillate together');
+  await lab.type('rig-dead-time', '0');
+  expect(await lab.text('curve-verdict')).toContain('No ultimate point');
+  expect(await lab.text('placement-verdict')).toContain('nothing to place');
+  expect(await lab.text('test-verdict')).toContain('Chattering');
+  await lab.type('rig-dead-time', '5');
+  await choose(lab, 'plant', 'johansson-2000-non-minimum-phase');
+  await lab.id('rig-diagonal').click();
+  await lab.settle();
+  expect(await lab.text('curve-verdict')).toContain('real pole');
+  await lab.clean();
+  // An element with an unstable pole, and a plant whose G(0) has nothing on its diagonal, from a file.
+  const lag = (gain, pole) => ({ numerator: [gain], denominator: [1, pole], dead_time: 0.5 });
+  for (const [elements, sentence] of [
+    [[[lag(1, -3), lag(0.2, 5)], [lag(0.1, 4), lag(1, 2)]], 'pole with real part 0.333'],
+    [[[lag(0, 3), lag(1, 5)], [lag(1, 4), lag(0, 2)]], 'G(0) is singular'],
+  ]) {
+    await openChanged(lab, page, (session) => (session.tuning.plant = { elements }));
+    for (const step of ['test', 'curve', 'placement', 'response']) expect(await lab.text(`${step}-verdict`)).toContain(sentence);
+    await lab.clean();
+    await choose(lab, 'plant', 'wood-berry');
+    expect(await lab.text('placement-verdict')).toContain('Stable');
+  }
+});
+
+test('a link brings the session back, and benches keep what they show', async ({ lab, page }) => {
+  await lab.open(BENCH);
+  await choose(lab, 'case', 'table-14-row-2');
+  await choose(lab, 'rival', 'tyreus-luyben');
+  await lab.id('step2').click();
+  await lab.id('response-pin').click();
+  await lab.type('importance-number', '0.7');
+  const seen = async () => [await lab.text('gains'), await lab.text('response-figures'), await lab.text('critical-point')];
+  const before = await seen();
+  expect(before[1]).toContain('pinned 1');
+  expect(before[1]).toContain('compared');
+  await lab.id('share').click();
+  await lab.settle();
+  const { hash, href } = await page.evaluate(() => ({ hash: location.hash, href: location.href }));
+  expect(hash).toMatch(/^#lab=q2\.[\w-]+$/);
+  expect(href.length).toBeLessThan(2000);
+  await page.goto('about:blank');
+  // Also without the name of the bench: the document says which one it is of.
+  await lab.open('', hash.slice(1));
+  expect(await seen()).toEqual(before);
+  await lab.id('bench-quadruple-tank').click();
+  await lab.settle();
+  expect(await lab.number('lambda-11')).toBe(1.4);
+  await lab.id('bench-relay-tuning').click();
+  await lab.settle();
+  expect(await seen()).toEqual(before);
+  expect(page.url()).toContain('bench=relay-tuning');
+  await page.reload();
+  await lab.ready();
+  expect(await lab.text('test-verdict')).toContain('period');
+});
+
+for (const [theme, lang] of [['light', 'en'], ['dark', 'pt-BR']]) {
+  for (const width of [390, 1024, 1440]) {
+    test(`fits ${width} px in ${lang}, ${theme}, without a complaint of axe`, async ({ lab, page }) => {
+      await page.setViewportSize({ width, height: width === 390 ? 844 : 900 });
+      await lab.open(`${BENCH}&theme=${theme}&lang=${lang}`);
+      const wide = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
+      expect(wide).toBe(0);
+      for (const name of ['test', 'curve', 'placement', 'response']) expect((await lab.picture(name)).ink).toBeGreaterThan(500);
+      await lab.axe();
+      await choose(lab, 'plant', 'junqueira-case-b');
+      await lab.axe();
+      await lab.clean();
+    });
+  }
+}
+
+test('exports hand over the numbers of each picture', async ({ lab, page }) => {
+  await lab.open(BENCH);
+  for (const [name, head] of [
+    ['test', 'time,output_1,output_2,input_1,input_2'],
+    ['curve', 'angle_rad,gain_1,gain_2,period'],
+    ['placement', 'frequency_rad,real_1,imaginary_1,real_2,imaginary_2'],
+    ['response', 'time,output_1,output_2,input_1,input_2'],
+  ]) {
+    await lab.id(`${name}-menu`).locator('summary').click();
+    const [download] = await Promise.all([page.waitForEvent('download'), lab.id(`${name}-csv`).click()]);
+    const chunks = [];
+    for await (const chunk of await download.createReadStream()) chunks.push(chunk);
+    const lines = Buffer.concat(chunks).toString().split('\n');
+    expect(lines[0]).toBe(head);
+    expect(lines.length).toBeGreaterThan(150);
+    await page.keyboard.press('Escape');
+  }
+});
