@@ -192,7 +192,7 @@ pub struct LoopsChart<'a> {
     pub texts: [&'a str; 2],
 }
 
-/// Most marks of switches in sight: more would hide the curve.
+/// Most marks of switches in sight: more would hide the curve, so a long record has to be zoomed into.
 const MOST_MARKS: usize = 80;
 
 /// Outputs above, inputs below.

@@ -102,6 +102,10 @@ test('the critical point is dragged along the curve', async ({ lab, page }) => {
   const rows = await lab.id('critical-point').locator('tbody tr').allInnerTexts();
   expect(rows).toHaveLength(4);
   for (const row of rows) expect(row.split('\t')[1]).toBe(row.split('\t')[2]);
+  // A click elsewhere chooses the importance there: here, far to the right, that of loop 1.
+  await page.mouse.click(box.x + box.width * 0.9, box.y + box.height * 0.75);
+  await lab.settle();
+  expect(await lab.value('importance-number')).toBeLessThan(0.3);
 });
 
 /** Symbols whose computed number is not the printed one; all others agree within the last printed digit. */

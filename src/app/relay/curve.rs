@@ -1,6 +1,8 @@
 //! Step 2: the critical curve, and the point on it that the placement starts from.
 
+use leptos::ev::MouseEvent;
 use leptos::prelude::*;
+use leptos::wasm_bindgen::JsCast;
 
 use super::card::{Step, card, figures, remark};
 use super::controls::{Knob, knob};
@@ -9,7 +11,7 @@ use super::pictures;
 use super::session::{Session, time_unit, use_session};
 use crate::app::start::Control;
 use crate::app::texts::{say, tr};
-use crate::app::widgets::{Nudge, PointHandle, Scale, html};
+use crate::app::widgets::{Nudge, PointHandle, Scale, first_frame, handler, html};
 use crate::figure::Frame;
 use crate::scenario::tuning::{CriticalSpec, TuningSetup};
 use crate::tuning::{GainLimit, importance_direction};
@@ -54,7 +56,7 @@ pub fn CurveCard() -> impl IntoView {
         picture,
         frames,
         place: "chart",
-        overlay: view! { <svg class="over"><CriticalHandle frames chosen /></svg> }.into_any(),
+        overlay: overlay(session, frames, chosen),
         settings: settings.into_any(),
         verdict: Signal::derive(move || sentence(session)),
         below: ().into_any(),
@@ -73,17 +75,36 @@ fn importance(setup: &TuningSetup) -> f64 {
     }
 }
 
+/// The chosen point, and the plane around it: a click anywhere, on an estimate say, chooses the importance there.
+fn overlay(session: Session, frames: RwSignal<Vec<Frame>>, chosen: Signal<Option<(f64, f64)>>) -> AnyView {
+    let on_click = move |event: MouseEvent| {
+        let drawing = event.target().and_then(|target| target.dyn_into::<web_sys::Element>().ok());
+        // A click on the point itself ends a drag.
+        let Some(drawing) = drawing.filter(|drawing| drawing.tag_name() == "svg") else { return };
+        let corner = drawing.get_bounding_client_rect();
+        let at = (f64::from(event.client_x()) - corner.left(), f64::from(event.client_y()) - corner.top());
+        choose(session, untrack(|| first_frame(frames)).to_data(at));
+    };
+    view! { <svg class="over" on:click=handler(on_click)><CriticalHandle frames chosen /></svg> }.into_any()
+}
+
+/// Starts the placement from the importance of a point of the plane.
+fn choose(session: Session, (x, y): (f64, f64)) {
+    set_importance(session, y.max(0.0) / x.max(f64::MIN_POSITIVE));
+}
+
+fn set_importance(session: Session, r: f64) {
+    if r.is_finite() && !session.locks(Control::Point) {
+        session.edit(|s| s.design.critical = CriticalSpec::Importance(r.clamp(IMPORTANCES.0, IMPORTANCES.1)));
+    }
+}
+
 /// The chosen point: dragged to another importance, moved along the curve by keys.
 #[component]
 fn CriticalHandle(frames: RwSignal<Vec<Frame>>, chosen: Signal<Option<(f64, f64)>>) -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
     let value = session.part(importance);
-    let set = move |r: f64| {
-        if r.is_finite() {
-            session.edit(|s| s.design.critical = CriticalSpec::Importance(r.clamp(IMPORTANCES.0, IMPORTANCES.1)));
-        }
-    };
     let at = Signal::derive(move || chosen.get().unwrap_or((0.0, 0.0)));
     view! {
         <PointHandle
@@ -94,8 +115,8 @@ fn CriticalHandle(frames: RwSignal<Vec<Frame>>, chosen: Signal<Option<(f64, f64)
             limits=IMPORTANCES
             spoken=Signal::derive(move || format!("r₂ {}", lab.number_style().significant(value.get(), 3)))
             locked=lab.locks(Control::Point)
-            on_move=move |(x, y): (f64, f64)| set(y.max(0.0) / x.max(1e-9))
-            on_nudge=move |by: Nudge| set(value.get_untracked() * STEP.powf((by.up - by.right + by.page).clamp(-200.0, 200.0)))
+            on_move=move |place: (f64, f64)| choose(session, place)
+            on_nudge=move |by: Nudge| set_importance(session, value.get_untracked() * STEP.powf((by.up - by.right + by.page).clamp(-200.0, 200.0)))
             frames
         />
     }
