@@ -95,10 +95,13 @@ impl Stopwatch {
         now_ms() - self.told_ms >= BETWEEN_WORDS_MS[late]
     }
 
-    /// The words are about to follow.
+    /// The words are about to follow. Those of a change that still waits for its frame come later.
     pub fn tell(&mut self) {
         self.told_ms = now_ms();
         self.words.take();
+        if self.frame.waiting {
+            self.words.wait(WORDS_MARKS);
+        }
     }
 
     /// The words are on the page.

@@ -40,5 +40,7 @@ pub use pole_zero::{PoleZero, PoleZeroTexts, pole_zero};
 pub use responses::{ResponseTexts, Responses, RunColumns, responses};
 pub use svg::{escape, to_svg};
 pub use table::{Summary, Table, table};
-pub use tuning::{CurveChart, LociChart, LoopsChart, LoopsRecord, characteristic_loci, critical_curve, two_loops};
+pub use tuning::{
+    CurveChart, LociChart, LoopsChart, LoopsRecord, RulePoint, characteristic_loci, critical_curve, two_loops,
+};
 pub use valve_plane::{ValvePlane, ValvePlaneTexts, valve_plane};

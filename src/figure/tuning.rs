@@ -115,6 +115,9 @@ fn stable_region(x: &[f64], y: &[f64], across: (f64, f64), up: (f64, f64)) -> Fi
     Field { x: across, y: up, columns: STEPS + 1, shades }
 }
 
+/// Where a rule moves the critical point, its name, and where that stands from there (CSS px).
+pub type RulePoint = ((f64, f64), &'static str, (f64, f64));
+
 /// What the chart of the loci shows.
 #[derive(Clone, Debug)]
 pub struct LociChart<'a> {
@@ -124,8 +127,8 @@ pub struct LociChart<'a> {
     pub before: [[&'a [f64]; 2]; 2],
     /// The target λ.
     pub target: (f64, f64),
-    /// Where rules move the critical point, with their names, which stand on the right where this is set.
-    pub rules: &'a [((f64, f64), &'static str, bool)],
+    /// Where rules move the critical point.
+    pub rules: &'a [RulePoint],
     /// Names of the axes.
     pub axes: [&'a str; 2],
     /// Legend: locus 1, locus 2, before.
@@ -148,8 +151,8 @@ pub fn characteristic_loci<'a>(spec: &LociChart<'a>) -> Chart<'a> {
         chart.layers.push(line(spec.texts[index], Role::of_loop(index), Pen::Solid, x, y));
     }
     chart.layers.push(mark((-1.0, 0.0), Shape::Cross, Role::RightHalfPlane));
-    for &(at, name, side) in spec.rules {
-        let (offset, anchor) = if side { ((7.0, 0.0), Anchor::Left) } else { ((-7.0, 0.0), Anchor::Right) };
+    for &(at, name, offset) in spec.rules {
+        let anchor = if offset.0 < 0.0 { Anchor::Right } else { Anchor::Left };
         chart.layers.push(mark(at, Shape::Point, Role::Neutral));
         let text = name.to_owned();
         chart.layers.push(Layer::Label(Label { at, offset, anchor, text, role: Role::Neutral, bold: false }));
@@ -280,7 +283,7 @@ mod tests {
             loci: [far, far],
             before: [far, far],
             target: (-0.3, -0.3),
-            rules: &[((-0.4, 0.08), "ZN", true)],
+            rules: &[((-0.4, 0.08), "ZN", (7.0, 0.0))],
             axes: ["re", "im"],
             texts: ["1", "2", "0"],
         };

@@ -7,10 +7,7 @@ use std::f64::consts::{PI, TAU};
 use nalgebra::Matrix2;
 
 use super::Complex;
-use crate::scalar::golden_section;
-
-/// Halvings of a cell of the frequency grid, down to the last bits.
-const HALVINGS: u32 = 48;
+use crate::scalar::{golden_section, root};
 
 /// Values λ1, λ2 of both loci: the eigenvalues of the return ratio (Campestrini 2006, eqs. 68, 69 and 100).
 pub fn locus_values(ratio: &Matrix2<Complex>) -> [Complex; 2] {
@@ -167,26 +164,20 @@ fn nearest_order([a, b]: [Complex; 2], [first, second]: [Complex; 2]) -> [Comple
     if crossed < straight { [b, a] } else { [a, b] }
 }
 
-/// Frequency and value of a branch where `side` changes its sign in a cell.
+/// Frequency and value of a branch where `side` changes its sign in a cell, in which the branch is nearly straight.
 fn crossing(
     ratio: impl Fn(f64) -> Matrix2<Complex>,
-    [mut left, mut right]: [Complex; 2],
-    [mut low, mut high]: [f64; 2],
+    [left, right]: [Complex; 2],
+    [low, high]: [f64; 2],
     side: impl Fn(Complex) -> f64,
 ) -> (f64, Complex) {
-    let sign = side(left).signum();
-    for _ in 0..HALVINGS {
-        let middle = f64::midpoint(low, high);
-        let [a, b] = locus_values(&ratio(middle));
-        let guess = (left + right) * 0.5;
-        let value = if (a - guess).norm() <= (b - guess).norm() { a } else { b };
-        if side(value).signum() == sign {
-            (low, left) = (middle, value);
-        } else {
-            (high, right) = (middle, value);
-        }
-    }
-    (high, right)
+    let value = |frequency: f64| {
+        let [a, b] = locus_values(&ratio(frequency));
+        let guess = left + (right - left) * ((frequency - low) / (high - low));
+        if (a - guess).norm() <= (b - guess).norm() { a } else { b }
+    };
+    let frequency = root(|w| side(value(w)), (low, side(left)), (high, side(right)));
+    (frequency, value(frequency))
 }
 
 #[cfg(test)]

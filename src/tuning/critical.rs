@@ -82,6 +82,11 @@ pub fn importance_direction(dc_gain: &Matrix2<f64>, importance: f64) -> [f64; 2]
     [1.0 / dc_gain[(0, 0)], importance / dc_gain[(1, 1)]]
 }
 
+/// Importance r2 of loop 2 in a pair of gains (Campestrini 2006, eq. 94), the reverse of [`importance_direction`].
+pub fn importance(dc_gain: &Matrix2<f64>, gains: [f64; 2]) -> f64 {
+    gains[1] * dc_gain[(1, 1)] / (gains[0] * dc_gain[(0, 0)])
+}
+
 /// The search for critical points of a plant with two loops, over a range of frequencies.
 ///
 /// With `K = a diag(c1, c2)` a characteristic locus of GK passes through −1 where

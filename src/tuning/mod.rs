@@ -16,7 +16,9 @@ mod relay_reading;
 mod rules;
 mod usol;
 
-pub use critical::{CriticalPoint, CriticalSearch, GainLimit, frequency_range, importance_direction, least_damping};
+pub use critical::{
+    CriticalPoint, CriticalSearch, GainLimit, frequency_range, importance, importance_direction, least_damping,
+};
 pub use curve::{Corner, CriticalCurve, CurvePoint};
 pub use design::Design;
 pub use error::TuningError;

@@ -69,6 +69,24 @@ test('from a relay test to a stable design by keyboard alone', async ({ lab, pag
   await lab.clean();
 });
 
+test('the numbers of the first screen are those of the source', async ({ lab }) => {
+  await lab.open(BENCH);
+  // Point 2 of Table 7 by eq. 94, and where the curve is in its direction (Campestrini 2006, recomputed: r2 0.564, Tc 12.71).
+  expect(await lab.value('importance-number')).toBe(0.564);
+  const rows = await lab.id('critical-point').locator('tbody tr').allInnerTexts();
+  expect(rows.map((row) => row.split('\t').slice(1))).toEqual([
+    ['0.7100', '0.7095'], ['−0.2640', '−0.2638'], ['12.70', '12.71'], ['0.4947', '0.4942'],
+  ]);
+  // The corner of the curve: both periods to their four digits, at r2 = 0.20137.
+  expect(await lab.text('curve-verdict')).toContain('At r₂ = 0.201 the curve has a corner: both loci pass −1 there, with periods 11.98 and 3.940 min.');
+  expect(await lab.text('plant-remark')).toContain('λ₁₁ = 2.009');
+  // Simultaneous relays: peaks lie 7 to 20 % inside the curve, first harmonics within 2 %.
+  const off = (await lab.id('test-figures').locator('tbody tr').last().locator('td').allInnerTexts()).map((text) => parseFloat(text.replace('−', '-')));
+  expect(off[0]).toBeGreaterThan(-20);
+  expect(off[0]).toBeLessThan(-7);
+  expect(Math.abs(off[1])).toBeLessThan(2);
+});
+
 test('the target λ is dragged, and loci, gains and response follow', async ({ lab, page }) => {
   await lab.open(BENCH);
   const before = { gains: await lab.text('gains'), loci: await lab.picture('placement'), response: await lab.picture('response') };
@@ -154,6 +172,27 @@ test('every published case stands beside what is computed', async ({ lab }) => {
   expect(cells).toEqual(Array(16).fill('–'));
 });
 
+test('a change that comes while another is painted counts as untold until its words are there', async ({ lab, page }) => {
+  await lab.open(BENCH);
+  await page.evaluate(async () => {
+    const field = document.querySelector('[data-testid="importance-number"]');
+    const enter = (text) => {
+      field.value = text;
+      field.dispatchEvent(new Event('input', { bubbles: true }));
+    };
+    const next = () => new Promise((done) => requestAnimationFrame(done));
+    // The bench asks for its frame first, so the second change comes after that frame and before its words.
+    enter('2');
+    await new Promise((done) => queueMicrotask(done));
+    await next();
+    enter('3');
+  });
+  await lab.settle();
+  const told = await lab.text('critical-point');
+  await page.waitForTimeout(700);
+  expect(told).toBe(await lab.text('critical-point'));
+});
+
 test('every kind of test says what it found', async ({ lab }) => {
   await lab.open(BENCH);
   await choose(lab, 'plant', 'process-two');
@@ -220,7 +259,7 @@ test('what cannot be has its sentence and leaves the bench alive', async ({ lab,
 test('a link brings the session back, and benches keep what they show', async ({ lab, page }) => {
   await lab.open(BENCH);
   await choose(lab, 'case', 'table-14-row-2');
-  await choose(lab, 'rival', 'tyreus-luyben');
+  await choose(lab, 'compare', 'tyreus-luyben');
   await lab.id('step2').click();
   await lab.id('response-pin').click();
   await lab.type('importance-number', '0.7');

@@ -63,16 +63,9 @@ pub fn CurveCard() -> impl IntoView {
     })
 }
 
-/// r2 of the critical point of a session, `kc2 g22(0)/(kc1 g11(0))`, 1 where there is none (Campestrini 2006, eq. 94).
+/// r2 of the critical point as the slider shows it, 1 where there is none.
 fn importance(setup: &TuningSetup) -> f64 {
-    match setup.design.critical {
-        CriticalSpec::Importance(r) => r,
-        CriticalSpec::Point { gains, .. } => {
-            let gain = setup.plant.transfer_matrix().map(|plant| plant.dc_gain());
-            let direction = gain.map_or([1.0; 2], |gain| importance_direction(&gain, 1.0));
-            (gains[1] / direction[1] / (gains[0] / direction[0])).abs().clamp(IMPORTANCES.0, IMPORTANCES.1)
-        }
-    }
+    setup.importance().map_or(1.0, |r| r.abs().clamp(IMPORTANCES.0, IMPORTANCES.1))
 }
 
 /// The chosen point, and the plane around it: a click anywhere, on an estimate say, chooses the importance there.
@@ -156,7 +149,9 @@ fn table(session: Session) -> String {
     let unit = session.words.setup.with(|s| time_unit(&s.plant));
     let study = session.words.study.get();
     let Ok(study) = study.as_ref() else { return String::new() };
-    let Some((gains, frequency)) = session.words.with_design(|design| (design.critical_gains, design.frequency)) else {
+    let Some((gains, frequency, period)) =
+        session.words.with_design(|design| (design.critical_gains, design.frequency, design.period()))
+    else {
         return String::new();
     };
     let on_curve = study.search.nearest(gains);
@@ -165,7 +160,7 @@ fn table(session: Session) -> String {
         |name: String, chosen: f64, curve: Option<f64>| html::row("", &name, &[number(Some(chosen)), number(curve)]);
     let rows = row("kc₁".to_owned(), gains[0], on_curve.map(|p| p.gains[0]))
         + &row("kc₂".to_owned(), gains[1], on_curve.map(|p| p.gains[1]))
-        + &row(format!("Tc ({unit})"), std::f64::consts::TAU / frequency, on_curve.map(|p| p.period()))
+        + &row(format!("Tc ({unit})"), period, on_curve.map(|p| p.period()))
         + &row(format!("ωc (rad/{unit})"), frequency, on_curve.map(|p| p.frequency));
     let names = [
         tr!(lab, process.quantity).to_owned(),

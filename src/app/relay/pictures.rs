@@ -7,9 +7,7 @@ use crate::app::texts::tr;
 use crate::app::widgets::Picture;
 use crate::figure::{self, CurveChart, LociChart, LoopsChart, LoopsRecord, Pen};
 use crate::linear::Loci;
-use crate::scenario::tuning::{
-    Designed, Study, Tested, TuningPlant, curve_to_csv, loci_to_csv, record_to_csv, rule_targets,
-};
+use crate::scenario::tuning::{Designed, Tested, TuningPlant, curve_to_csv, loci_to_csv, record_to_csv, rule_targets};
 use crate::sim::LoopTrace;
 use crate::tuning::{GainLimit, TuningRule};
 
@@ -43,7 +41,7 @@ pub fn test(session: Session, window: Signal<(f64, f64)>) -> Picture {
     Picture::new(build, csv)
 }
 
-/// The response with the chosen root, its rival and the pinned ones.
+/// The response with the chosen root, its comparison and the pinned ones.
 pub fn response(session: Session, window: Signal<(f64, f64)>) -> Picture {
     let build = move |show: &mut dyn FnMut(&[figure::Chart])| {
         let pinned = session.charts.pinned.get();
@@ -53,8 +51,9 @@ pub fn response(session: Session, window: Signal<(f64, f64)>) -> Picture {
                 .filter_map(|outcome| outcome.as_ref().as_ref().ok()?.as_ref())
                 .map(|design| drawn(&design.response.trace, Pen::Faded, false))
                 .collect();
-            if let Ok(Some(Designed { response, rival, .. })) = outcome.as_ref() {
-                records.extend(rival.iter().map(|rival| drawn(&rival.response.trace, Pen::Dotted, false)));
+            if let Ok(Some(Designed { response, comparison, .. })) = outcome.as_ref() {
+                records
+                    .extend(comparison.iter().map(|comparison| drawn(&comparison.response.trace, Pen::Dotted, false)));
                 records.push(drawn(&response.trace, Pen::Solid, false));
             }
             let references = session.charts.setup.with(|s| s.response.references);
@@ -99,15 +98,10 @@ fn loops(
     }));
 }
 
-/// Gains of a study on the axes of the curve.
-pub fn normalised(study: &Study, gains: [f64; 2]) -> (f64, f64) {
-    (gains[0] * study.dc_gain[(0, 0)], gains[1] * study.dc_gain[(1, 1)])
-}
-
 /// The gains of the critical point that the placement starts from, on the axes of the curve.
 pub fn chosen_point(found: Found) -> Option<(f64, f64)> {
     let gains = found.with_design(|design| design.critical_gains)?;
-    found.study.with(|study| study.as_ref().as_ref().ok().map(|study| normalised(study, gains)))
+    found.study.with(|study| study.as_ref().as_ref().ok().map(|study| study.normalised(gains)))
 }
 
 /// The critical curve with what the test found. `chosen` is followed instead of the design, which changes more often.
@@ -117,18 +111,18 @@ pub fn curve(session: Session, chosen: Signal<Option<(f64, f64)>>) -> Picture {
         let (study, test, chosen) = (session.charts.study.get(), session.charts.test.get(), chosen.get());
         let Ok(study) = study.as_ref() else { return };
         let place = |limit: &GainLimit| match limit {
-            GainLimit::Oscillation(point) => normalised(study, point.gains),
-            GainLimit::RealPole { gains, .. } => normalised(study, *gains),
+            GainLimit::Oscillation(point) => study.normalised(point.gains),
+            GainLimit::RealPole { gains, .. } => study.normalised(*gains),
             GainLimit::None => (f64::NAN, f64::NAN),
         };
         let (x, y): (Vec<f64>, Vec<f64>) = study.curve.points.iter().map(|point| place(&point.limit)).unzip();
-        let corners = study.curve.corners.iter().map(|corner| normalised(study, corner.points[0].gains));
+        let corners = study.curve.corners.iter().map(|corner| study.normalised(corner.points[0].gains));
         let corners: Vec<(f64, f64)> = corners.collect();
         let oscillation = match test.as_ref() {
             Ok(Tested::Simultaneous(test, _)) => test.reading.oscillation,
             _ => None,
         };
-        let estimate = |gains: Option<[f64; 2]>| gains.map(|gains| normalised(study, gains)).into_iter();
+        let estimate = |gains: Option<[f64; 2]>| gains.map(|gains| study.normalised(gains)).into_iter();
         let harmonic: Vec<(f64, f64)> = estimate(oscillation.and_then(|o| o.gains_by_harmonic())).collect();
         let peak: Vec<(f64, f64)> = estimate(oscillation.and_then(|o| o.gains_by_peak())).collect();
         let style = lab.number_style();
@@ -167,7 +161,7 @@ pub fn loci(session: Session) -> Picture {
             let [before, after] =
                 columns.each_ref().map(|loci| loci.each_ref().map(|parts| parts.each_ref().map(Vec::as_slice)));
             let [re, im] = session.charts.setup.with(|s| s.design.target);
-            let rules = rule_targets().map(|(rule, at)| ((at.re, at.im), short_name(rule), rule_stands_right(rule)));
+            let rules = rule_targets().map(|(rule, at)| ((at.re, at.im), short_name(rule), offset_of(rule)));
             let names = [1, 2].map(|number| tr!(lab, relay.locus, number = number).to_string());
             show(&[figure::characteristic_loci(&LociChart {
                 loci: after,
@@ -191,9 +185,13 @@ fn columns(loci: &Loci) -> [[Vec<f64>; 2]; 2] {
     })
 }
 
-/// On which side of its point the name of a rule has room.
-fn rule_stands_right(rule: TuningRule) -> bool {
-    matches!(rule, TuningRule::TyreusLuybenPi | TuningRule::TyreusLuybenPid)
+/// Where the name of a rule has room beside its point (CSS px): the points are close together.
+fn offset_of(rule: TuningRule) -> (f64, f64) {
+    match rule {
+        TuningRule::TyreusLuybenPi => (5.0, -11.0),
+        TuningRule::TyreusLuybenPid => (-4.0, 11.0),
+        _ => (-7.0, 0.0),
+    }
 }
 
 /// The initials of a rule with its action.

@@ -15,7 +15,7 @@ use crate::app::widgets::html::option;
 use crate::app::widgets::{DataTable, ZoomButtons, handler, html};
 use crate::figure::Frame;
 use crate::linear::LoopStability;
-use crate::scenario::tuning::{Answered, CompareSpec, DecouplerSpec, TuningPlant, TuningScenario};
+use crate::scenario::tuning::{CompareSpec, DecouplerSpec, StepResponse, TuningPlant, TuningScenario};
 use crate::tuning::PublishedPlant;
 
 const DECOUPLERS: [(&str, DecouplerSpec); 5] = [
@@ -25,7 +25,7 @@ const DECOUPLERS: [(&str, DecouplerSpec); 5] = [
     ("first-output", DecouplerSpec::FirstOutput),
     ("second-output", DecouplerSpec::SecondOutput),
 ];
-const RIVALS: [(&str, CompareSpec); 4] = [
+const COMPARISONS: [(&str, CompareSpec); 4] = [
     ("nothing", CompareSpec::Nothing),
     ("ziegler-nichols", CompareSpec::ZieglerNichols),
     ("tyreus-luyben", CompareSpec::TyreusLuyben),
@@ -88,8 +88,8 @@ fn settings(session: Session) -> AnyView {
             session.edit(|s| s.design.decoupler = chosen);
         }
     };
-    let rival = move |name: String| {
-        if let Some(&(_, chosen)) = RIVALS.iter().find(|(known, _)| *known == name) {
+    let comparison = move |name: String| {
+        if let Some(&(_, chosen)) = COMPARISONS.iter().find(|(known, _)| *known == name) {
             session.edit(|s| s.response.compare = chosen);
         }
     };
@@ -105,7 +105,7 @@ fn settings(session: Session) -> AnyView {
             lock,
         ),
         choice("decoupler", say!(lab, relay.decoupler), decouplers(session), decoupler, lock),
-        choice("rival", say!(lab, relay.compare), rivals(session), rival, lock),
+        choice("compare", say!(lab, relay.compare), comparisons(session), comparison, lock),
         figures("response-figures", say!(lab, relay.response_caption), table),
     ]
     .into_any()
@@ -126,7 +126,7 @@ fn decouplers(session: Session) -> Signal<String> {
     })
 }
 
-fn rivals(session: Session) -> Signal<String> {
+fn comparisons(session: Session) -> Signal<String> {
     let lab = session.lab;
     Signal::derive(move || {
         let (chosen, plant) = lab.tuning.with(|s| (s.tuning.response.compare, s.tuning.plant.clone()));
@@ -138,7 +138,7 @@ fn rivals(session: Session) -> Signal<String> {
             CompareSpec::TyreusLuyben => tr!(lab, relay.compare_tl),
             CompareSpec::Full => tr!(lab, relay.compare_full),
         };
-        let shown = RIVALS.iter().filter(|(_, spec)| *spec != CompareSpec::Full || has_full);
+        let shown = COMPARISONS.iter().filter(|(_, spec)| *spec != CompareSpec::Full || has_full);
         shown.map(|&(name, spec)| option(name, text(spec), spec == chosen)).collect()
     })
 }
@@ -157,7 +157,7 @@ fn sentence(session: Session) -> (bool, String) {
     let decoupled = setup.design.decoupler != DecouplerSpec::None;
     let stepped = usize::from(setup.response.references[1] != 0.0);
     let [own, other] = [design.response.figures[stepped], design.response.figures[1 - stepped]];
-    let (good, mut text) = if design.response.is_meant {
+    let (good, mut text) = if design.response.is_bounded {
         let percent = |share: f64| format!("{}\u{a0}%", style.fixed(100.0 * share, 1));
         let overshoot = own.overshoot.map_or_else(|| "–".to_owned(), percent);
         let cross = style.significant(other.peak.unwrap_or(0.0), 3);
@@ -188,28 +188,29 @@ fn sentence(session: Session) -> (bool, String) {
     if decoupled {
         text = text + " " + tr!(lab, relay.decoupled);
     }
-    if let Some(rival) = &design.rival {
-        let stable = rival.stability == LoopStability::Stable;
+    if let Some(comparison) = &design.comparison {
+        let stable = comparison.stability == LoopStability::Stable;
         text = text + " " + if stable { tr!(lab, relay.rival_stable) } else { tr!(lab, relay.rival_unstable) };
     }
     (good, text)
 }
 
-/// Figures of both outputs: of the session, its rival, and the pinned ones.
+/// Figures of both outputs: of the session, its comparison, and the pinned ones.
 fn table(session: Session) -> String {
     let lab = session.lab;
+    let unit = session.words.setup.with(|s| time_unit(&s.plant));
     let names = [
         tr!(lab, relay.col_output).to_owned(),
         tr!(lab, relay.col_overshoot).to_owned(),
-        tr!(lab, relay.col_settling).to_owned(),
+        tr!(lab, relay.col_settling, unit = unit).to_string(),
         tr!(lab, relay.col_cross).to_owned(),
         "IAE".to_owned(),
     ];
     let mut rows = String::new();
     session.words.with_design(|design| {
         rows += &rows_of(session, "", &design.response);
-        if let Some(rival) = &design.rival {
-            rows += &rows_of(session, tr!(lab, relay.row_rival), &rival.response);
+        if let Some(comparison) = &design.comparison {
+            rows += &rows_of(session, tr!(lab, relay.row_rival), &comparison.response);
         }
     });
     for (k, outcome) in session.words.pinned.get().iter().enumerate() {
@@ -220,14 +221,14 @@ fn table(session: Session) -> String {
     html::table(tr!(lab, relay.response_caption), &names, &rows)
 }
 
-fn rows_of(session: Session, name: &str, response: &Answered) -> String {
+fn rows_of(session: Session, name: &str, response: &StepResponse) -> String {
     let style = session.lab.number_style();
     let number = |v: Option<f64>| v.map_or_else(|| "–".to_owned(), |v| style.significant(v, 3));
     let percent =
         |v: Option<f64>| v.map_or_else(|| "–".to_owned(), |v| format!("{}\u{a0}%", style.fixed(100.0 * v, 1)));
     let row = |k: usize| {
         let label = format!("y{} {name}", ["₁", "₂"][k]);
-        let of = response.is_meant.then(|| response.figures[k]);
+        let of = response.is_bounded.then(|| response.figures[k]);
         let cells = [
             percent(of.and_then(|of| of.overshoot)),
             number(of.and_then(|of| of.settling_time)),

@@ -322,9 +322,10 @@ fn table(session: Session) -> String {
         let Ok(test) = outcome.as_ref() else { return String::new() };
         let distances = if let Tested::Simultaneous(_, distances) = test { *distances } else { [None; 2] };
         let has_settings = matches!(test, Tested::Independent(_) | Tested::Sequential(_));
+        let unit = session.words.setup.with(|s| time_unit(&s.plant));
         let mut names = vec![
             tr!(lab, relay.col_loop).to_owned(),
-            tr!(lab, relay.col_period).to_owned(),
+            tr!(lab, relay.col_period, unit = unit).to_string(),
             "a".to_owned(),
             tr!(lab, relay.col_peak).to_owned(),
             tr!(lab, relay.col_harmonic).to_owned(),

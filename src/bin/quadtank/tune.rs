@@ -257,8 +257,7 @@ fn loops_svg(trace: &LoopTrace, references: Option<[f64; 2]>, draw: impl Fn(&[Ch
 }
 
 fn curve<T>(found: &Tuning, draw: impl Fn(&CurveChart) -> T) -> T {
-    let scale = [found.study.dc_gain[(0, 0)], found.study.dc_gain[(1, 1)]];
-    let normal = |gains: [f64; 2]| (gains[0] * scale[0], gains[1] * scale[1]);
+    let normal = |gains: [f64; 2]| found.study.normalised(gains);
     let point = |limit: &GainLimit| match limit {
         GainLimit::Oscillation(point) => normal(point.gains),
         GainLimit::RealPole { gains, .. } => normal(*gains),

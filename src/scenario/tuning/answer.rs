@@ -96,6 +96,11 @@ impl Study {
         Ok(Self { plant, dc_gain, rga_11, curve, search })
     }
 
+    /// Gains on the axes of the normalised critical curve, k1 g11(0) and k2 g22(0) (Campestrini 2006, Fig. 25).
+    pub fn normalised(&self, gains: [f64; 2]) -> (f64, f64) {
+        (gains[0] * self.dc_gain[(0, 0)], gains[1] * self.dc_gain[(1, 1)])
+    }
+
     /// The relay test of a session.
     ///
     /// # Errors

@@ -28,9 +28,9 @@ pub struct Designed {
     /// Characteristic loci at the critical gains, and with the chosen root, around the critical frequency.
     pub loci: [Loci; 2],
     /// The response with the chosen root.
-    pub response: Answered,
+    pub response: StepResponse,
     /// The response with what it is compared with.
-    pub rival: Option<Rival>,
+    pub comparison: Option<Comparison>,
 }
 
 /// One root with what it does to the loop, without a decoupler.
@@ -50,30 +50,37 @@ pub struct DesignRoot {
 
 /// A response and the figures of both outputs in it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Answered {
+pub struct StepResponse {
     /// The record.
     pub trace: LoopTrace,
     /// Its figures.
     pub figures: [StepFigures; 2],
-    /// Whether the figures mean something: the loop is stable as far as is known, and the record went to its end. With a
+    /// Whether it stays bounded, so that its figures mean something: the loop is stable and the record went to its end. With a
     /// decoupler, which the count of encirclements does not see, only the record can tell.
-    pub is_meant: bool,
+    pub is_bounded: bool,
 }
 
 /// Other controllers on the same plant.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Rival {
+pub struct Comparison {
     /// The controllers.
     pub controllers: PidMatrix,
     /// Whether the loop is stable.
     pub stability: LoopStability,
     /// The response.
-    pub response: Answered,
+    pub response: StepResponse,
 }
 
 /// Frequencies that a picture of the loci shows, as multiples of the critical one: far beyond it a dead time winds them round
 /// the origin.
 const SHOWN: (f64, f64) = (0.02, 6.0);
+
+impl Designed {
+    /// Critical period.
+    pub fn period(&self) -> f64 {
+        TAU / self.frequency
+    }
+}
 
 impl Study {
     /// The controllers of a session; `None` where the curve has no ultimate point in the direction asked for.
@@ -111,13 +118,17 @@ impl Study {
         let loci = [shown(proportional)?, shown(chosen)?];
         let mut response = self.decoupled_response(chosen, setup)?;
         let stable = roots[spec.root - 1].stability == LoopStability::Stable;
-        response.is_meant &= stable || spec.decoupler != DecouplerSpec::None;
-        let rival = self.rival(setup, critical_gains, frequency)?;
-        Ok(Some(Designed { critical_gains, frequency, g, roots, loci, response, rival }))
+        response.is_bounded &= stable || spec.decoupler != DecouplerSpec::None;
+        let comparison = self.comparison(setup, critical_gains, frequency)?;
+        Ok(Some(Designed { critical_gains, frequency, g, roots, loci, response, comparison }))
     }
 
     /// The response of the session with these controllers and its decoupler.
-    fn decoupled_response(&self, controllers: [ParallelPid; 2], setup: &TuningSetup) -> Result<Answered, TuningError> {
+    fn decoupled_response(
+        &self,
+        controllers: [ParallelPid; 2],
+        setup: &TuningSetup,
+    ) -> Result<StepResponse, TuningError> {
         let which = match setup.design.decoupler {
             DecouplerSpec::None => {
                 return self.response(PidMatrix::decentralised(controllers), setup);
@@ -134,14 +145,19 @@ impl Study {
     }
 
     /// The response with any controllers, of the nonlinear plant where the session asks for it.
-    fn response(&self, controllers: PidMatrix, setup: &TuningSetup) -> Result<Answered, TuningError> {
+    fn response(&self, controllers: PidMatrix, setup: &TuningSetup) -> Result<StepResponse, TuningError> {
         match nonlinear(&setup.plant) {
-            Some(rig) => Ok(answered(run_two_loops(&mut rig.held(), &loops(controllers, setup)), setup)),
+            Some(rig) => Ok(step_response(run_two_loops(&mut rig.held(), &loops(controllers, setup)), setup)),
             None => linear_response(&self.plant.paths(), controllers, setup),
         }
     }
 
-    fn rival(&self, setup: &TuningSetup, gains: [f64; 2], frequency: f64) -> Result<Option<Rival>, TuningError> {
+    fn comparison(
+        &self,
+        setup: &TuningSetup,
+        gains: [f64; 2],
+        frequency: f64,
+    ) -> Result<Option<Comparison>, TuningError> {
         let by_rule = |pi: TuningRule, pid: TuningRule| {
             let rule = if setup.design.action == Action::Pi { pi } else { pid };
             let settings = |gain| rule.settings(UltimatePoint { gain, period: TAU / frequency }).into();
@@ -157,8 +173,8 @@ impl Study {
         };
         let stability = Design::new(&self.plant, controllers)?.stability();
         let mut response = self.response(controllers, setup)?;
-        response.is_meant &= stability == LoopStability::Stable;
-        Ok(Some(Rival { controllers, stability, response }))
+        response.is_bounded &= stability == LoopStability::Stable;
+        Ok(Some(Comparison { controllers, stability, response }))
     }
 }
 
@@ -174,12 +190,12 @@ fn loops(controllers: PidMatrix, setup: &TuningSetup) -> TwoLoops {
     }
 }
 
-fn linear_response(paths: &[Path], controllers: PidMatrix, setup: &TuningSetup) -> Result<Answered, TuningError> {
-    Ok(answered(run_two_loops(&mut DelayedPlant::new(paths)?, &loops(controllers, setup)), setup))
+fn linear_response(paths: &[Path], controllers: PidMatrix, setup: &TuningSetup) -> Result<StepResponse, TuningError> {
+    Ok(step_response(run_two_loops(&mut DelayedPlant::new(paths)?, &loops(controllers, setup)), setup))
 }
 
-fn answered(trace: LoopTrace, setup: &TuningSetup) -> Answered {
+fn step_response(trace: LoopTrace, setup: &TuningSetup) -> StepResponse {
     let figures = trace.step_figures(setup.response.references);
-    let is_meant = trace.halt.is_none();
-    Answered { trace, figures, is_meant }
+    let is_bounded = trace.halt.is_none();
+    StepResponse { trace, figures, is_bounded }
 }

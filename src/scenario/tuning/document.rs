@@ -1,10 +1,9 @@
 use serde::{Deserialize, Serialize};
 
-use crate::control::Pairing;
-use crate::linear::{Complex, TransferFunction, TransferMatrix};
-use crate::plant::PresetId;
 use crate::scenario::ScenarioError;
-use crate::tuning::{Action, PlacementMethod, PublishedPlant, TuningError, TuningRule, tank_transfer_matrix};
+use crate::tuning::{Action, PlacementMethod, TuningError, TuningRule, importance};
+
+use super::TuningPlant;
 
 /// The longest record: rows.
 const MOST_ROWS: f64 = 100_000.0;
@@ -13,60 +12,8 @@ const MOST_PASSES: usize = 20;
 /// Rows of all records of a sequence together.
 const MOST_ROWS_OF_ALL: f64 = 500_000.0;
 /// Largest number of most fields, and smallest where only positive ones make sense.
-const LARGEST: f64 = 1e6;
+pub(super) const LARGEST: f64 = 1e6;
 const SMALLEST: f64 = 1e-6;
-/// Largest coefficient, and smallest that is not zero: products of them stay numbers.
-const COEFFICIENT: f64 = 1e12;
-/// How much quicker than a record, and than a dead time, the quickest part of a plant may be.
-const QUICKEST_IN_RECORD: f64 = 2e6;
-const QUICKEST_IN_DEAD_TIME: f64 = 1e4;
-/// Longest list of coefficients.
-const MOST_COEFFICIENTS: usize = 8;
-
-/// An element `b(s)/a(s) e^(−θ s)` of a plant of one's own.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub struct Element {
-    /// Coefficients of b by rising powers of s.
-    pub numerator: Vec<f64>,
-    /// Coefficients of a by rising powers of s.
-    pub denominator: Vec<f64>,
-    /// Dead time θ.
-    #[serde(default)]
-    pub dead_time: f64,
-}
-
-/// The plant that is tuned. Times are in its own unit.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
-#[serde(rename_all = "snake_case")]
-pub enum TuningPlant {
-    /// A plant of the literature.
-    Published(PublishedPlant),
-    /// The linear model of a published quadruple tank at its published pump voltages, from voltages to measured levels, s.
-    QuadrupleTank {
-        /// The rig.
-        preset: PresetId,
-        /// Valve fractions γ1, γ2; those of the rig where they are not given.
-        #[serde(default)]
-        valves: Option<[f64; 2]>,
-        /// Which pump each loop drives.
-        pairing: Pairing,
-        /// A dead time in every element (s).
-        #[serde(default)]
-        dead_time_s: f64,
-        /// A lag in every element (s), of pump or sensor.
-        #[serde(default)]
-        lag_s: f64,
-        /// Whether simultaneous relays and the response run on the nonlinear plant, which has neither dead time nor lag.
-        #[serde(default)]
-        nonlinear: bool,
-    },
-    /// Four elements, row by output.
-    Elements([[Element; 2]; 2]),
-}
-
 /// Which relay test is run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
@@ -277,9 +224,20 @@ impl TuningScenario {
 }
 
 impl TuningSetup {
+    /// Importance r2 of the critical point that the design starts from.
+    ///
+    /// # Errors
+    /// What is wrong with the plant.
+    pub fn importance(&self) -> Result<f64, TuningError> {
+        match self.design.critical {
+            CriticalSpec::Importance(r) => Ok(r),
+            CriticalSpec::Point { gains, .. } => Ok(importance(&self.plant.transfer_matrix()?.dc_gain(), gains)),
+        }
+    }
+
     fn validate(&self) -> Result<(), ScenarioError> {
         let Self { plant, test, design, response } = self;
-        check_plant(plant)?;
+        plant.check()?;
         for i in [0, 1] {
             within(test.amplitudes[i], SMALLEST, LARGEST, || format!("tuning.test.amplitudes[{i}]"))?;
             within(test.hysteresis[i], 0.0, LARGEST, || format!("tuning.test.hysteresis[{i}]"))?;
@@ -298,7 +256,7 @@ impl TuningSetup {
         check_time(response.duration, response.step, "tuning.response")?;
         let rows = test.passes as f64 * test.duration / test.step;
         within(rows, 0.0, MOST_ROWS_OF_ALL, || "tuning.test: passes * duration / step".to_owned())?;
-        check_pace(plant, test.duration.max(response.duration))?;
+        plant.check_pace(test.duration.max(response.duration))?;
         within(design.root as f64, 1.0, 2.0, || "tuning.design.root".to_owned())?;
         match design.critical {
             CriticalSpec::Importance(r) => {
@@ -319,83 +277,10 @@ fn check_time(duration: f64, step: f64, path: &str) -> Result<(), ScenarioError>
     within(step, duration / MOST_ROWS, duration, || format!("{path}.step"))
 }
 
-/// A part that is far quicker than everything else asks for more steps than anyone waits for. A plant that is none is told
-/// when it is used.
-fn check_pace(plant: &TuningPlant, duration: f64) -> Result<(), ScenarioError> {
-    let Ok(transfer) = plant.transfer_matrix() else { return Ok(()) };
-    let elements = transfer.0.as_flattened();
-    let quickest = elements.iter().filter_map(|g| g.poles().ok()).flatten().map(Complex::norm).fold(0.0, f64::max);
-    let dead_time = elements.iter().map(TransferFunction::dead_time).fold(0.0, f64::max);
-    let field = |what: &str| format!("tuning.plant: quickest pole * {what}");
-    within(quickest * duration, 0.0, QUICKEST_IN_RECORD, || field("duration"))?;
-    within(quickest * dead_time, 0.0, QUICKEST_IN_DEAD_TIME, || field("dead time"))
-}
-
-fn check_plant(plant: &TuningPlant) -> Result<(), ScenarioError> {
-    match plant {
-        TuningPlant::Published(_) => Ok(()),
-        TuningPlant::QuadrupleTank { valves, dead_time_s, lag_s, nonlinear, .. } => {
-            let path = "tuning.plant.quadruple_tank";
-            if *nonlinear {
-                within(*dead_time_s, 0.0, 0.0, || format!("{path}.dead_time_s"))?;
-                within(*lag_s, 0.0, 0.0, || format!("{path}.lag_s"))?;
-            }
-            for (i, &valve) in valves.iter().flatten().enumerate() {
-                within(valve, 0.0, 1.0, || format!("{path}.valves[{i}]"))?;
-            }
-            within(*dead_time_s, 0.0, LARGEST, || format!("{path}.dead_time_s"))?;
-            within(*lag_s, 0.0, LARGEST, || format!("{path}.lag_s"))
-        }
-        TuningPlant::Elements(rows) => rows.as_flattened().iter().enumerate().try_for_each(|(k, element)| {
-            let path = format!("tuning.plant.elements[{}][{}]", k / 2, k % 2);
-            for (name, list) in [("numerator", &element.numerator), ("denominator", &element.denominator)] {
-                if list.len() > MOST_COEFFICIENTS {
-                    let field = format!("{path}.{name}");
-                    return Err(ScenarioError::TooMany { field, count: list.len(), max: MOST_COEFFICIENTS });
-                }
-                for (i, &c) in list.iter().enumerate() {
-                    let smallest = if c == 0.0 { 0.0 } else { COEFFICIENT.recip() };
-                    within(c.abs(), smallest, COEFFICIENT, || format!("{path}.{name}[{i}]"))?;
-                }
-            }
-            within(element.dead_time, 0.0, LARGEST, || format!("{path}.dead_time"))
-        }),
-    }
-}
-
-fn within(value: f64, min: f64, max: f64, field: impl Fn() -> String) -> Result<(), ScenarioError> {
+pub(super) fn within(value: f64, min: f64, max: f64, field: impl Fn() -> String) -> Result<(), ScenarioError> {
     if value >= min && value <= max {
         Ok(())
     } else {
         Err(ScenarioError::OutOfRange { field: field(), value, min, max })
-    }
-}
-
-impl TuningPlant {
-    /// As transfer functions.
-    ///
-    /// # Errors
-    /// [`TuningError::Linear`] for coefficients that are no transfer function.
-    pub fn transfer_matrix(&self) -> Result<TransferMatrix, TuningError> {
-        match self {
-            Self::Published(plant) => Ok(plant.transfer_matrix()?),
-            Self::QuadrupleTank { preset, valves, pairing, dead_time_s, lag_s, .. } => {
-                let rig = preset.preset();
-                let plant = rig.plant.with_valves(valves.unwrap_or(rig.plant.valves));
-                let jacobian = plant.linearise(&plant.free_equilibrium(rig.pump_voltage));
-                let behind = TransferFunction::lags(1.0, &[*lag_s], *dead_time_s)?;
-                let transfer = tank_transfer_matrix(&jacobian)?.followed_by(&behind);
-                Ok(match pairing {
-                    Pairing::Diagonal => transfer,
-                    Pairing::Swapped => transfer.swapped(),
-                })
-            }
-            Self::Elements(rows) => {
-                let element =
-                    |e: &Element| TransferFunction::new(e.numerator.clone(), e.denominator.clone(), e.dead_time);
-                let [[g11, g12], [g21, g22]] = rows;
-                Ok(TransferMatrix([[element(g11)?, element(g12)?], [element(g21)?, element(g22)?]]))
-            }
-        }
     }
 }

@@ -4,6 +4,7 @@ mod answer;
 mod csv;
 mod designed;
 mod document;
+mod plant;
 mod printed;
 mod published;
 mod rig;
@@ -11,10 +12,11 @@ mod start;
 
 pub use answer::{FoundPoint, Study, Tested, Tuning, tune};
 pub use csv::{curve_to_csv, loci_to_csv, record_to_csv};
-pub use designed::{Answered, DesignRoot, Designed, Rival};
+pub use designed::{Comparison, DesignRoot, Designed, StepResponse};
 pub use document::{
-    Behind, CompareSpec, CriticalSpec, DecouplerSpec, DesignSpec, Element, ResponseSpec, TestKind, TestSpec,
-    TuningPlant, TuningScenario, TuningSetup,
+    Behind, CompareSpec, CriticalSpec, DecouplerSpec, DesignSpec, ResponseSpec, TestKind, TestSpec, TuningScenario,
+    TuningSetup,
 };
+pub use plant::{Element, TuningPlant};
 pub use printed::{PrintedFigure, PrintedRemark, rule_targets};
 pub use published::PublishedCase;

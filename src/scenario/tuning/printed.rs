@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use crate::control::{ParallelPid, PidMatrix};
 use crate::linear::Complex;
-use crate::tuning::{Design, TuningError, TuningRule, USOL, UltimatePoint, wood_berry_full_controller};
+use crate::tuning::{Design, TuningError, TuningRule, USOL, UltimatePoint, importance, wood_berry_full_controller};
 
 use super::published::RULES;
 use super::{CriticalSpec, PublishedCase, Study};
@@ -208,8 +208,7 @@ impl PublishedCase {
     fn point_on_curve(self, study: &Study) -> Option<[f64; 4]> {
         let CriticalSpec::Point { gains, .. } = self.scenario().tuning.design.critical else { return None };
         let point = study.search.nearest(gains)?;
-        let importance = gains[1] * study.dc_gain[(1, 1)] / (gains[0] * study.dc_gain[(0, 0)]);
-        Some([importance, point.gains[0], point.gains[1], point.period()])
+        Some([importance(&study.dc_gain, gains), point.gains[0], point.gains[1], point.period()])
     }
 }
 

@@ -1,8 +1,8 @@
 use crate::tuning::{Action, PlacementMethod, PublishedPlant, TuningRule};
 
 use super::{
-    Behind, CompareSpec, CriticalSpec, DecouplerSpec, DesignSpec, ResponseSpec, TestKind, TestSpec, TuningPlant,
-    TuningScenario, TuningSetup,
+    CompareSpec, CriticalSpec, DecouplerSpec, DesignSpec, ResponseSpec, TestSpec, TuningPlant, TuningScenario,
+    TuningSetup,
 };
 
 /// A published case of Campestrini (2006): a table and its row. Equation 88 counts as table 88, and the record of the solvents
@@ -123,20 +123,7 @@ impl PublishedCase {
             version: TuningScenario::VERSION,
             tuning: TuningSetup {
                 plant: TuningPlant::Published(plant),
-                test: TestSpec {
-                    kind: TestKind::Simultaneous,
-                    number: 1,
-                    behind: Behind::Nothing,
-                    amplitudes: [1.0; 2],
-                    hysteresis: [0.0; 2],
-                    bias: [0.0; 2],
-                    rule: TuningRule::ZieglerNicholsPi,
-                    detuning: [1.0; 2],
-                    passes: 1,
-                    duration,
-                    release: 0.01 * duration,
-                    step,
-                },
+                test: TestSpec::simultaneous(duration, 0.01 * duration, step),
                 design: DesignSpec {
                     critical: CriticalSpec::Point { gains: [kc1, kc2], period },
                     method,

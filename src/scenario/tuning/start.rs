@@ -17,6 +17,26 @@ const RESPONSE_PERIODS: f64 = 12.0;
 const ROWS: f64 = 200.0;
 const NO_PERIOD: f64 = 100.0;
 
+impl TestSpec {
+    /// Ideal relays of amplitude 1 in both loops.
+    pub fn simultaneous(duration: f64, release: f64, step: f64) -> Self {
+        Self {
+            kind: TestKind::Simultaneous,
+            number: 1,
+            behind: Behind::Nothing,
+            amplitudes: [1.0; 2],
+            hysteresis: [0.0; 2],
+            bias: [0.0; 2],
+            rule: TuningRule::ZieglerNicholsPi,
+            detuning: [1.0; 2],
+            passes: 1,
+            duration,
+            release,
+            step,
+        }
+    }
+}
+
 impl Default for TuningScenario {
     /// What the source recommends: both loci, PID, a target in the third quadrant (Campestrini 2006, Table 12).
     fn default() -> Self {
@@ -51,20 +71,7 @@ impl TuningSetup {
         };
         Self {
             plant,
-            test: TestSpec {
-                kind: TestKind::Simultaneous,
-                number: 1,
-                behind: Behind::Nothing,
-                amplitudes: [1.0; 2],
-                hysteresis: [0.0; 2],
-                bias: [0.0; 2],
-                rule: TuningRule::ZieglerNicholsPi,
-                detuning: [1.0; 2],
-                passes: 2,
-                duration: TEST_PERIODS * period,
-                release: 0.1 * period,
-                step: period / ROWS,
-            },
+            test: TestSpec::simultaneous(TEST_PERIODS * period, 0.1 * period, period / ROWS),
             design: DesignSpec {
                 critical: CriticalSpec::Importance(1.0),
                 method: PlacementMethod::BothLoci,
