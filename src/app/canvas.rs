@@ -10,7 +10,7 @@ use plotters_backend::{
 use plotters_canvas::CanvasBackend;
 use web_sys::{CanvasRenderingContext2d, HtmlCanvasElement};
 
-use crate::figure::{self, Chart, Size, Style};
+use crate::figure::{self, Chart, Sheet, Size, Style};
 
 /// Pixels of the backend for each CSS px: plotters counts in whole ones, and curves are smooth with this many.
 pub const FINE: u32 = 8;
@@ -209,9 +209,9 @@ pub fn fill_background(canvas: &HtmlCanvasElement, style: &Style) {
     context.fill_rect(0.0, 0.0, canvas.width().into(), canvas.height().into());
 }
 
-/// Paints charts on a canvas of `size` CSS px on a screen with `ratio` pixels for each of them. A canvas that the browser
+/// Paints a sheet of charts on a canvas of `size` CSS px on a screen with `ratio` pixels for each of them. A canvas that the browser
 /// cannot paint on stays empty.
-pub fn paint(canvas: &HtmlCanvasElement, charts: &[Chart], size: Size, ratio: f64, style: &Style) {
+pub fn paint(canvas: &HtmlCanvasElement, charts: &[Chart], size: Size, ratio: f64, style: &Style, sheet: Sheet) {
     let Some(context) = context_of(canvas) else { return };
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a size on a screen")]
     let pixels = |length: f64, ratio: f64| (length * ratio).round() as u32;
@@ -240,7 +240,7 @@ pub fn paint(canvas: &HtmlCanvasElement, charts: &[Chart], size: Size, ratio: f6
     };
     let area = backend.into_drawing_area();
     // Fails only if the canvas does, and then there is nowhere to say so.
-    let _ = figure::paint(&area, charts, size, style).and_then(|()| area.present());
+    let _ = figure::paint(&area, charts, size, style, sheet).and_then(|()| area.present());
 }
 
 fn context_of(canvas: &HtmlCanvasElement) -> Option<CanvasRenderingContext2d> {

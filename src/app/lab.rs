@@ -51,6 +51,8 @@ pub struct State {
     pub charts: Results,
     /// The same for words, numbers and the drawing, once the charts are on the screen.
     pub words: Results,
+    /// Words and numbers are being told.
+    telling: Trigger,
     /// The unit in which levels are shown.
     pub unit: Signal<DisplayUnit>,
     /// The language of the texts.
@@ -87,6 +89,7 @@ impl Lab {
         let lab = Self(Box::leak(Box::new(State {
             charts,
             words: charts.shared(),
+            telling: Trigger::new(),
             unit: Memo::new(move |_| scenario.with(|s| s.setup.display_unit())).into(),
             scenario,
             language: RwSignal::new(language),
@@ -99,8 +102,31 @@ impl Lab {
             owner: Owner::current().unwrap_or_default(),
             pinned: StoredValue::new(pinned),
         })));
-        Pace::follow(lab.scenario, move || lab.compute(), move || lab.words.follow(lab.charts));
+        lab.follow(lab.scenario, move || lab.compute(), move || lab.words.follow(lab.charts));
         lab
+    }
+
+    /// Follows a document; whenever its words are told, so are the values of its controls.
+    pub fn follow<T: Send + Sync + 'static>(
+        self,
+        document: RwSignal<T>,
+        compute: impl Fn() -> Option<Box<dyn FnOnce()>> + 'static,
+        tell: impl Fn() + 'static,
+    ) {
+        let tell = move || {
+            tell();
+            self.telling.notify();
+        };
+        Pace::follow(document, compute, tell);
+    }
+
+    /// A value as the page shows it: it changes with the words, not in every frame. Handlers read the value itself.
+    pub fn told<T: Clone + Send + Sync + 'static>(self, value: Signal<T>) -> Signal<T> {
+        Signal::derive(move || {
+            self.telling.track();
+            self.language.track();
+            value.get_untracked()
+        })
     }
 
     /// The relay-tuning bench. It is computed when it is shown for the first time and stays.

@@ -12,9 +12,6 @@ use leptos::prelude::*;
 
 use super::timing::Stopwatch;
 
-/// Words that have to wait come when nothing has changed for so long (ms).
-const PAUSE_MS: u32 = 40;
-
 /// Computes what changed and returns what hands it to the panels; nothing once the document is gone.
 type Compute = Rc<dyn Fn() -> Option<Box<dyn FnOnce()>>>;
 
@@ -75,14 +72,14 @@ impl Pace {
 
     /// The charts are on the screen: the words follow, at once if it is time for them.
     fn painted(self) {
-        let told_now = self.backstage.try_update_value(|b| {
+        let due = self.backstage.try_update_value(|b| {
             b.stopwatch.end();
-            b.stopwatch.are_words_due()
+            (b.stopwatch.are_words_due(), b.stopwatch.pause_ms())
         });
-        match told_now {
-            Some(true) => self.tell(),
+        match due {
+            Some((true, _)) => self.tell(),
             // The next frame replaces this timer and decides anew.
-            Some(false) => self.after(PAUSE_MS, Self::tell),
+            Some((false, pause_ms)) => self.after(pause_ms, Self::tell),
             None => {}
         }
     }

@@ -55,7 +55,9 @@ const WORDS_MARKS: [&str; 2] = ["quadtank:untold-a", "quadtank:untold-b"];
 const IN_TIME_MS: f64 = 1000.0 / 60.0;
 /// Between two changes of the words while the hand moves on (ms): where frames are in time, and where they are late.
 /// Telling costs a frame or so; nobody reads numbers that change more often.
-const BETWEEN_WORDS_MS: [f64; 2] = [50.0, 500.0];
+const BETWEEN_WORDS_MS: [f64; 2] = [50.0, 1000.0];
+/// The least time without a change that counts as a pause of the hand (ms); it is two frames where frames take longer.
+const LEAST_PAUSE_MS: f64 = 40.0;
 
 /// How many entries are kept before they are dropped, so that a long lecture does not fill the memory.
 const KEPT: u32 = 4000;
@@ -87,6 +89,12 @@ impl Stopwatch {
     pub fn end(&mut self) {
         self.measure("quadtank:paint", EVENT_MARKS[self.frame.taken]);
         self.frame_ms = now_ms() - self.painting_since_ms;
+    }
+
+    /// Words that have to wait come when nothing has changed for so long (ms).
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a short time")]
+    pub fn pause_ms(&self) -> u32 {
+        (2.0 * self.frame_ms).max(LEAST_PAUSE_MS) as u32
     }
 
     /// Whether words may follow the charts at once.

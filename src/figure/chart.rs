@@ -29,6 +29,19 @@ impl<'a> Chart<'a> {
         Self { x, y, layers: Vec::new(), legend: Vec::new(), weight: 1.0, square: false }
     }
 
+    /// What stays while curves move: axes, legend, and what stands for something fixed.
+    pub fn ground(&self) -> Chart<'static> {
+        let layers = self.layers.iter().filter_map(Layer::ground).collect();
+        Chart { x: self.x.clone(), y: self.y.clone(), layers, legend: self.legend.clone(), ..*self }
+    }
+
+    /// Whether `ground` is that of this chart.
+    pub fn has_ground(&self, ground: &Chart) -> bool {
+        (self.weight, self.square) == (ground.weight, ground.square)
+            && (&self.x, &self.y, &self.legend) == (&ground.x, &ground.y, &ground.legend)
+            && self.layers.iter().filter(|layer| layer.is_ground()).eq(&ground.layers)
+    }
+
     /// The series among the layers, from the back to the front.
     pub fn series(&self) -> impl Iterator<Item = &Series<'a>> {
         self.layers.iter().filter_map(|layer| match layer {
@@ -76,6 +89,28 @@ pub enum Layer<'a> {
     Marker(Marker),
     /// A word at a point.
     Label(Label),
+}
+
+impl Layer<'_> {
+    /// Whether it is a shade, which lies under the grid.
+    pub(super) fn is_shade(&self) -> bool {
+        matches!(self, Self::Field(_) | Self::Region { .. })
+    }
+
+    /// Whether it stays while other things move: shades, and what was.
+    pub(super) fn is_ground(&self) -> bool {
+        self.is_shade() || matches!(self, Self::Line(Series { pen: Pen::Faded, .. }))
+    }
+
+    /// The same with columns of its own, if it is of the ground.
+    fn ground(&self) -> Option<Layer<'static>> {
+        match self {
+            Self::Field(field) => Some(Layer::Field(field.clone())),
+            &Self::Region { x, y, role } => Some(Layer::Region { x, y, role }),
+            Self::Line(series) if self.is_ground() => Some(Layer::Line(series.detached())),
+            _ => None,
+        }
+    }
 }
 
 /// What a thing in a chart stands for; decides its colour.
@@ -147,6 +182,15 @@ pub struct Series<'a> {
     pub y: Cow<'a, [f64]>,
     /// Factor from that unit to the one of the axis.
     pub y_scale: f64,
+}
+
+impl Series<'_> {
+    /// The same with columns of its own.
+    fn detached(&self) -> Series<'static> {
+        let owned = |column: &[f64]| Cow::Owned(column.to_vec());
+        let (x, y, name) = (owned(&self.x), owned(&self.y), Cow::Owned(self.name.to_string()));
+        Series { name, x, y, ..*self }
+    }
 }
 
 /// A function on a rectangle, for shading: −1 is deep in the minimum-phase colour, 0 the background, +1 deep in the

@@ -34,7 +34,7 @@ pub use axis::{Axis, Tick};
 pub use chart::{Anchor, Chart, Course, Entry, Field, Label, Layer, Marker, Pen, Role, Sample, Series, Shape};
 pub use frame::{Frame, Rect, Size, layout};
 pub use number::signed;
-pub use paint::{FONT_FAMILY, PaintError, Style, paint};
+pub use paint::{FONT_FAMILY, PaintError, Sheet, Style, paint};
 pub use palette::{Palette, Rgb};
 pub use pole_zero::{PoleZero, PoleZeroTexts, pole_zero};
 pub use responses::{ResponseTexts, Responses, RunColumns, responses};

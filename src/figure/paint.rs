@@ -30,6 +30,27 @@ pub struct Style {
     pub scale: u32,
 }
 
+/// Which part of charts is painted: all of it, or one of two sheets that lie upon each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sheet {
+    /// All of it.
+    Both,
+    /// What stays while curves move ([`Chart::ground`]).
+    Ground,
+    /// The rest, which lies upon it.
+    Curves,
+}
+
+impl Sheet {
+    fn has(self, is_ground: bool) -> bool {
+        match self {
+            Self::Both => true,
+            Self::Ground => is_ground,
+            Self::Curves => !is_ground,
+        }
+    }
+}
+
 /// A part of a chart, as announced while painting.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Part<'a> {
@@ -51,8 +72,9 @@ pub fn paint<DB: DrawingBackend>(
     charts: &[Chart],
     size: Size,
     style: &Style,
+    sheet: Sheet,
 ) -> Result<(), PaintError<DB>> {
-    paint_parts(area, charts, size, style, |_| ())
+    paint_parts(area, charts, size, style, sheet, |_| ())
 }
 
 /// As [`paint`], and announces every part before it is painted.
@@ -61,22 +83,26 @@ pub(super) fn paint_parts<DB: DrawingBackend>(
     charts: &[Chart],
     size: Size,
     style: &Style,
+    sheet: Sheet,
     mut announce: impl FnMut(Part),
 ) -> Result<(), PaintError<DB>> {
     for (chart, frame) in charts.iter().zip(layout(charts, size)) {
         let brush = Brush { area, style, frame };
-        let shades = |layer: &&Layer| matches!(layer, Layer::Field(_) | Layer::Region { .. });
-        for layer in chart.layers.iter().filter(shades) {
+        let (shades, rest): (Vec<&Layer>, Vec<&Layer>) =
+            chart.layers.iter().filter(|layer| sheet.has(layer.is_ground())).partition(|layer| layer.is_shade());
+        for layer in shades {
             announce(Part::Layer(layer));
             brush.layer(layer)?;
         }
-        announce(Part::Axes);
-        brush.axes(chart)?;
-        for layer in chart.layers.iter().filter(|layer| !shades(layer)) {
+        if sheet.has(true) {
+            announce(Part::Axes);
+            brush.axes(chart)?;
+        }
+        for layer in rest {
             announce(Part::Layer(layer));
             brush.layer(layer)?;
         }
-        if !chart.legend.is_empty() {
+        if sheet.has(true) && !chart.legend.is_empty() {
             announce(Part::Legend);
             brush.legend(chart)?;
         }

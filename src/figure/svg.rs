@@ -11,7 +11,7 @@ use plotters_backend::{
     FontTransform,
 };
 
-use super::paint::{FONT_FAMILY, Part, paint_parts};
+use super::paint::{FONT_FAMILY, Part, Sheet, paint_parts};
 use super::{Chart, Layer, Pen, Role, Size, Style};
 
 /// Paints charts into a self-contained SVG document, in CSS px, on the background of the palette. Title and
@@ -24,7 +24,7 @@ pub fn to_svg(charts: &[Chart], size: Size, style: &Style, title: &str, descript
     let backend = Rc::new(RefCell::new(Svg::new(size, style.scale.max(1))));
     let area = DrawingArea::<Svg, Shift>::from(&backend);
     // Writing to memory cannot fail, so there is no error to report.
-    let Ok(()) = paint_parts(&area, charts, size, style, |part| backend.borrow_mut().group(part)) else {
+    let Ok(()) = paint_parts(&area, charts, size, style, Sheet::Both, |part| backend.borrow_mut().group(part)) else {
         return String::new();
     };
     let body = backend.borrow_mut().take_body();

@@ -22,11 +22,12 @@ pub(super) fn polylines(series: &Series, frame: &Frame) -> Vec<Vec<Px>> {
     let (x, y) = (&x[..length], &y[..length]);
     let rising = x.is_sorted();
     let (x, y) = if rising { visible(x, y, frame.x) } else { (x, y) };
+    let pixels = Pixels::of(frame, series.y_scale);
     let mut tracer =
         Tracer { rising, corners: Corners::default(), columns: Columns::default(), clip: Clip::new(frame.plot) };
     let mut held: Option<f64> = None;
     for (&x, &y) in x.iter().zip(y) {
-        let point = pixel(frame, (x, y * series.y_scale));
+        let point = pixels.at(x, y);
         match point {
             None => tracer.lift(),
             Some(point) => {
@@ -75,9 +76,24 @@ fn visible<'a>(x: &'a [f64], y: &'a [f64], (min, max): (f64, f64)) -> (&'a [f64]
     (&x[first..last], &y[first..last])
 }
 
-fn pixel(frame: &Frame, point: (f64, f64)) -> Option<Px> {
-    let (x, y) = frame.to_px(point);
-    (x.is_finite() && y.is_finite()).then(|| (x.clamp(-FAR, FAR), y.clamp(-FAR, FAR)))
+/// From data to pixels as [`Frame::to_px`] does, without a division for each point.
+struct Pixels {
+    origin: Px,
+    slope: Px,
+}
+
+impl Pixels {
+    fn of(frame: &Frame, y_scale: f64) -> Self {
+        let slope = |length: f64, (from, to): (f64, f64)| length / (to - from);
+        let (right, up) = (slope(frame.plot.width, frame.x), slope(frame.plot.height, frame.y));
+        let origin = (frame.plot.left - frame.x.0 * right, frame.plot.bottom() + frame.y.0 * up);
+        Self { origin, slope: (right, -up * y_scale) }
+    }
+
+    fn at(&self, x: f64, y: f64) -> Option<Px> {
+        let (x, y) = (self.origin.0 + x * self.slope.0, self.origin.1 + y * self.slope.1);
+        (x.is_finite() && y.is_finite()).then(|| (x.clamp(-FAR, FAR), y.clamp(-FAR, FAR)))
+    }
 }
 
 /// The corners that a rising curve needs: a point is left out while one straight line passes all those left out since
@@ -98,8 +114,8 @@ impl Corners {
             self.state = Some((point, point, EVERY_SLOPE));
             return None;
         };
-        let slope = (point.1 - corner.1) / (point.0 - corner.0);
-        let fits = point.0 > corner.0 && slopes.0 <= slope && slope <= slopes.1;
+        let (width, rise) = (point.0 - corner.0, point.1 - corner.1);
+        let fits = width > 0.0 && slopes.0 * width <= rise && rise <= slopes.1 * width;
         if fits || previous == corner {
             self.state = Some((corner, point, narrowed(slopes, corner, point)));
             None
@@ -120,8 +136,8 @@ impl Corners {
 fn narrowed((low, high): (f64, f64), corner: Px, point: Px) -> (f64, f64) {
     let width = point.0 - corner.0;
     if width > 0.0 {
-        let (slope, slack) = ((point.1 - corner.1) / width, TOLERANCE / width);
-        (larger(low, slope - slack), smaller(high, slope + slack))
+        let (rise, per_width) = (point.1 - corner.1, width.recip());
+        (larger(low, (rise - TOLERANCE) * per_width), smaller(high, (rise + TOLERANCE) * per_width))
     } else {
         NO_SLOPE
     }

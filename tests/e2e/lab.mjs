@@ -81,13 +81,13 @@ export class Lab {
     return { x: box.x + box.width / 2, y: box.y + box.height / 2 };
   }
 
-  /** How much of a canvas is painted: pixels, colours, and a text that changes with any pixel. */
+  /** How much of a picture is painted, on both its canvases: pixels, colours, and a text that changes with any pixel. */
   async picture(name) {
     return this.id(name).evaluate((canvas) => {
       // Read from a copy: reading the canvas itself makes Chromium warn and changes how it paints.
       const copy = Object.assign(document.createElement('canvas'), { width: canvas.width, height: canvas.height });
       const context = copy.getContext('2d', { willReadFrequently: true });
-      context.drawImage(canvas, 0, 0);
+      for (const sheet of canvas.parentElement.querySelectorAll('canvas')) context.drawImage(sheet, 0, 0);
       const pixels = new Uint32Array(context.getImageData(0, 0, copy.width, copy.height).data.buffer);
       let ink = 0;
       let hash = 0;

@@ -1,12 +1,12 @@
 use std::f64::consts::PI;
 
 use nalgebra::Complex;
-use quadtank::figure::{Chart, Layer, Palette, Pen, Rect, Rgb, Role, Size, layout, responses, table};
+use quadtank::figure::{Chart, Layer, Palette, Pen, Rect, Rgb, Role, Sheet, Size, layout, responses, table};
 
 use crate::fixture::{
     Run, SIZE, STYLE, johansson_s_plane, plane, response_charts, response_spec, right_most_zero, s_plane,
 };
-use crate::recorder::{Drawn, record};
+use crate::recorder::{Drawn, record, record_sheet};
 
 /// The paths in the colour of a line.
 fn strokes(drawn: &[Drawn], role: Role, pen: Pen) -> Vec<Vec<(f64, f64)>> {
@@ -117,6 +117,32 @@ fn references_are_dashed_linear_runs_dotted_and_pinned_runs_faded() {
     let faded = drawn(None, Some(&other));
     assert_eq!(strokes(&plain, Role::Loop1, Pen::Faded).len(), 0);
     assert_eq!(strokes(&faded, Role::Loop1, Pen::Faded).len(), 1);
+}
+
+#[test]
+fn two_sheets_are_the_whole_picture_and_the_ground_knows_when_it_changes() {
+    let (run, other) = (Run::step(1.0), Run::step(3.0));
+    let charts = response_charts(&run, Some(&other), Some(&other));
+    let sorted = |sheets: &[Sheet]| {
+        let mut drawn: Vec<_> = sheets
+            .iter()
+            .flat_map(|&sheet| record_sheet(&charts, SIZE, &STYLE, sheet))
+            .map(|thing| format!("{thing:?}"))
+            .collect();
+        drawn.sort();
+        drawn
+    };
+    let [ground, curves] = [Sheet::Ground, Sheet::Curves].map(|sheet| sorted(&[sheet]).len());
+    assert!(ground > 0 && curves > 0);
+    assert_eq!(sorted(&[Sheet::Ground, Sheet::Curves]), sorted(&[Sheet::Both]));
+
+    // Another run within the same axes leaves the ground; another pinned run or another range does not.
+    let ground = charts.each_ref().map(Chart::ground);
+    let has_ground = |charts: &[Chart]| charts.iter().zip(&ground).all(|(chart, ground)| chart.has_ground(ground));
+    assert!(has_ground(&response_charts(&Run::step(1.05), Some(&other), Some(&other))));
+    assert!(!has_ground(&response_charts(&run, Some(&other), Some(&run))));
+    assert!(!has_ground(&response_charts(&run, Some(&other), None)));
+    assert!(!has_ground(&response_charts(&Run::diverging(), Some(&other), Some(&other))));
 }
 
 #[test]

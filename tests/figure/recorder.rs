@@ -7,7 +7,7 @@ use std::rc::Rc;
 use plotters::coord::Shift;
 use plotters::prelude::DrawingArea;
 use plotters_backend::{BackendColor, BackendCoord, BackendStyle, BackendTextStyle, DrawingBackend, DrawingErrorKind};
-use quadtank::figure::{Chart, Rgb, Size, Style, paint};
+use quadtank::figure::{Chart, Rgb, Sheet, Size, Style, paint};
 
 /// A thing that was drawn, in CSS px.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,6 +20,11 @@ pub enum Drawn {
 
 /// The calls of a painting, in order.
 pub fn record(charts: &[Chart], size: Size, style: &Style) -> Vec<Drawn> {
+    record_sheet(charts, size, style, Sheet::Both)
+}
+
+/// The calls of painting one sheet, in order.
+pub fn record_sheet(charts: &[Chart], size: Size, style: &Style, sheet: Sheet) -> Vec<Drawn> {
     let clamped = size.clamped();
     let scale = style.scale;
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a clamped size is small")]
@@ -27,7 +32,7 @@ pub fn record(charts: &[Chart], size: Size, style: &Style) -> Vec<Drawn> {
     let recorder = Recorder { size: (fine(clamped.width), fine(clamped.height)), scale, drawn: Vec::new() };
     let backend = Rc::new(RefCell::new(recorder));
     let area = DrawingArea::<Recorder, Shift>::from(&backend);
-    paint(&area, charts, size, style).expect("the recorder never fails");
+    paint(&area, charts, size, style, sheet).expect("the recorder never fails");
     backend.take().drawn
 }
 

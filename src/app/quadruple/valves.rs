@@ -53,7 +53,7 @@ fn Overlay(frames: RwSignal<Vec<Frame>>) -> impl IntoView {
     // The overlay stands from the start and moves with the picture: rebuilding it would take the focus from the handle.
     view! {
         <svg class="over" aria-hidden="false">
-            <g inner_html=guides(use_lab(), frames)></g>
+            <path class="guide" d=guides(use_lab(), frames)></path>
             <PublishedPoints frames />
             <SettingHandle frames />
         </svg>
@@ -67,10 +67,7 @@ fn guides(lab: Lab, frames: RwSignal<Vec<Frame>>) -> Signal<String> {
         let frame = first_frame(frames);
         let (left, bottom) = (frame.plot.left, frame.plot.bottom());
         let (x, y) = frame.to_px((gamma_1.get(), gamma_2.get()));
-        format!(
-            "<line class=\"guide\" x1=\"{left}\" y1=\"{y}\" x2=\"{x}\" y2=\"{y}\"/>\
-             <line class=\"guide\" x1=\"{x}\" y1=\"{bottom}\" x2=\"{x}\" y2=\"{y}\"/>"
-        )
+        format!("M{left} {y}H{x}M{x} {bottom}V{y}")
     })
 }
 

@@ -40,9 +40,8 @@ pub fn knob(session: Session, knob: &Knob) -> AnyView {
     let value = session.part(read);
     let on_change = Callback::new(move |v: f64| session.edit(|s| write(s, v)));
     let disabled = session.locks(lock);
-    let unit = Signal::derive(move || {
-        if is_time { session.lab.tuning.with(|s| time_unit(&s.tuning.plant)) } else { "" }.to_owned()
-    });
+    let unit =
+        Signal::derive(move || if is_time { session.words.setup.with(|s| time_unit(&s.plant)) } else { "" }.to_owned());
     match travel {
         Some(travel) => view! {
             <SliderField id label=label.to_owned() name value on_change travel limits=Signal::from(limits) scale digits=None unit class disabled />
@@ -70,7 +69,7 @@ pub fn segmented(
 ) -> AnyView {
     let choices = choices.into_iter().enumerate().map(|(index, (name, text))| (index, name, text)).collect();
     let on_choose = Callback::new(move |index| session.edit(|s| write(s, index)));
-    let value = Signal::derive(move || session.lab.tuning.with(|s| read(&s.tuning)));
+    let value = Signal::derive(move || session.words.setup.with(|setup| read(setup)));
     let disabled = session.locks(lock);
     view! { <Segmented<usize> label choices value on_choose disabled /> }.into_any()
 }

@@ -114,7 +114,7 @@ fn settings(session: Session) -> AnyView {
 fn decouplers(session: Session) -> Signal<String> {
     let lab = session.lab;
     Signal::derive(move || {
-        let chosen = lab.tuning.with(|s| s.tuning.design.decoupler);
+        let chosen = session.words.setup.with(|s| s.design.decoupler);
         let text = |spec| match spec {
             DecouplerSpec::None => tr!(lab, relay.decoupler_none),
             DecouplerSpec::Static => tr!(lab, relay.decoupler_static),
@@ -129,7 +129,7 @@ fn decouplers(session: Session) -> Signal<String> {
 fn comparisons(session: Session) -> Signal<String> {
     let lab = session.lab;
     Signal::derive(move || {
-        let (chosen, plant) = lab.tuning.with(|s| (s.tuning.response.compare, s.tuning.plant.clone()));
+        let (chosen, plant) = session.words.setup.with(|s| (s.response.compare, s.plant.clone()));
         // The full controller is known for one plant only.
         let has_full = plant == TuningPlant::Published(PublishedPlant::WoodBerry);
         let text = |spec| match spec {

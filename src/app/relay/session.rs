@@ -6,7 +6,6 @@ use std::sync::Arc;
 use leptos::prelude::*;
 
 use crate::app::lab::{Lab, use_lab};
-use crate::app::pace::Pace;
 use crate::app::results::share;
 use crate::app::start::Control;
 use crate::scenario::tuning::{Designed, PublishedCase, Study, Tested, TuningPlant, TuningScenario, TuningSetup};
@@ -120,7 +119,7 @@ impl Session {
         let case = RwSignal::new(lab.tuning.with_untracked(|s| case_of(&s.tuning)));
         let state = State { lab, charts, words: charts.shared(), case, pinned: StoredValue::new(pinned) };
         let session = Self(Box::leak(Box::new(state)));
-        Pace::follow(lab.tuning, move || session.compute(), move || session.words.follow(charts));
+        lab.follow(lab.tuning, move || session.compute(), move || session.words.follow(charts));
         session
     }
 
@@ -141,9 +140,9 @@ impl Session {
         Memo::new(move |_| scenario.with(|s| read(&s.tuning))).into()
     }
 
-    /// Something that is or is not so in the setup. Cheaper than a part of another type, and read anew at every change.
+    /// Something that is or is not so in the setup, as the page shows it.
     pub fn flag(self, read: fn(&TuningSetup) -> bool) -> Signal<bool> {
-        Signal::derive(move || self.lab.tuning.with(|s| read(&s.tuning)))
+        Signal::derive(move || self.words.setup.with(|setup| read(setup)))
     }
 
     /// Whether a group of controls is disabled.

@@ -212,7 +212,7 @@ const BEHINDS: [&str; 3] = ["nothing", "integrator", "modulus"];
 fn behind_options(session: Session) -> Signal<String> {
     let lab = session.lab;
     Signal::derive(move || {
-        let chosen = lab.tuning.with(|s| behind_index(&s.tuning));
+        let chosen = session.words.setup.with(|s| behind_index(s));
         let texts = [tr!(lab, relay.behind_nothing), tr!(lab, relay.behind_integrator), tr!(lab, relay.behind_modulus)];
         (0..3).map(|k| option(BEHINDS[k], texts[k], chosen == k)).collect()
     })
@@ -236,7 +236,7 @@ fn behind_named(name: &str) -> Behind {
 
 fn rule_options(session: Session) -> Signal<String> {
     Signal::derive(move || {
-        let chosen = session.lab.tuning.with(|s| s.tuning.test.rule);
+        let chosen = session.words.setup.with(|s| s.test.rule);
         TuningRule::ALL.iter().map(|&rule| option(short_name(rule), short_name(rule), rule == chosen)).collect()
     })
 }

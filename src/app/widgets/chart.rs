@@ -10,7 +10,7 @@ use crate::app::canvas;
 use crate::app::download::{download_canvas, download_text};
 use crate::app::lab::use_lab;
 use crate::app::texts::tr;
-use crate::figure::{Chart, Frame, Size, Style, layout, to_svg};
+use crate::figure::{Chart, Frame, Sheet, Size, Style, layout, to_svg};
 
 /// Builds charts in place and hands them to a visitor.
 type Build = dyn Fn(&mut dyn FnMut(&[Chart])) + Send + Sync;
@@ -40,7 +40,7 @@ impl Picture {
     }
 }
 
-/// Charts on a canvas, repainted whenever what they read, their size, the pixel ratio or the theme changes.
+/// Charts on two canvases that lie upon each other, repainted whenever what they read, their size, the pixel ratio or the theme changes.
 #[component]
 pub fn ChartCanvas(
     /// The charts.
@@ -54,7 +54,8 @@ pub fn ChartCanvas(
     name: &'static str,
 ) -> impl IntoView {
     let lab = use_lab();
-    let canvas = NodeRef::<Canvas>::new();
+    let (lower, canvas) = (NodeRef::<Canvas>::new(), NodeRef::<Canvas>::new());
+    let ground = StoredValue::new_local(None::<Ground>);
     let size = RwSignal::new(Size { width: 0.0, height: 0.0 });
     canvas.on_load(move |canvas| follow_size(&canvas, size));
     // A window that moves to another screen is resized or zoomed in the eyes of the browser.
@@ -68,17 +69,40 @@ pub fn ChartCanvas(
         if size.width < 1.0 || size.height < 1.0 {
             return;
         }
-        let Some(canvas) = canvas.get_untracked() else { return };
+        let (Some(lower), Some(canvas)) = (lower.get_untracked(), canvas.get_untracked()) else { return };
         let style = lab.chart_style();
         let placed = picture.visit(|charts| {
-            canvas::paint(&canvas, charts, size, ratio, &style);
+            let surface = (size, ratio, style);
+            if !ground.with_value(|known| known.as_ref().is_some_and(|known| known.is_of(charts, surface))) {
+                canvas::paint(&lower, charts, size, ratio, &style, Sheet::Ground);
+                ground.set_value(Some(Ground { charts: charts.iter().map(Chart::ground).collect(), surface }));
+            }
+            canvas::paint(&canvas, charts, size, ratio, &style, Sheet::Curves);
             layout(charts, size)
         });
         if frames.with_untracked(|f| *f != placed) {
             frames.set(placed);
         }
     });
-    view! { <canvas node_ref=canvas role="img" aria-label=summary data-testid=name></canvas> }
+    view! {
+        <canvas node_ref=lower aria-hidden="true"></canvas>
+        <canvas node_ref=canvas role="img" aria-label=summary data-testid=name></canvas>
+    }
+}
+
+/// What the lower of the two canvases shows. Most frames leave it as it is, and text is what costs a browser most.
+struct Ground {
+    charts: Vec<Chart<'static>>,
+    /// Size, pixels for each CSS px, and look.
+    surface: (Size, f64, Style),
+}
+
+impl Ground {
+    fn is_of(&self, charts: &[Chart], surface: (Size, f64, Style)) -> bool {
+        self.surface == surface
+            && self.charts.len() == charts.len()
+            && charts.iter().zip(&self.charts).all(|(chart, ground)| chart.has_ground(ground))
+    }
 }
 
 /// Width and height of exported pictures (CSS px).
@@ -135,7 +159,7 @@ pub fn ChartMenu(
 
 fn off_screen(charts: &[Chart], style: &Style) -> Option<HtmlCanvasElement> {
     let canvas = canvas::new_canvas()?;
-    canvas::paint(&canvas, charts, EXPORT, EXPORT_RATIO, style);
+    canvas::paint(&canvas, charts, EXPORT, EXPORT_RATIO, style, Sheet::Both);
     canvas::fill_background(&canvas, style);
     Some(canvas)
 }

@@ -75,6 +75,7 @@ pub fn NumberField(
     disabled: Signal<bool>,
 ) -> impl IntoView {
     let lab = use_lab();
+    let (told, told_limits) = (lab.told(value), lab.told(limits));
     let draft = RwSignal::new(None::<String>);
     let refused = RwSignal::new(false);
     let style = move || lab.number_style();
@@ -122,7 +123,7 @@ pub fn NumberField(
     };
     let problem = move || {
         refused.get().then(|| {
-            let (min, max) = limits.get();
+            let (min, max) = told_limits.get();
             let lowest = if smallest > 0.0 { smallest } else { min };
             let text = tr!(lab, field.allowed, min = show(lowest), max = show(max));
             if smallest > 0.0 { format!("± {text}") } else { text }
@@ -138,7 +139,7 @@ pub fn NumberField(
             aria-label=name
             aria-invalid=move || (refused.get() && draft.get().is_some()).then(|| "true".to_owned())
             aria-describedby=move || refused.get().then(|| format!("{id}-problem"))
-            prop:value=move || draft.get().unwrap_or_else(|| show(value.get()))
+            prop:value=move || draft.get().unwrap_or_else(|| show(told.get()))
             disabled=disabled
             on:input=handler(on_input)
             on:keydown=handler(on_key)
@@ -192,9 +193,10 @@ pub fn SliderField(
     disabled: Signal<bool>,
 ) -> impl IntoView {
     let lab = use_lab();
+    let (told, told_travel) = (lab.told(value), lab.told(travel));
     let position = move || {
-        let (min, max) = travel.get();
-        scale.position(value.get(), min, max)
+        let (min, max) = told_travel.get();
+        scale.position(told.get(), min, max)
     };
     let on_input = move |event| {
         let (min, max) = travel.get_untracked();
@@ -204,12 +206,12 @@ pub fn SliderField(
         }
     };
     let range = move || match scale {
-        Scale::Linear(step) => (travel.get().0, travel.get().1, step),
+        Scale::Linear(step) => (told_travel.get().0, told_travel.get().1, step),
         Scale::Logarithmic => (0.0, POSITIONS, 1.0),
     };
     let spoken = move || {
         let style = lab.number_style();
-        let number = digits.map_or_else(|| style.significant(value.get(), 3), |d| style.fixed(value.get(), d));
+        let number = digits.map_or_else(|| style.significant(told.get(), 3), |d| style.fixed(told.get(), d));
         format!("{number} {}", unit.get())
     };
     view! {

@@ -4,6 +4,8 @@ use leptos::prelude::*;
 use leptos::wasm_bindgen::JsCast;
 use web_sys::Element;
 
+use crate::app::lab::use_lab;
+
 /// Where a handle is dragged to (CSS px).
 #[derive(Clone, Copy, Debug)]
 pub struct Drag {
@@ -88,6 +90,8 @@ pub fn Handle(
     /// What is seen of it, about the origin, as SVG.
     look: &'static str,
 ) -> impl IntoView {
+    let lab = use_lab();
+    let (value, limits, spoken) = (lab.told(value), lab.told(limits), lab.told(spoken));
     let grabbed_at = StoredValue::new(None::<(f64, f64)>);
     let position = |event: &PointerEvent| (f64::from(event.client_x()), f64::from(event.client_y()));
     let on_down = move |event: PointerEvent| {
