@@ -35,6 +35,8 @@ pub struct Step {
 /// A step as a card. One function for all, so that it is compiled once.
 pub fn card(step: Step) -> AnyView {
     let Step { name, number, title, toolbar, picture, frames, place, overlay, settings, verdict, below } = step;
+    // Read in three places, worked out once.
+    let verdict = Memo::new(move |_| verdict.get());
     let summary = Signal::derive(move || verdict.get().1.replace("**", ""));
     let class = Signal::derive(move || if verdict.get().0 { "verdict" } else { "verdict warm" }.to_owned());
     let text = Signal::derive(move || rich(&verdict.get().1));

@@ -56,7 +56,7 @@ pub fn response(session: Session, window: Signal<(f64, f64)>) -> Picture {
                     .extend(comparison.iter().map(|comparison| drawn(&comparison.response.trace, Pen::Dotted, false)));
                 records.push(drawn(&response.trace, Pen::Solid, false));
             }
-            let references = session.charts.setup.with(|s| s.response.references);
+            let references = session.charts.setup.with_untracked(|s| s.response.references);
             loops(session, &records, window.get(), Some(references), show);
         });
     };
@@ -82,8 +82,11 @@ fn loops(
     show: &mut dyn FnMut(&[figure::Chart]),
 ) {
     let lab = session.lab;
-    let unit = session.charts.setup.with(|s| time_unit(&s.plant));
-    let in_volts = session.charts.setup.with(|s| matches!(s.plant, TuningPlant::QuadrupleTank { .. }));
+    // Records follow from the setup, and come anew with all of it that matters here.
+    let (unit, in_volts) = session
+        .charts
+        .setup
+        .with_untracked(|s| (time_unit(&s.plant), matches!(s.plant, TuningPlant::QuadrupleTank { .. })));
     let volts = if in_volts { " (V)" } else { "" };
     let time = tr!(lab, relay.axis_time, unit = unit).to_string();
     let (output, input) = (tr!(lab, relay.axis_output), tr!(lab, relay.axis_input));

@@ -189,12 +189,15 @@ fn sentence(session: Session) -> (bool, String) {
     let chosen = &design.roots[(root - 1).min(1)];
     let style = lab.number_style();
     let mut text = match chosen.stability {
-        LoopStability::Stable => {
-            let distance = style.significant(chosen.margins.distance, 3);
-            let degrees = chosen.margins.phase.map_or_else(|| "–".to_owned(), |p| style.fixed(p.to_degrees(), 0));
-            let gain = chosen.margins.gain_up.map_or_else(|| "∞".to_owned(), |g| style.significant(g, 3));
+        LoopStability::Stable => session.words.study.with(|study| {
+            let Ok(margins) = study.as_ref().as_ref().map_err(|&e| e).and_then(|study| study.margins(chosen)) else {
+                return String::new();
+            };
+            let distance = style.significant(margins.distance, 3);
+            let degrees = margins.phase.map_or_else(|| "–".to_owned(), |p| style.fixed(p.to_degrees(), 0));
+            let gain = margins.gain_up.map_or_else(|| "∞".to_owned(), |g| style.significant(g, 3));
             tr!(lab, relay.stable, distance = distance, degrees = degrees, gain = gain).to_string()
-        }
+        }),
         LoopStability::Unstable { poles } => tr!(lab, relay.unstable, poles = poles).to_string(),
         LoopStability::Marginal { .. } => tr!(lab, relay.marginal).to_owned(),
     };

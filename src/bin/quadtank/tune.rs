@@ -9,7 +9,7 @@ use quadtank::figure::{
 };
 use quadtank::interaction::niederlinski;
 use quadtank::linear::{Closure, Complex, Loci, LoopStability};
-use quadtank::scenario::tuning::{DesignRoot, Designed, Tested, Tuning, TuningSetup, record_to_csv, tune};
+use quadtank::scenario::tuning::{DesignRoot, Designed, Study, Tested, Tuning, TuningSetup, record_to_csv, tune};
 use quadtank::sim::{Halt, LoopTrace, StepFigures};
 use quadtank::tuning::{
     CurveDistance, GainLimit, RelayReading, RelayVerdict, TestAndSettings, TuningError, dynamic_relative_gain,
@@ -81,7 +81,7 @@ fn limit(limit: &GainLimit) -> Value {
 /// What test and design find.
 pub fn report(setup: &TuningSetup) -> Result<Value, TuningError> {
     let found = tune(setup)?;
-    let design = found.design.as_ref().map(|design| designed(design, setup));
+    let design = found.design.as_ref().map(|design| designed(&found.study, design, setup)).transpose()?;
     Ok(json!({ "test": tested(&found.test), "design": design }))
 }
 
@@ -151,35 +151,37 @@ fn isa(pid: IsaPid) -> Value {
     json!({ "gain": pid.gain, "integral_time": integral_time, "derivative_time": pid.derivative_time })
 }
 
-fn designed(design: &Designed, setup: &TuningSetup) -> Value {
-    json!({
+fn designed(study: &Study, design: &Designed, setup: &TuningSetup) -> Result<Value, TuningError> {
+    let [one, two] = &design.roots;
+    Ok(json!({
         "frequency": design.frequency,
         "g": rows(|row, column| complex(design.g[(row, column)])),
         "dynamic_relative_gain_11": complex(dynamic_relative_gain(&design.g)),
-        "roots": design.roots.each_ref().map(root),
+        "roots": [root(study, one)?, root(study, two)?],
         "chosen": setup.design.root,
         "figures": design.response.figures.map(figures),
         "response_halted": design.response.trace.halt.map(halt),
-    })
+    }))
 }
 
-fn root(root: &DesignRoot) -> Value {
+fn root(study: &Study, root: &DesignRoot) -> Result<Value, TuningError> {
+    let margins = study.margins(root)?;
     let gains = |pid: ParallelPid| json!({ "kp": pid.proportional, "ki": pid.integral, "kd": pid.derivative });
     let stability = match root.stability {
         LoopStability::Stable => json!({ "stable": true }),
         LoopStability::Unstable { poles } => json!({ "stable": false, "right_half_plane_poles": poles }),
         LoopStability::Marginal { frequency } => json!({ "stable": false, "marginal_at": frequency }),
     };
-    json!({
+    Ok(json!({
         "controllers": root.controllers.map(gains),
         "warnings": root.warnings,
         "stability": stability,
-        "distance_from_minus_one": root.margins.distance,
-        "gain_margin": root.margins.gain_up,
-        "lower_gain_margin": root.margins.gain_down,
-        "phase_margin_rad": root.margins.phase,
+        "distance_from_minus_one": margins.distance,
+        "gain_margin": margins.gain_up,
+        "lower_gain_margin": margins.gain_down,
+        "phase_margin_rad": margins.phase,
         "closure": match root.closure { Closure::Separate => "separate", Closure::Joint => "joint" },
-    })
+    }))
 }
 
 fn figures(of: StepFigures) -> Value {

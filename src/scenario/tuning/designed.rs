@@ -42,8 +42,6 @@ pub struct DesignRoot {
     pub warnings: Vec<PlacementWarning>,
     /// Whether the loop is stable.
     pub stability: LoopStability,
-    /// How far from −1.
-    pub margins: Margins,
     /// How its loci close.
     pub closure: Closure,
 }
@@ -105,9 +103,8 @@ impl Study {
         let chosen = if spec.root == 2 { two.controllers } else { one.controllers };
         let root = |controllers: [ParallelPid; 2], warnings: Vec<PlacementWarning>| {
             let design = Design::new(&self.plant, PidMatrix::decentralised(controllers))?;
-            let margins = design.margins(&design.loci());
             let (stability, closure) = (design.stability(), design.closure());
-            Ok::<_, TuningError>(DesignRoot { controllers, warnings, stability, margins, closure })
+            Ok::<_, TuningError>(DesignRoot { controllers, warnings, stability, closure })
         };
         let roots = [root(one.controllers, one.warnings)?, root(two.controllers, two.warnings)?];
         let proportional = critical_gains.map(|proportional| ParallelPid { proportional, ..ParallelPid::default() });
@@ -121,6 +118,16 @@ impl Study {
         response.is_bounded &= stable || spec.decoupler != DecouplerSpec::None;
         let comparison = self.comparison(setup, critical_gains, frequency)?;
         Ok(Some(Designed { critical_gains, frequency, g, roots, loci, response, comparison }))
+    }
+
+    /// How far from −1 the loci stay with a root. Apart from [`Study::design`], because it takes as long as the rest of it
+    /// and only numbers ask for it.
+    ///
+    /// # Errors
+    /// What is wrong with the plant.
+    pub fn margins(&self, root: &DesignRoot) -> Result<Margins, TuningError> {
+        let design = Design::new(&self.plant, PidMatrix::decentralised(root.controllers))?;
+        Ok(design.margins(&design.loci()))
     }
 
     /// The response of the session with these controllers and its decoupler.
