@@ -310,6 +310,16 @@ fn cases_lists_every_published_case_and_tune_gives_its_gains() {
     }
     assert_eq!(root["stability"]["stable"], json!(true));
     assert_eq!(report["test"]["reading"]["verdict"], json!("unimodal"));
+    // G(jω) from a sine and the relays is that of the model.
+    for (measured, exact) in [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(i, j)| {
+        let of = |name: &str| report["test"][name][i][j].clone();
+        (of("recovered_g"), of("exact_g"))
+    }) {
+        for part in ["re", "im"] {
+            let (measured, exact) = (measured[part].as_f64().unwrap(), exact[part].as_f64().unwrap());
+            assert!((measured - exact).abs() < 0.02, "{measured} {exact}");
+        }
+    }
     let unknown = run(&["cases", "table-99-row-1"]);
     assert_eq!(unknown.status.code(), Some(2));
     assert!(stderr(&unknown).contains("table-99-row-1"));
@@ -364,12 +374,16 @@ fn a_single_test_finds_a_point_and_the_nonlinear_tank_swings() {
     let test = &mut session["tuning"]["test"];
     test["kind"] = json!("single");
     test["behind"] = json!("integrator");
-    let found = report(&session)["test"]["found"].clone();
+    let single = report(&session)["test"].clone();
+    let found = single["found"].clone();
     // 0.5/((0.1 s + 1)² (0.2 s + 1)²) has −90° where 0.3 ω = 1 − 0.02 ω².
     let frequency = (0.17_f64.sqrt() - 0.3) / 0.04;
     assert_relative_eq!(found["frequency"].as_f64().unwrap(), frequency, max_relative = 0.02);
     let (re, im) = (found["response"]["re"].as_f64().unwrap(), found["response"]["im"].as_f64().unwrap());
     assert_relative_eq!(found["modulus"].as_f64().unwrap(), re.hypot(im), max_relative = 0.05);
+    let (cycle, read) = (&single["exact_limit_cycle"], &single["reading"]["oscillation"]);
+    assert_eq!(cycle["stable"], json!(true));
+    assert_relative_eq!(cycle["period"].as_f64().unwrap(), read["period"].as_f64().unwrap(), max_relative = 1e-3);
 
     // P+ with the swapped pairing, and hysteresis instead of a dead time.
     let tuning = &mut session["tuning"];

@@ -122,7 +122,13 @@ impl Lab {
 
     /// A value as the page shows it: it changes with the words, not in every frame. Handlers read the value itself.
     pub fn told<T: Clone + Send + Sync + 'static>(self, value: Signal<T>) -> Signal<T> {
+        self.told_or(Trigger::new(), value)
+    }
+
+    /// The same, and at once when the control that shows it is `moved` itself.
+    pub fn told_or<T: Clone + Send + Sync + 'static>(self, moved: Trigger, value: Signal<T>) -> Signal<T> {
         Signal::derive(move || {
+            moved.track();
             self.telling.track();
             self.language.track();
             value.get_untracked()

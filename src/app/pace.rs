@@ -41,9 +41,12 @@ impl Pace {
         let (stopwatch, compute, tell) = (Stopwatch::default(), Rc::new(compute), Rc::new(tell));
         let backstage = StoredValue::new_local(Backstage { stopwatch, compute, tell, next: None, told: None });
         let pace = Self { backstage };
-        Effect::new(move || {
+        // The document as it stands is computed already.
+        Effect::new(move |known: Option<()>| {
             document.track();
-            pace.request_frame();
+            if known.is_some() {
+                pace.request_frame();
+            }
         });
     }
 

@@ -56,8 +56,8 @@ const IN_TIME_MS: f64 = 1000.0 / 60.0;
 /// Between two changes of the words while the hand moves on (ms): where frames are in time, and where they are late.
 /// Telling costs a frame or so; nobody reads numbers that change more often.
 const BETWEEN_WORDS_MS: [f64; 2] = [50.0, 1000.0];
-/// The least time without a change that counts as a pause of the hand (ms); it is two frames where frames take longer.
-const LEAST_PAUSE_MS: f64 = 40.0;
+/// How long nothing must change for a pause of the hand (ms): two frames, within these limits.
+const PAUSE_MS: (f64, f64) = (40.0, 200.0);
 
 /// How many entries are kept before they are dropped, so that a long lecture does not fill the memory.
 const KEPT: u32 = 4000;
@@ -94,7 +94,7 @@ impl Stopwatch {
     /// Words that have to wait come when nothing has changed for so long (ms).
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a short time")]
     pub fn pause_ms(&self) -> u32 {
-        (2.0 * self.frame_ms).max(LEAST_PAUSE_MS) as u32
+        (2.0 * self.frame_ms).clamp(PAUSE_MS.0, PAUSE_MS.1) as u32
     }
 
     /// Whether words may follow the charts at once.

@@ -3,9 +3,12 @@
 use nalgebra::Matrix2;
 
 use crate::linear::Complex;
+use crate::scalar::larger;
 
 /// The derivative filter is this many times quicker than the derivative time.
 const FILTER: f64 = 100.0;
+/// Rounding of `4 Td/Ti` around 1, where rules like to be.
+const EQUAL: f64 = 1e-12;
 
 /// A parallel PID controller `kp + ki/s + kd s` (Campestrini 2006, §5). Times are in the unit of the plant.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -130,10 +133,10 @@ impl SeriesPid {
     /// The same controller in series; `None` for `Ti < 4 Td`, whose zeros are complex. The longer of both times is Ti′.
     pub fn from_isa(isa: IsaPid) -> Option<Self> {
         let discriminant = 1.0 - 4.0 * isa.derivative_time / isa.integral_time;
-        if !(discriminant >= 0.0 && isa.integral_time.is_finite()) {
+        if !(discriminant >= -EQUAL && isa.integral_time.is_finite()) {
             return None;
         }
-        let integral_time = isa.integral_time * 0.5 * (1.0 + discriminant.sqrt());
+        let integral_time = isa.integral_time * 0.5 * (1.0 + larger(discriminant, 0.0).sqrt());
         let derivative_time = isa.integral_time - integral_time;
         Some(Self { gain: isa.gain * integral_time / isa.integral_time, integral_time, derivative_time })
     }
@@ -246,6 +249,13 @@ mod tests {
         assert_relative_eq!(back.derivative_time, 1.25, max_relative = 1e-14);
         assert_relative_eq!(back.gain, 2.0, max_relative = 1e-14);
         assert_eq!(SeriesPid::from_isa(IsaPid { gain: 1.0, integral_time: 3.9, derivative_time: 1.0 }), None);
+        // Ti = 4 Td, as rules have it, in any rounding: both times of the series form are half of Ti.
+        for k in 1..1000 {
+            let derivative_time = f64::from(k) * 0.037;
+            let pid = ParallelPid::from(IsaPid { gain: 0.3, integral_time: 4.0 * derivative_time, derivative_time });
+            let series = IsaPid::from_parallel(pid).and_then(SeriesPid::from_isa).unwrap();
+            assert_relative_eq!(series.derivative_time, 2.0 * derivative_time, max_relative = 1e-4);
+        }
         let again = IsaPid::from_parallel(ParallelPid::from(isa)).unwrap();
         assert_relative_eq!(again.integral_time, isa.integral_time, max_relative = 1e-14);
     }

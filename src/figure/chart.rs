@@ -236,6 +236,8 @@ pub enum Shape {
     Point,
     /// A large disc that can be dragged.
     Handle,
+    /// | (a switch among many).
+    Tick,
 }
 
 /// A word at a point.

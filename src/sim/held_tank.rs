@@ -2,6 +2,7 @@
 
 use crate::control::Pairing;
 use crate::plant::{Disturbance, OperatingPoint, QuadrupleTank};
+use crate::scalar::{larger, smaller};
 
 use super::integrate::{Hydraulics, Watch};
 use super::two_loops::HeldPlant;
@@ -51,13 +52,15 @@ impl HeldPlant for HeldTank<'_> {
         self.signals(&self.water)
     }
 
-    fn set_inputs(&mut self, inputs: [f64; 2]) {
-        let inputs = self.pairing.by_pump(inputs);
-        let voltage = [0, 1].map(|i| {
+    fn set_inputs(&mut self, inputs: [f64; 2]) -> [f64; 2] {
+        let wanted = self.pairing.by_pump(inputs);
+        let rest = self.op.pump_voltage;
+        let taken = [0, 1].map(|i| {
             let pump = &self.plant.pumps[i];
-            (self.op.pump_voltage[i] + inputs[i]).max(pump.voltage_min).min(pump.voltage_max)
+            smaller(larger(wanted[i], pump.voltage_min - rest[i]), pump.voltage_max - rest[i])
         });
-        self.water.set_inputs(self.plant, &voltage, &Disturbance::default());
+        self.water.set_inputs(self.plant, &[rest[0] + taken[0], rest[1] + taken[1]], &Disturbance::default());
+        self.pairing.by_loop(taken)
     }
 
     fn quiet(&self) -> f64 {
@@ -84,7 +87,7 @@ mod tests {
     use approx::assert_relative_eq;
 
     use super::*;
-    use crate::control::{PidMatrix, Relay};
+    use crate::control::{ParallelPid, PidMatrix, Relay};
     use crate::plant::PresetId;
     use crate::sim::{TwoLoops, run_two_loops};
 
@@ -105,6 +108,28 @@ mod tests {
         for i in 0..2 {
             assert_relative_eq!(tank.outputs()[i], 1e-4 * gain[(i, 0)], max_relative = 1e-3);
         }
+    }
+
+    #[test]
+    fn a_record_shows_what_the_pumps_took_not_what_was_asked_of_them() {
+        let preset = PresetId::CocotaNonMinimumPhase.preset();
+        let op = preset.plant.free_equilibrium(preset.pump_voltage);
+        let limits = preset.plant.pumps.map(|pump| (pump.voltage_min, pump.voltage_max));
+        let pid = ParallelPid { proportional: 1e3, ..ParallelPid::default() };
+        let loops = TwoLoops {
+            relays: [None; 2],
+            controllers: PidMatrix::decentralised([pid, ParallelPid { proportional: 1e-3, ..pid }]),
+            references: [1.0, 0.0],
+            release: 0.0,
+            duration: 300.0,
+            step: 1.0,
+        };
+        let trace = run_two_loops(&mut HeldTank::new(&preset.plant, &op, Pairing::Swapped), &loops);
+        assert_eq!(trace.limited, [true, false]);
+        // Loop 1 drives pump 2.
+        let (low, high) = (limits[1].0 - op.pump_voltage[1], limits[1].1 - op.pump_voltage[1]);
+        assert_eq!(trace.inputs[0][0], high);
+        assert!(trace.inputs[0].iter().all(|u| (low..=high).contains(u)));
     }
 
     #[test]

@@ -8,8 +8,8 @@ use crate::scalar::root;
 pub trait HeldPlant {
     /// Both outputs now.
     fn outputs(&self) -> [f64; 2];
-    /// Both inputs from now on.
-    fn set_inputs(&mut self, inputs: [f64; 2]);
+    /// Both inputs from now on. Gives back what the plant takes of them: pumps have limits.
+    fn set_inputs(&mut self, inputs: [f64; 2]) -> [f64; 2];
     /// How long the outputs are smooth if no input changes.
     fn quiet(&self) -> f64;
     /// Both outputs `duration` from now, at most [`quiet`](Self::quiet).
@@ -25,8 +25,9 @@ impl HeldPlant for DelayedPlant {
         self.outputs()
     }
 
-    fn set_inputs(&mut self, inputs: [f64; 2]) {
+    fn set_inputs(&mut self, inputs: [f64; 2]) -> [f64; 2] {
         self.set_inputs(inputs);
+        inputs
     }
 
     fn quiet(&self) -> f64 {
@@ -100,8 +101,10 @@ pub enum Halt {
 pub struct LoopTrace {
     /// Times of the rows.
     pub time: Vec<f64>,
-    /// Inputs from the rows on.
+    /// Inputs from the rows on, as the plant took them.
     pub inputs: [Vec<f64>; 2],
+    /// Whether the plant ever took less of an input than was asked for.
+    pub limited: [bool; 2],
     /// Outputs at the rows.
     pub outputs: [Vec<f64>; 2],
     /// When each relay switched, and whether its error had become positive.
@@ -178,10 +181,12 @@ impl<'a, P: HeldPlant> Run<'a, P> {
 
     /// Sends what controllers and relays want to the plant.
     fn act(&mut self) {
-        for i in 0..2 {
-            self.inputs[i] = self.held[i] + self.loops.relays[i].map_or(0.0, |relay| relay.output(self.positive[i]));
+        let relay = |i: usize| self.loops.relays[i].map_or(0.0, |relay| relay.output(self.positive[i]));
+        let wanted = [self.held[0] + relay(0), self.held[1] + relay(1)];
+        self.inputs = self.plant.set_inputs(wanted);
+        for ((limited, taken), wanted) in self.trace.limited.iter_mut().zip(self.inputs).zip(wanted) {
+            *limited |= taken != wanted;
         }
-        self.plant.set_inputs(self.inputs);
     }
 
     fn row(&mut self) {

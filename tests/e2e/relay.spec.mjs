@@ -193,6 +193,38 @@ test('a change that comes while another is painted counts as untold until its wo
   expect(told).toBe(await lab.text('critical-point'));
 });
 
+test('what is folded away is worked out when it is opened', async ({ lab }) => {
+  await lab.open(BENCH);
+  await lab.id('test-details').click();
+  const rows = async (id) => {
+    const table = lab.id(id).locator('xpath=../div/table');
+    return (await table.locator('tbody tr').allInnerTexts()).map((row) => row.replaceAll('\u00a0', ' ').split('\t'));
+  };
+  // G(jω) at the frequency of the test, recovered from a sine and the relays: the model within 1 %.
+  await expect.poll(async () => (await rows('test-details')).length).toBe(4);
+  for (const [, ...found] of await rows('test-details')) {
+    const [measured, exact] = found.map((text) => {
+      const [re, sign, im] = text.replaceAll('−', '-').replace('j', '').split(' ');
+      return [Number(re), Number(sign + im)];
+    });
+    const off = Math.hypot(measured[0] - exact[0], measured[1] - exact[1]);
+    expect(off).toBeLessThan(0.01 * Math.hypot(...exact));
+  }
+  // Of tests of one loop there is nothing to say.
+  await lab.id('test-single').click();
+  await lab.settle();
+  expect(await rows('test-details')).toEqual([]);
+
+  // K Ti Td of the ISA form are kp, kp/ki, kd/kp of the table above; PI has the same series form.
+  await lab.id('gains-forms').click();
+  await expect.poll(async () => (await rows('gains-forms')).length).toBe(4);
+  const [first] = await rows('gains-forms');
+  const gains = (await lab.id('gains').locator('tbody tr').first().locator('td').allInnerTexts()).map(Number);
+  expect(Number(first[1])).toBeCloseTo(gains[0], 3);
+  expect(Number(first[2]) / (gains[0] / gains[1])).toBeCloseTo(1, 2);
+  expect(first.slice(4)).toEqual(first.slice(1, 4));
+});
+
 test('every kind of test says what it found', async ({ lab }) => {
   await lab.open(BENCH);
   await choose(lab, 'plant', 'process-two');

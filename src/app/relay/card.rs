@@ -28,8 +28,8 @@ pub struct Step {
     pub settings: AnyView,
     /// What came out, and whether all is well.
     pub verdict: Signal<(bool, String)>,
-    /// What stands below.
-    pub below: AnyView,
+    /// What is folded away below.
+    pub below: Vec<AnyView>,
 }
 
 /// A step as a card. One function for all, so that it is compiled once.
@@ -57,7 +57,7 @@ pub fn card(step: Step) -> AnyView {
                 <div class="settings">{settings}</div>
             </div>
             <div class=class role="status" data-testid=format!("{name}-verdict")><p inner_html=text></p></div>
-            {below}
+            <div class="folded">{below}</div>
         </section>
     }
     .into_any()

@@ -59,7 +59,7 @@ pub fn CurveCard() -> impl IntoView {
         overlay: overlay(session, frames, chosen),
         settings: settings.into_any(),
         verdict: Signal::derive(move || sentence(session)),
-        below: ().into_any(),
+        below: Vec::new(),
     })
 }
 

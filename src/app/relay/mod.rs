@@ -3,6 +3,7 @@
 mod card;
 mod controls;
 mod curve;
+mod details;
 mod errors;
 mod pictures;
 mod placement;

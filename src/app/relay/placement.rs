@@ -4,6 +4,7 @@ use leptos::prelude::*;
 
 use super::card::{Step, card, figures, hideable, remark};
 use super::controls::{Knob, choice, knob, segmented, symbol};
+use super::details;
 use super::errors;
 use super::pictures::{self, short_name};
 use super::session::{Session, use_session};
@@ -39,7 +40,7 @@ pub fn PlacementCard() -> impl IntoView {
         overlay: view! { <svg class="over"><TargetHandle frames /></svg> }.into_any(),
         settings: settings(session),
         verdict: Signal::derive(move || sentence(session)),
-        below: ().into_any(),
+        below: vec![details::of_controllers(session)],
     })
 }
 

@@ -55,7 +55,7 @@ pub fn ResponseCard() -> impl IntoView {
         overlay: surface("response-surface", axis, frames, label, values),
         settings: settings(session),
         verdict: Signal::derive(move || sentence(session)),
-        below: view! { <DataTable picture=picture.clone() id="response-table" /> }.into_any(),
+        below: vec![view! { <DataTable picture=picture.clone() id="response-table" /> }.into_any()],
         picture,
     })
 }
@@ -187,6 +187,9 @@ fn sentence(session: Session) -> (bool, String) {
     };
     if decoupled {
         text = text + " " + tr!(lab, relay.decoupled);
+    }
+    if design.response.trace.limited.contains(&true) {
+        text = text + " " + tr!(lab, relay.pump_limit);
     }
     if let Some(comparison) = &design.comparison {
         let stable = comparison.stability == LoopStability::Stable;

@@ -4,6 +4,7 @@ use leptos::prelude::*;
 
 use super::card::{Step, card, figures, hideable};
 use super::controls::{Knob, choice, knob, segmented};
+use super::details;
 use super::errors;
 use super::pictures::{self, record_of, short_name};
 use super::readout::{readout, surface};
@@ -53,7 +54,10 @@ pub fn TestCard() -> impl IntoView {
         overlay: surface("test-surface", axis, frames, label, values),
         settings: settings(session),
         verdict,
-        below: view! { <DataTable picture=picture.clone() id="test-table" /> }.into_any(),
+        below: vec![
+            view! { <DataTable picture=picture.clone() id="test-table" /> }.into_any(),
+            details::of_test(session),
+        ],
         picture,
     })
 }

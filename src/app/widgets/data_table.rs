@@ -1,7 +1,7 @@
-use super::handler;
 use leptos::prelude::*;
 
 use super::Picture;
+use super::folded::folded;
 use super::html::{cells, element, escape, headings};
 use crate::app::format::NumberStyle;
 use crate::app::lab::use_lab;
@@ -13,7 +13,7 @@ const ROWS: usize = 25;
 /// Significant digits of its numbers.
 const DIGITS: usize = 4;
 
-/// The curves of a picture as numbers, for those who do not see it; computed only while it is open.
+/// The curves of a picture as numbers, for those who do not see it.
 #[component]
 pub fn DataTable(
     /// The charts.
@@ -22,22 +22,15 @@ pub fn DataTable(
     id: &'static str,
 ) -> impl IntoView {
     let lab = use_lab();
-    let open = RwSignal::new(false);
-    let content = Signal::derive(move || {
-        if !open.get() {
-            return String::new();
-        }
-        let caption = element("caption", "class=\"visually-hidden\"", &escape(tr!(lab, chart.table_caption)));
-        caption + &rows(&picture.visit(|charts| table(charts, ROWS)), lab.number_style())
-    });
-    view! {
-        <details class="more" on:toggle=handler(move |_| open.update(|o| *o = !*o))>
-            <summary data-testid=id>{say!(lab, chart.table)}</summary>
-            <div class="scroll" tabindex="0" role="region" aria-label=say!(lab, chart.table_caption)>
-                <table class="plain" inner_html=content></table>
-            </div>
-        </details>
-    }
+    folded(
+        id,
+        say!(lab, chart.table),
+        say!(lab, chart.table_caption),
+        Box::new(move || {
+            let caption = element("caption", "class=\"visually-hidden\"", &escape(tr!(lab, chart.table_caption)));
+            caption + &rows(&picture.visit(|charts| table(charts, ROWS)), lab.number_style())
+        }),
+    )
 }
 
 fn rows(table: &Table, style: NumberStyle) -> String {

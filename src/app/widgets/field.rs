@@ -73,9 +73,12 @@ pub fn NumberField(
     /// Whether the field is locked.
     #[prop(into)]
     disabled: Signal<bool>,
+    /// Tells that the value was changed here, or by the slider beside it.
+    #[prop(default = Trigger::new())]
+    moved: Trigger,
 ) -> impl IntoView {
     let lab = use_lab();
-    let (told, told_limits) = (lab.told(value), lab.told(limits));
+    let (told, told_limits) = (lab.told_or(moved, value), lab.told(limits));
     let draft = RwSignal::new(None::<String>);
     let refused = RwSignal::new(false);
     let style = move || lab.number_style();
@@ -89,6 +92,7 @@ pub fn NumberField(
         refused.set(!fits);
         if fits {
             on_change.run(v);
+            moved.notify();
         }
         fits
     };
@@ -193,7 +197,8 @@ pub fn SliderField(
     disabled: Signal<bool>,
 ) -> impl IntoView {
     let lab = use_lab();
-    let (told, told_travel) = (lab.told(value), lab.told(travel));
+    let moved = Trigger::new();
+    let (told, told_travel) = (lab.told_or(moved, value), lab.told(travel));
     let position = move || {
         let (min, max) = told_travel.get();
         scale.position(told.get(), min, max)
@@ -203,6 +208,7 @@ pub fn SliderField(
         if let Some(at) = NumberStyle::parse(&event_target_value(&event)) {
             let (lowest, highest) = limits.unwrap_or(travel).get_untracked();
             on_change.run(scale.value(at, min, max, value.get_untracked()).clamp(lowest, highest));
+            moved.notify();
         }
     };
     let range = move || match scale {
@@ -230,7 +236,7 @@ pub fn SliderField(
                 disabled=disabled
                 on:input=handler(on_input)
             />
-            <NumberField id=id.1 name value on_change limits=limits.unwrap_or(travel) scale digits smallest disabled />
+            <NumberField id=id.1 name value on_change limits=limits.unwrap_or(travel) scale digits smallest disabled moved />
             <span class="unit">{unit}</span>
         </div>
     }

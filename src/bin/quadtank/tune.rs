@@ -9,7 +9,9 @@ use quadtank::figure::{
 };
 use quadtank::interaction::niederlinski;
 use quadtank::linear::{Closure, Complex, Loci, LoopStability};
-use quadtank::scenario::tuning::{DesignRoot, Designed, Study, Tested, Tuning, TuningSetup, record_to_csv, tune};
+use quadtank::scenario::tuning::{
+    DesignRoot, Designed, Study, TestSpec, Tested, Tuning, TuningSetup, record_to_csv, tune,
+};
 use quadtank::sim::{Halt, LoopTrace, StepFigures};
 use quadtank::tuning::{
     CurveDistance, GainLimit, RelayReading, RelayVerdict, TestAndSettings, TuningError, dynamic_relative_gain,
@@ -82,23 +84,38 @@ fn limit(limit: &GainLimit) -> Value {
 pub fn report(setup: &TuningSetup) -> Result<Value, TuningError> {
     let found = tune(setup)?;
     let design = found.design.as_ref().map(|design| designed(&found.study, design, setup)).transpose()?;
-    Ok(json!({ "test": tested(&found.test), "design": design }))
+    Ok(json!({ "test": tested(&found.study, &found.test, &setup.test)?, "design": design }))
 }
 
-fn tested(test: &Tested) -> Value {
-    match test {
+fn tested(study: &Study, test: &Tested, spec: &TestSpec) -> Result<Value, TuningError> {
+    Ok(match test {
         Tested::Single(test, found) => {
+            let cycle = match test.reading.oscillation {
+                Some(oscillation) => study.exact_limit_cycle(spec, oscillation.period)?,
+                None => None,
+            };
             let found = found.map(|point| {
                 json!({ "frequency": point.frequency, "modulus": point.modulus, "response": complex(point.response) })
             });
-            json!({ "kind": "single", "reading": reading(&test.reading), "found": found })
+            let cycle = cycle.map(|c| json!({ "period": c.period, "amplitude": c.amplitude, "stable": c.is_stable() }));
+            json!({
+                "kind": "single",
+                "reading": reading(&test.reading),
+                "found": found,
+                "exact_limit_cycle": cycle,
+            })
         }
-        Tested::Simultaneous(test, [by_peak, by_harmonic]) => json!({
-            "kind": "simultaneous",
-            "reading": reading(&test.reading),
-            "distance_by_peak": by_peak.map(distance),
-            "distance_by_harmonic": by_harmonic.map(distance),
-        }),
+        Tested::Simultaneous(test, [by_peak, by_harmonic]) => {
+            let recovered = test.reading.oscillation.map(|of| study.recover(&of)).transpose()?;
+            json!({
+                "kind": "simultaneous",
+                "reading": reading(&test.reading),
+                "distance_by_peak": by_peak.map(distance),
+                "distance_by_harmonic": by_harmonic.map(distance),
+                "recovered_g": recovered.map(|g| rows(|row, column| complex(g.measured[(row, column)]))),
+                "exact_g": recovered.map(|g| rows(|row, column| complex(g.exact[(row, column)]))),
+            })
+        }
         Tested::Independent(loops) => {
             let of_loop = |(test, settings): &TestAndSettings| json!({ "reading": reading(&test.reading), "settings": settings.map(isa) });
             json!({ "kind": "independent", "loops": loops.iter().map(of_loop).collect::<Vec<_>>() })
@@ -117,7 +134,7 @@ fn tested(test: &Tested) -> Value {
                 .collect();
             json!({ "kind": "sequential", "steps": steps })
         }
-    }
+    })
 }
 
 fn reading(reading: &RelayReading) -> Value {

@@ -5,10 +5,11 @@ use crate::interaction::relative_gain_array;
 use crate::linear::{Complex, DelayedPlant, LinearError, TransferMatrix};
 use crate::tuning::{
     CriticalCurve, CriticalSearch, CurveDistance, RelayTest, SequentialStep, TestAndSettings, TestTime, TuningError,
-    check_stable, distance_from_curve, frequency_range, independent_tuning, modulus_estimator, relay_test,
-    sequential_tuning, single_loop_test, with_integrator,
+    check_stable, distance_from_curve, frequency_range, independent_tuning, relay_test, sequential_tuning,
+    single_loop_test,
 };
 
+use super::details::excited;
 use super::rig::nonlinear;
 use super::{Behind, Designed, TestKind, TestSpec, TuningPlant, TuningSetup};
 
@@ -152,11 +153,7 @@ fn test(plant: &TransferMatrix, search: &CriticalSearch, setup: &TuningSetup) ->
 fn single(plant: &TransferMatrix, spec: &TestSpec, time: TestTime) -> Result<Tested, TuningError> {
     let index = spec.number - 1;
     let element = &plant.0[index][index];
-    let with = match spec.behind {
-        Behind::Nothing => element.clone(),
-        Behind::Integrator => with_integrator(element),
-        Behind::Modulus(r) => modulus_estimator(element, r)?,
-    };
+    let with = excited(plant, spec)?;
     let gain = if matches!(spec.behind, Behind::Modulus(_)) { 1.0 } else { element.dc_gain() };
     let relay = Relay {
         hysteresis: spec.hysteresis[index],

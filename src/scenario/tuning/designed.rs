@@ -4,7 +4,7 @@ use nalgebra::Matrix2;
 
 use crate::control::{ParallelPid, PidMatrix};
 use crate::interaction::{Decoupling, decoupled_paths, static_decoupler};
-use crate::linear::{Closure, Complex, DelayedPlant, Loci, LoopStability, Margins, Path};
+use crate::linear::{Closure, Complex, DelayedPlant, Loci, LoopStability, Path};
 use crate::sim::{LoopTrace, StepFigures, TwoLoops, run_two_loops};
 use crate::tuning::{
     Action, Design, GainLimit, PlacementWarning, PublishedPlant, TuningError, TuningRule, UltimatePoint,
@@ -118,16 +118,6 @@ impl Study {
         response.is_bounded &= stable || spec.decoupler != DecouplerSpec::None;
         let comparison = self.comparison(setup, critical_gains, frequency)?;
         Ok(Some(Designed { critical_gains, frequency, g, roots, loci, response, comparison }))
-    }
-
-    /// How far from −1 the loci stay with a root. Apart from [`Study::design`], because it takes as long as the rest of it
-    /// and only numbers ask for it.
-    ///
-    /// # Errors
-    /// What is wrong with the plant.
-    pub fn margins(&self, root: &DesignRoot) -> Result<Margins, TuningError> {
-        let design = Design::new(&self.plant, PidMatrix::decentralised(root.controllers))?;
-        Ok(design.margins(&design.loci()))
     }
 
     /// The response of the session with these controllers and its decoupler.

@@ -3,6 +3,7 @@
 mod answer;
 mod csv;
 mod designed;
+mod details;
 mod document;
 mod plant;
 mod printed;
@@ -13,6 +14,7 @@ mod start;
 pub use answer::{FoundPoint, Study, Tested, Tuning, tune};
 pub use csv::{curve_to_csv, loci_to_csv, record_to_csv};
 pub use designed::{Comparison, DesignRoot, Designed, StepResponse};
+pub use details::Recovered;
 pub use document::{
     Behind, CompareSpec, CriticalSpec, DecouplerSpec, DesignSpec, ResponseSpec, TestKind, TestSpec, TuningScenario,
     TuningSetup,
