@@ -236,8 +236,6 @@ pub enum Shape {
     Point,
     /// A large disc that can be dragged.
     Handle,
-    /// | (a switch among many).
-    Tick,
 }
 
 /// A word at a point.

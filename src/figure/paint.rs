@@ -226,7 +226,6 @@ impl<DB: DrawingBackend> Brush<'_, DB> {
                 self.disc((x, y), 3.6, background)?;
                 self.circle((x, y), 3.6, color, 1.5)
             }
-            Shape::Tick => self.path(&[(x, y - 4.0), (x, y + 4.0)], color, 1.0),
             Shape::Handle => {
                 self.disc((x, y), 8.0, background)?;
                 self.disc((x, y), 6.0, color)

@@ -195,9 +195,8 @@ pub struct LoopsChart<'a> {
     pub texts: [&'a str; 2],
 }
 
-/// Most switches in sight that are rings; more would hide the curve and are ticks. A record with more than the second number
-/// has to be zoomed into.
-const MOST_MARKS: [usize; 2] = [60, 400];
+/// Most marks of switches in sight: more would hide the curve, so a long record has to be zoomed into.
+const MOST_MARKS: usize = 80;
 
 /// Outputs above, inputs below.
 pub fn two_loops<'a>(spec: &LoopsChart<'a>) -> [Chart<'a>; 2] {
@@ -248,22 +247,20 @@ fn loops_chart<'a>(
     chart
 }
 
-/// A mark on the output at every instant at which its relay switched.
+/// A ring on the output at every instant at which its relay switched.
 fn switch_marks(record: &LoopsRecord, window: (f64, f64)) -> Vec<Layer<'static>> {
     let in_sight = |switches: &[(f64, bool)]| {
         let times = switches.iter().map(|&(time, _)| time);
         times.filter(|time| (window.0..=window.1).contains(time)).collect::<Vec<f64>>()
     };
     let times = record.switches.map(in_sight);
-    let shape = match times[0].len() + times[1].len() {
-        count if count <= MOST_MARKS[0] => Shape::Point,
-        count if count <= MOST_MARKS[1] => Shape::Tick,
-        _ => return Vec::new(),
-    };
+    if times[0].len() + times[1].len() > MOST_MARKS {
+        return Vec::new();
+    }
     let mark = |index: usize, time: f64| {
         let row = record.time.partition_point(|&t| t < time);
         let at = (time, *record.outputs[index].get(row)?);
-        Some(Layer::Marker(Marker { at, shape, role: Role::of_loop(index), points_beyond: false }))
+        Some(Layer::Marker(Marker { at, shape: Shape::Point, role: Role::of_loop(index), points_beyond: false }))
     };
     let marks =
         times.iter().enumerate().flat_map(|(index, times)| times.iter().filter_map(move |&time| mark(index, time)));

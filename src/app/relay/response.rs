@@ -38,7 +38,7 @@ pub fn ResponseCard() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
     let frames = RwSignal::new(Vec::<Frame>::new());
-    let axis = timeline(session.part(|s| s.response.duration));
+    let axis = timeline(session.part(|s| s.response.duration), 1.0);
     let picture = pictures::response(session, axis.window);
     let values = readout(session, axis.cursor, move |show| {
         session.words.with_design(|design| show(&design.response.trace));

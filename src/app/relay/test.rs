@@ -24,6 +24,8 @@ const KINDS: [TestKind; 4] = [TestKind::Single, TestKind::Independent, TestKind:
 const RATIOS: (f64, f64) = (0.02, 20.0);
 /// Modulus that the estimator of a point begins with.
 const FIRST_MODULUS: f64 = 0.2;
+/// Share of a record that is shown to begin with: enough to see it settle, little enough to see its switches.
+const BEGINNING: f64 = 0.25;
 const SIZES: (f64, f64) = (1e-6, 1e6);
 
 /// The relay test.
@@ -32,7 +34,7 @@ pub fn TestCard() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
     let frames = RwSignal::new(Vec::<Frame>::new());
-    let axis = timeline(session.part(|s| s.test.duration));
+    let axis = timeline(session.part(|s| s.test.duration), BEGINNING);
     let picture = pictures::test(session, axis.window);
     let verdict = Signal::derive(move || sentence(session));
     let values = readout(session, axis.cursor, move |show| {
