@@ -236,6 +236,8 @@ pub enum Shape {
     Point,
     /// A large disc that can be dragged.
     Handle,
+    /// ▸ (something outside the plot).
+    Arrow,
 }
 
 /// A word at a point.

@@ -226,6 +226,7 @@ impl<DB: DrawingBackend> Brush<'_, DB> {
                 self.disc((x, y), 3.6, background)?;
                 self.circle((x, y), 3.6, color, 1.5)
             }
+            Shape::Arrow => self.arrow((x + 4.5, y), (x + 9.0, y), color),
             Shape::Handle => {
                 self.disc((x, y), 8.0, background)?;
                 self.disc((x, y), 6.0, color)

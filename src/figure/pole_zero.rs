@@ -26,7 +26,7 @@ pub struct PoleZero<'a> {
     pub texts: PoleZeroTexts<'a>,
 }
 
-/// The words of the pole-zero chart. The legend shows those of the last three that are not empty.
+/// The words of the pole-zero chart. The legend shows those of the last four that are not empty.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct PoleZeroTexts<'a> {
     /// Name and unit of the real axis.
@@ -39,6 +39,8 @@ pub struct PoleZeroTexts<'a> {
     pub zeros: &'a str,
     /// Poles of the closed loop.
     pub closed_loop: &'a str,
+    /// What an arrow at the edge stands for; only there where there is one.
+    pub beyond: &'a str,
 }
 
 /// Poles and zeros in the s-plane, the right half tinted. The range holds all of them, except those so far out that
@@ -56,8 +58,16 @@ pub fn pole_zero(spec: &PoleZero) -> Chart<'static> {
     chart.layers.extend(spec.poles.iter().map(|&pole| mark(pole, Shape::Cross, Role::Neutral)));
     chart.layers.extend(spec.zeros.iter().map(|&zero| mark(zero, Shape::Ring, side(zero))));
     chart.layers.extend(numbers(spec, chart.x.range));
-    chart.legend = legend(&spec.texts);
+    chart.legend = legend(&spec.texts, is_beyond(spec, &chart));
     chart
+}
+
+/// Whether something is outside the axes.
+fn is_beyond(spec: &PoleZero, chart: &Chart) -> bool {
+    let within = |v: f64, (low, high): (f64, f64)| (low..=high).contains(&v);
+    let finite = |value: &&Complex<f64>| value.re.is_finite() && value.im.is_finite();
+    let all = spec.poles.iter().chain(spec.zeros).chain(spec.closed_loop).filter(finite);
+    all.into_iter().any(|value| !within(value.re, chart.x.range) || !within(value.im, chart.y.range))
 }
 
 fn side(value: Complex<f64>) -> Role {
@@ -130,13 +140,14 @@ fn number(value: Complex<f64>, decimal: char) -> String {
     format!("{real} {imaginary}j")
 }
 
-fn legend(texts: &PoleZeroTexts) -> Vec<Entry> {
+fn legend(texts: &PoleZeroTexts, beyond: bool) -> Vec<Entry> {
     let entry = |shape, role, text: &str| Entry { sample: Sample::Mark(shape), role, text: text.into() };
     let mut legend = vec![
         entry(Shape::Cross, Role::Neutral, texts.poles),
         entry(Shape::Ring, Role::MinimumPhase, texts.zeros),
         entry(Shape::Diamond, Role::ClosedLoop, texts.closed_loop),
     ];
+    legend.extend(beyond.then(|| entry(Shape::Arrow, Role::Muted, texts.beyond)));
     legend.retain(|entry| !entry.text.is_empty());
     legend
 }

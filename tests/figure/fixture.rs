@@ -90,6 +90,7 @@ pub fn s_plane(poles: &[Complex<f64>], zeros: &[Complex<f64>], closed_loop: &[Co
         poles: "poles",
         zeros: "zeros",
         closed_loop: "closed loop",
+        beyond: "further out",
     };
     let path: Vec<_> = (-10..=4).map(|k| Complex::new(f64::from(k) * 0.005, 0.0)).collect();
     pole_zero(&PoleZero { poles, zeros, zero_paths: &[path], closed_loop, decimal: '.', texts })

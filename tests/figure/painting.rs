@@ -190,6 +190,8 @@ fn far_poles_become_arrows_and_do_not_shrink_the_rest() {
     let drawn = record(&[only(&far, |layer| matches!(layer, Layer::Marker(_)))], SIZE, &STYLE);
     let arrows = drawn.iter().filter(|drawn| matches!(drawn, Drawn::Polygon { points, .. } if points.len() == 3));
     assert_eq!(arrows.count(), 2);
+    let explained = |chart: &Chart| chart.legend.iter().any(|entry| entry.text == "further out");
+    assert!(explained(&far) && !explained(&near));
 }
 
 #[test]

@@ -64,6 +64,7 @@ pub fn pole_zero(lab: Lab) -> Picture {
                     poles: tr!(lab, zeros.pole),
                     zeros: tr!(lab, zeros.zero),
                     closed_loop: tr!(lab, zeros.closed),
+                    beyond: tr!(lab, zeros.beyond),
                 },
             })]);
         });

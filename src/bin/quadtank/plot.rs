@@ -134,6 +134,7 @@ fn pole_zero(setup: &Setup, style: &Style) -> Result<String, ScenarioError> {
             poles: "poles",
             zeros: "zeros",
             closed_loop: "closed loop",
+            beyond: "further out",
         },
     });
     let size = Size { width: 720.0, height: 480.0 };
