@@ -151,7 +151,8 @@ const WAYS = [
   { way: 'slider of K1', query: '', move: dragSlider('gain1'), bars: HOME_BARS },
   { way: 'point of the valve plane', query: '', move: dragHandle('valve-handle', [0.5, 0.5], [0.25, 0.25]), bars: HOME_BARS },
   // The target stays in the third quadrant, where the source places it.
-  { way: 'target λ (both loci, two roots, response)', query: RELAY, move: dragHandle('target-handle', [0.47, 0.58], [0.06, 0.05]), bars: { 1: { paint: 16.7 } } },
+  // Twice both loci at 600 frequencies, and all else that follows from λ, within the bar of one pair of loci.
+  { way: 'target λ (both loci, two roots, response)', query: RELAY, move: dragHandle('target-handle', [0.47, 0.58], [0.06, 0.05]), bars: { 1: { compute: 3, paint: 16.7 } } },
   { way: 'ratio d2/d1 (Wood-Berry test of 400)', query: RELAY, move: dragSlider('ratio'), bars: { 1: { compute: 20 } } },
   { way: 'plant (curve of 200 directions, test, design)', query: RELAY, move: choosePlants, bars: { 1: { compute: 50 } } },
 ];
