@@ -218,6 +218,9 @@ pub fn two_loops<'a>(spec: &LoopsChart<'a>) -> [Chart<'a>; 2] {
     [outputs, inputs]
 }
 
+/// How far the outputs of a response stretch their axis, in steps: one that runs away leaves the chart instead.
+const REACH: f64 = 5.0;
+
 /// A chart of two columns of every record, from the lowest to the highest value in sight of the last one.
 fn loops_chart<'a>(
     spec: &LoopsChart<'a>,
@@ -235,6 +238,10 @@ fn loops_chart<'a>(
                 (low, high) = (smaller(low, y), larger(high, y));
             }
         }
+    }
+    let step = also.iter().fold(0.0, |step, y| larger(step, y.abs()));
+    if step > 0.0 {
+        (low, high) = (larger(low, -REACH * step), smaller(high, REACH * step));
     }
     let mut chart = Chart::new(Axis::new(spec.axes[0], spec.window), Axis::rounded(label, (low, high), 8));
     for record in spec.records {
@@ -325,6 +332,14 @@ mod tests {
         let records = [record(&t, &tall, &low, &[]), record(&t, &low, &low, &[])];
         assert!(loops(&records, (0.0, 2.0))[0].y.range.1 < 10.0);
         assert!(loops(&records, (1.5, 2.0))[0].y.range.1 < 3.0);
+    }
+
+    #[test]
+    fn a_response_that_runs_away_leaves_the_chart() {
+        let (t, wild) = ([0.0, 1.0, 2.0], [0.0, 1.0, -1e12]);
+        let records = [record(&t, &wild, &[0.0; 3], &[])];
+        let [outputs, _] = loops(&records, (0.0, 2.0));
+        assert_eq!(outputs.y.range, (-REACH, 1.0));
     }
 
     #[test]

@@ -242,6 +242,16 @@ test('every kind of test says what it found', async ({ lab }) => {
   expect(await lab.id('test-figures').locator('tbody tr').count()).toBe(1);
   await choose(lab, 'test-behind', 'integrator');
   expect(await lab.text('test-verdict')).toMatch(/at −(89|90|91)°/);
+  // A loop with negative gain has the same phase at its relay, and its own number.
+  await choose(lab, 'plant', 'wood-berry');
+  await lab.id('test-single').click();
+  await lab.settle();
+  await lab.id('test-loop2').click();
+  await lab.settle();
+  expect(await lab.text('test-verdict')).toMatch(/at −?1(7|8)\d°/);
+  expect(await lab.id('test-figures').locator('tbody th').allInnerTexts()).toEqual(['2']);
+  await choose(lab, 'test-behind', 'modulus');
+  expect(await lab.text('test-verdict')).toContain('without dead time');
   await lab.clean();
 });
 

@@ -11,6 +11,9 @@ pub fn sentence(lab: Lab, error: &TuningError) -> String {
     match *error {
         TuningError::OutOfRange { field: "target", .. } => tr!(lab, relay.error_target).to_owned(),
         TuningError::OutOfRange { field: "amplitude", .. } => tr!(lab, relay.error_amplitude).to_owned(),
+        TuningError::OutOfRange { field: "dead_time", value } => {
+            tr!(lab, relay.error_dead_time, value = number(value)).to_string()
+        }
         TuningError::OutOfRange { field, value } => {
             tr!(lab, relay.error_range, field = field, value = number(value)).to_string()
         }

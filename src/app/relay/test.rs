@@ -279,11 +279,13 @@ fn sentence(session: Session) -> (bool, String) {
             Err(error) => return (false, errors::sentence(lab, error)),
         };
         let all = readings(test);
-        let Some((_, reading, _)) = all.iter().find(|(_, reading, _)| reading.oscillation.is_none()).or(all.last())
-        else {
-            return (false, String::new());
-        };
-        let period = reading.oscillation.map_or_else(String::new, |o| style.significant(o.period, 4));
+        let shown = all.iter().find(|(_, reading, _)| reading.oscillation.is_none()).or(all.last());
+        let Some(shown @ (_, reading, _)) = shown else { return (false, String::new()) };
+        // Independent tests have a period each.
+        let read = if matches!(test, Tested::Independent(_)) { &all[..] } else { std::slice::from_ref(shown) };
+        let periods: Vec<String> =
+            read.iter().filter_map(|(_, reading, _)| Some(style.significant(reading.oscillation?.period, 4))).collect();
+        let period = periods.join(" / ");
         let (good, mut text) = match reading.verdict {
             RelayVerdict::Unimodal => (true, tr!(lab, relay.unimodal, period = period, unit = unit).to_string()),
             RelayVerdict::Multimodal { switches: [one, two] } => {
@@ -299,17 +301,20 @@ fn sentence(session: Session) -> (bool, String) {
                 Tested::Simultaneous(test, [_, by_harmonic]) => {
                     let proportional = test.reading.oscillation.is_none_or(|o| o.is_proportional());
                     let same = by_harmonic.is_none_or(|distance| distance.same_branch);
-                    if !same {
+                    let limited = test.trace.limited.contains(&true);
+                    if limited {
+                        text = text + " " + tr!(lab, relay.pump_limit);
+                    } else if !same {
                         text = text + " " + tr!(lab, relay.other_branch);
                     } else if !proportional {
                         text = text + " " + tr!(lab, relay.not_proportional);
                     }
-                    same && proportional
+                    same && proportional && !limited
                 }
                 Tested::Single(_, Some(found)) => {
-                    let (modulus, exact) = (style.significant(found.modulus, 3), found.response);
-                    let (norm, degrees) = (exact.norm(), exact.arg().to_degrees());
-                    let (norm, degrees) = (style.significant(norm, 3), style.fixed(degrees, 0));
+                    let modulus = style.significant(found.modulus, 3);
+                    let norm = style.significant(found.response.norm(), 3);
+                    let degrees = style.fixed(found.phase.to_degrees(), 0);
                     text = text + " " + &tr!(lab, relay.found_point, modulus = modulus, norm = norm, degrees = degrees);
                     true
                 }
@@ -344,8 +349,9 @@ fn table(session: Session) -> String {
         for (name, reading, settings) in readings(test) {
             let Some(oscillation) = reading.oscillation else { continue };
             for (k, of) in oscillation.loops.iter().enumerate().filter(|(_, of)| of.gain_by_peak.is_some()) {
-                let label = if name.is_empty() { (k + 1).to_string() } else { name.clone() };
-                let is_second = label.ends_with('2') || second;
+                let which = if second { 2 } else { k + 1 };
+                let label = if name.is_empty() { which.to_string() } else { name.clone() };
+                let is_second = label.ends_with('2');
                 let figures = [Some(oscillation.period), Some(of.amplitude), of.gain_by_peak, of.gain_by_harmonic];
                 let mut figures = figures.map(number).to_vec();
                 if has_settings {

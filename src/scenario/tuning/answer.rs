@@ -64,6 +64,8 @@ pub struct FoundPoint {
     pub modulus: f64,
     /// The response of the element there.
     pub response: Complex,
+    /// Its phase without the sign of the gain (rad): that which the relay finds, also in a loop with negative gain.
+    pub phase: f64,
 }
 
 /// Runs a session.
@@ -169,7 +171,9 @@ fn single(plant: &TransferMatrix, spec: &TestSpec, time: TestTime) -> Result<Tes
             Behind::Integrator => frequency / gain,
             Behind::Modulus(r) => r,
         };
-        Some(FoundPoint { frequency, modulus, response: element.at(Complex::new(0.0, frequency)) })
+        let response = element.at(Complex::new(0.0, frequency));
+        let phase = (response * element.dc_gain().signum()).arg();
+        Some(FoundPoint { frequency, modulus, response, phase })
     });
     Ok(Tested::Single(Box::new(test), found))
 }
