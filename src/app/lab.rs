@@ -122,17 +122,24 @@ impl Lab {
 
     /// A value as the page shows it: it changes with the words, not in every frame. Handlers read the value itself.
     pub fn told<T: Clone + Send + Sync + 'static>(self, value: Signal<T>) -> Signal<T> {
-        self.told_or(Trigger::new(), value)
+        Signal::derive(move || {
+            self.follow_words();
+            value.get_untracked()
+        })
     }
 
     /// The same, and at once when the control that shows it is `moved` itself.
     pub fn told_or<T: Clone + Send + Sync + 'static>(self, moved: Trigger, value: Signal<T>) -> Signal<T> {
         Signal::derive(move || {
             moved.track();
-            self.telling.track();
-            self.language.track();
+            self.follow_words();
             value.get_untracked()
         })
+    }
+
+    fn follow_words(self) {
+        self.telling.track();
+        self.language.track();
     }
 
     /// The relay-tuning bench. It is computed when it is shown for the first time and stays.

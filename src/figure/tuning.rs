@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 use super::{Anchor, Axis, Chart, Course, Entry, Field, Label, Layer, Marker, Pen, Role, Sample, Series, Shape};
 use crate::scalar::{larger, smaller};
@@ -168,6 +169,8 @@ pub fn characteristic_loci<'a>(spec: &LociChart<'a>) -> Chart<'a> {
 /// A record of two loops and how it is drawn.
 #[derive(Clone, Debug)]
 pub struct LoopsRecord<'a> {
+    /// What it is, for the legend and the table; nothing for the one that counts.
+    pub name: &'a str,
     /// Times of the rows.
     pub time: &'a [f64],
     /// Outputs.
@@ -201,7 +204,9 @@ const MOST_MARKS: usize = 80;
 /// Outputs above, inputs below.
 pub fn two_loops<'a>(spec: &LoopsChart<'a>) -> [Chart<'a>; 2] {
     let references = spec.references.unwrap_or_default();
-    let mut outputs = loops_chart(spec, spec.axes[1], |record| record.outputs, &references, Course::Straight);
+    let outputs_of: Columns = |record| (["y₁", "y₂"], record.outputs);
+    let pens = [Pen::Solid, Pen::Dotted];
+    let mut outputs = loops_chart(spec, spec.axes[1], outputs_of, &references, &pens, Course::Straight);
     for (index, y) in spec.references.into_iter().flatten().enumerate() {
         outputs.layers.push(Layer::Level { y, role: Role::of_loop(index), pen: Pen::Dashed });
     }
@@ -214,40 +219,63 @@ pub fn two_loops<'a>(spec: &LoopsChart<'a>) -> [Chart<'a>; 2] {
     outputs.legend = (0..2)
         .map(|i| Entry { sample: Sample::Line(Pen::Solid), role: Role::of_loop(i), text: spec.texts[i].to_owned() })
         .collect();
-    let inputs = loops_chart(spec, spec.axes[2], |record| record.inputs, &[], Course::Held);
+    let others = spec.records.iter().filter(|record| !record.name.is_empty());
+    outputs.legend.extend(others.map(|record| Entry {
+        sample: Sample::Line(record.pen),
+        role: Role::Muted,
+        text: record.name.to_owned(),
+    }));
+    // A kick of another controller would leave nothing to see of this one.
+    let inputs_of: Columns = |record| (["u₁", "u₂"], record.inputs);
+    let inputs = loops_chart(spec, spec.axes[2], inputs_of, &[], &[Pen::Solid], Course::Held);
     [outputs, inputs]
 }
+
+/// Two columns of a record with their symbols.
+type Columns = for<'a> fn(&LoopsRecord<'a>) -> ([&'static str; 2], [&'a [f64]; 2]);
 
 /// How far the outputs of a response stretch their axis, in steps: one that runs away leaves the chart instead.
 const REACH: f64 = 5.0;
 
-/// A chart of two columns of every record, from the lowest to the highest value in sight of the last one.
+/// The rows of a record in the window, as far as the outputs of a response stay within reach.
+fn in_sight(record: &LoopsRecord, spec: &LoopsChart) -> Range<usize> {
+    let first = record.time.partition_point(|&time| time < spec.window.0);
+    let end = record.time.partition_point(|&time| time <= spec.window.1).max(first);
+    let step = spec.references.iter().flatten().fold(0.0, |step, y| larger(step, y.abs()));
+    let away = |row: &usize| record.outputs.iter().any(|y| y.get(*row).is_none_or(|y| y.abs() > REACH * step));
+    let end = if step > 0.0 { (first..end).find(away).unwrap_or(end) } else { end };
+    first..end
+}
+
+/// A chart of two columns of every record, from the lowest to the highest value in sight of those that have these `pens`.
 fn loops_chart<'a>(
     spec: &LoopsChart<'a>,
     label: &str,
-    columns: impl Fn(&LoopsRecord<'a>) -> [&'a [f64]; 2],
+    columns: Columns,
     also: &[f64],
+    pens: &[Pen],
     course: Course,
 ) -> Chart<'a> {
     let (mut low, mut high) = also.iter().fold((0.0, 0.0), |(low, high): (f64, f64), &y| (low.min(y), high.max(y)));
-    if let Some(record) = spec.records.last() {
-        let first = record.time.partition_point(|&time| time < spec.window.0);
-        let last = record.time.partition_point(|&time| time <= spec.window.1);
-        for column in columns(record) {
-            for &y in column.get(first..last).unwrap_or_default().iter().filter(|y| y.is_finite()) {
+    for record in spec.records.iter().filter(|record| pens.contains(&record.pen)) {
+        let rows = in_sight(record, spec);
+        for column in columns(record).1 {
+            for &y in column.get(rows.clone()).unwrap_or_default().iter().filter(|y| y.is_finite()) {
                 (low, high) = (smaller(low, y), larger(high, y));
             }
         }
     }
-    let step = also.iter().fold(0.0, |step, y| larger(step, y.abs()));
-    if step > 0.0 {
-        (low, high) = (larger(low, -REACH * step), smaller(high, REACH * step));
-    }
     let mut chart = Chart::new(Axis::new(spec.axes[0], spec.window), Axis::rounded(label, (low, high), 8));
     for record in spec.records {
-        for (index, column) in columns(record).into_iter().enumerate() {
+        let (symbols, columns) = columns(record);
+        for (index, column) in columns.into_iter().enumerate() {
             let (x, y) = (record.time.into(), column.into());
-            let (name, role) = (spec.texts[index].into(), Role::of_loop(index));
+            let name = if record.name.is_empty() {
+                symbols[index].into()
+            } else {
+                format!("{} ({})", symbols[index], record.name).into()
+            };
+            let role = Role::of_loop(index);
             chart.layers.push(Layer::Line(Series { name, role, pen: record.pen, course, x, y, y_scale: 1.0 }));
         }
     }
@@ -307,7 +335,7 @@ mod tests {
     }
 
     fn record<'a>(t: &'a [f64], y: &'a [f64], u: &'a [f64], switches: &'a [(f64, bool)]) -> LoopsRecord<'a> {
-        LoopsRecord { time: t, outputs: [y, y], inputs: [u, u], switches: [switches, &[]], pen: Pen::Solid }
+        LoopsRecord { name: "", time: t, outputs: [y, y], inputs: [u, u], switches: [switches, &[]], pen: Pen::Solid }
     }
 
     fn loops<'a>(records: &'a [LoopsRecord<'a>], window: (f64, f64)) -> [Chart<'a>; 2] {
@@ -329,17 +357,33 @@ mod tests {
     #[test]
     fn what_stays_behind_does_not_set_the_axis_and_a_window_does() {
         let (t, tall, low) = ([0.0, 1.0, 2.0], [0.0, 50.0, 9.0], [0.0, 3.0, 1.0]);
-        let records = [record(&t, &tall, &low, &[]), record(&t, &low, &low, &[])];
-        assert!(loops(&records, (0.0, 2.0))[0].y.range.1 < 10.0);
+        let mut records = [record(&t, &tall, &low, &[]), record(&t, &low, &low, &[])];
+        (records[0].pen, records[0].name) = (Pen::Faded, "pinned");
+        let [outputs, inputs] = loops(&records, (0.0, 2.0));
+        assert!(outputs.y.range.1 < 10.0);
+        let names = |chart: &Chart| chart.series().map(|series| series.name.to_string()).collect::<Vec<_>>();
+        assert_eq!(names(&outputs), ["y₁ (pinned)", "y₂ (pinned)", "y₁", "y₂"]);
+        assert_eq!(names(&inputs), ["u₁ (pinned)", "u₂ (pinned)", "u₁", "u₂"]);
+        assert_eq!(outputs.legend.last().map(|entry| entry.text.as_str()), Some("pinned"));
         assert!(loops(&records, (1.5, 2.0))[0].y.range.1 < 3.0);
     }
 
     #[test]
     fn a_response_that_runs_away_leaves_the_chart() {
-        let (t, wild) = ([0.0, 1.0, 2.0], [0.0, 1.0, -1e12]);
-        let records = [record(&t, &wild, &[0.0; 3], &[])];
-        let [outputs, _] = loops(&records, (0.0, 2.0));
-        assert_eq!(outputs.y.range, (-REACH, 1.0));
+        let (t, wild) = ([0.0, 1.0, 2.0, 3.0], [0.0, 1.0, -2.0, -1e12]);
+        let records = [record(&t, &wild, &[0.5, 1.0, 2.0, 1e12], &[])];
+        let [outputs, inputs] = loops(&records, (0.0, 1.0));
+        assert_eq!((outputs.y.range, inputs.y.range), ((0.0, 1.0), (0.0, 1.0)));
+        let [outputs, inputs] = loops(&records, (0.0, 3.0));
+        assert_eq!((outputs.y.range, inputs.y.range), ((-2.0, 1.0), (0.0, 2.0)), "till it is out of reach");
+    }
+
+    #[test]
+    fn the_outputs_of_a_comparison_are_in_sight() {
+        let (t, tall, low) = ([0.0, 1.0, 2.0], [0.0, 3.0, 2.0], [0.0, 0.5, 1.0]);
+        let records = [LoopsRecord { pen: Pen::Dotted, ..record(&t, &tall, &tall, &[]) }, record(&t, &low, &low, &[])];
+        let [outputs, inputs] = loops(&records, (0.0, 2.0));
+        assert!(outputs.y.range.1 >= 3.0 && inputs.y.range.1 < 3.0);
     }
 
     #[test]

@@ -106,7 +106,8 @@ impl Loci {
             }
         }
         for crossing in self.crossings(&ratio, |x| x.norm() - 1.0) {
-            let lag = (crossing.value.arg() + PI).rem_euclid(TAU);
+            let lag = crossing.value.arg() + PI;
+            let lag = if lag < TAU { lag } else { lag - TAU };
             margins.phase = Some(margins.phase.map_or(lag, |best| best.min(lag)));
         }
         margins

@@ -133,7 +133,7 @@ const DIFFERENT = {
   'equation-88': ['kp11', 'kp21', 'ki21', 'kp22', 'ki22'],
   'table-5-row-1': ['ki2'],
   'table-7-row-1': ['r2', 'Tc'],
-  'table-7-row-2': ['Tc'],
+  'table-7-row-2': ['r2', 'Tc'],
   'table-7-row-4': ['kc1', 'Tc'],
   'table-9-row-1': ['ki2'],
   'table-13-row-2': ['r2', 'Tc'],
@@ -170,6 +170,29 @@ test('every published case stands beside what is computed', async ({ lab }) => {
   await lab.settle();
   const cells = await lab.id('response-figures').locator('tbody td').allInnerTexts();
   expect(cells).toEqual(Array(16).fill('–'));
+});
+
+test('the point that a test found goes on to the placement, and the case says that it was changed', async ({ lab }) => {
+  await lab.open(BENCH);
+  await choose(lab, 'case', 'table-12-row-2');
+  const chosen = lab.id('case').locator('option:checked');
+  await expect(chosen).toHaveText('Table 12 · point 2');
+  const found = await lab.id('test-figures').locator('tbody tr').evaluateAll((rows) => rows.map((row) => row.lastChild.textContent));
+  await lab.id('test-take').click();
+  await lab.settle();
+  const taken = await lab.id('critical-point').locator('tbody tr').evaluateAll((rows) => rows.map((row) => row.cells[1].textContent));
+  expect(taken.slice(0, 2)).toEqual(found.slice(0, 2));
+  await expect(chosen).toHaveText('changed: Table 12 · point 2');
+  // A test of one loop finds no point of both, and shows the settings of its own relay alone.
+  await lab.id('test-single').click();
+  await lab.settle();
+  await expect(lab.id('test-take')).toBeHidden();
+  await expect(lab.id('test-amplitude')).toBeVisible();
+  for (const idle of ['test-amplitude2', 'test-hysteresis2', 'test-bias2', 'ratio']) await expect(lab.id(idle)).toBeHidden();
+  await lab.id('test-loop2').click();
+  await lab.settle();
+  await expect(lab.id('test-amplitude2')).toBeVisible();
+  for (const idle of ['test-amplitude', 'test-hysteresis1', 'test-bias1']) await expect(lab.id(idle)).toBeHidden();
 });
 
 test('a change that comes while another is painted counts as untold until its words are there', async ({ lab, page }) => {

@@ -82,7 +82,7 @@ fn drawing(lab: Lab, moment: Option<&Moment>) -> String {
     let streams = moment.map_or_else(String::new, |m| streams(&plant, m));
     let pumps: String = (0..2).map(|k| pump(lab, k, moment.map(|m| m.pump_voltage[k]))).collect();
     let valves: String = (0..2).map(|k| valve_texts(lab, k)).collect();
-    format!("{PIPES}{tanks}{streams}{BASIN}{pumps}{valves}")
+    format!("{PIPES}{streams}{tanks}{BASIN}{pumps}{valves}")
 }
 
 /// One tank: walls, water, name, level, and a word where it overflows or is dry.

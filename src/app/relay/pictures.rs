@@ -28,7 +28,7 @@ pub fn test(session: Session, window: Signal<(f64, f64)>) -> Picture {
     let build = move |show: &mut dyn FnMut(&[figure::Chart])| {
         session.charts.test.with(|outcome| {
             let trace = outcome.as_ref().as_ref().ok().and_then(record_of);
-            let records: Vec<LoopsRecord> = trace.map(|trace| drawn(trace, Pen::Solid, true)).into_iter().collect();
+            let records: Vec<LoopsRecord> = trace.map(|trace| drawn(trace, "", Pen::Solid, true)).into_iter().collect();
             loops(session, &records, window.get(), None, show);
         });
     };
@@ -43,18 +43,23 @@ pub fn test(session: Session, window: Signal<(f64, f64)>) -> Picture {
 
 /// The response with the chosen root, its comparison and the pinned ones.
 pub fn response(session: Session, window: Signal<(f64, f64)>) -> Picture {
+    let lab = session.lab;
     let build = move |show: &mut dyn FnMut(&[figure::Chart])| {
         let pinned = session.charts.pinned.get();
+        let names: Vec<String> =
+            (1..=pinned.len()).map(|number| tr!(lab, relay.row_pinned, number = number).to_string()).collect();
         session.charts.design.with(|outcome| {
             let mut records: Vec<LoopsRecord> = pinned
                 .iter()
-                .filter_map(|outcome| outcome.as_ref().as_ref().ok()?.as_ref())
-                .map(|design| drawn(&design.response.trace, Pen::Faded, false))
+                .zip(&names)
+                .filter_map(|(outcome, name)| Some((outcome.as_ref().as_ref().ok()?.as_ref()?, name)))
+                .map(|(design, name)| drawn(&design.response.trace, name, Pen::Faded, false))
                 .collect();
             if let Ok(Some(Designed { response, comparison, .. })) = outcome.as_ref() {
-                records
-                    .extend(comparison.iter().map(|comparison| drawn(&comparison.response.trace, Pen::Dotted, false)));
-                records.push(drawn(&response.trace, Pen::Solid, false));
+                records.extend(comparison.iter().map(|comparison| {
+                    drawn(&comparison.response.trace, tr!(lab, relay.row_rival), Pen::Dotted, false)
+                }));
+                records.push(drawn(&response.trace, "", Pen::Solid, false));
             }
             let references = session.charts.setup.with_untracked(|s| s.response.references);
             loops(session, &records, window.get(), Some(references), show);
@@ -64,8 +69,9 @@ pub fn response(session: Session, window: Signal<(f64, f64)>) -> Picture {
     Picture::new(build, csv)
 }
 
-fn drawn(trace: &LoopTrace, pen: Pen, marked: bool) -> LoopsRecord<'_> {
+fn drawn<'a>(trace: &'a LoopTrace, name: &'a str, pen: Pen, marked: bool) -> LoopsRecord<'a> {
     LoopsRecord {
+        name,
         time: &trace.time,
         outputs: trace.outputs.each_ref().map(Vec::as_slice),
         inputs: trace.inputs.each_ref().map(Vec::as_slice),

@@ -156,7 +156,14 @@ fn cases(session: Session) -> Signal<String> {
     Signal::derive(move || {
         let chosen = session.case.get();
         let none = option("", tr!(lab, relay.no_case), chosen.is_none());
-        let one = |case: PublishedCase| option(&case.name(), &name_of_case(lab, case), chosen == Some(case));
+        let changed = chosen.is_some_and(|case| {
+            case.is_placement() && session.words.setup.with(|setup| **setup != case.scenario().tuning)
+        });
+        let one = |case: PublishedCase| {
+            let (name, is_chosen) = (name_of_case(lab, case), chosen == Some(case));
+            let name = if is_chosen && changed { tr!(lab, relay.changed, name = name).to_string() } else { name };
+            option(&case.name(), &name, is_chosen)
+        };
         none + &PublishedCase::all().map(one).collect::<String>()
     })
 }
@@ -172,15 +179,23 @@ fn choose_case(session: Session, name: &str) {
 fn remark(session: Session) -> String {
     let lab = session.lab;
     let study = session.words.study.get();
-    let rga = match study.as_ref() {
-        Ok(study) => study.rga_11.map_or_else(|| "∞".to_owned(), |gain| lab.number_style().fixed(gain, 3)),
+    let gain = match study.as_ref() {
+        Ok(study) => study.rga_11,
         Err(error) => return super::errors::sentence(lab, error),
     };
+    let rga = gain.map_or_else(|| "∞".to_owned(), |gain| lab.number_style().fixed(gain, 3));
     let source = session.words.setup.with(|s| match &s.plant {
         TuningPlant::Published(PublishedPlant::WoodBerry) => tr!(lab, relay.remark_wood_berry).to_owned(),
         TuningPlant::Published(PublishedPlant::ProcessTwo) => tr!(lab, relay.remark_process_two).to_owned(),
         TuningPlant::QuadrupleTank { preset, .. } => preset.preset().source.to_owned(),
         TuningPlant::Elements(_) => tr!(lab, relay.own_plant).to_owned(),
     });
-    tr!(lab, relay.plant_remark, source = source, rga = rga).to_string()
+    let mut text = tr!(lab, relay.plant_remark, source = source, rga = rga).to_string();
+    if gain.is_some_and(|gain| gain < 0.0) {
+        text = text + " " + tr!(lab, relay.negative_pairing);
+    }
+    if session.words.setup.with(|s| rig(s).is_some_and(|(_, nonlinear)| nonlinear)) {
+        text = text + " " + tr!(lab, relay.nonlinear_remark);
+    }
+    text
 }

@@ -211,26 +211,30 @@ fn table(session: Session) -> String {
     ];
     let mut rows = String::new();
     session.words.with_design(|design| {
-        rows += &rows_of(session, "", &design.response);
+        rows += &rows_of(session, &design.response);
         if let Some(comparison) = &design.comparison {
-            rows += &rows_of(session, tr!(lab, relay.row_rival), &comparison.response);
+            rows += &(group(tr!(lab, relay.row_rival)) + &rows_of(session, &comparison.response));
         }
     });
     for (k, outcome) in session.words.pinned.get().iter().enumerate() {
         if let Ok(Some(design)) = outcome.as_ref() {
-            rows += &rows_of(session, &tr!(lab, relay.row_pinned, number = k + 1), &design.response);
+            rows += &(group(&tr!(lab, relay.row_pinned, number = k + 1)) + &rows_of(session, &design.response));
         }
     }
     html::table(tr!(lab, relay.response_caption), &names, &rows)
 }
 
-fn rows_of(session: Session, name: &str, response: &StepResponse) -> String {
+/// A line above the rows of a response that is not the one at work.
+fn group(name: &str) -> String {
+    html::element("tr", "", &html::element("th", "scope=\"rowgroup\" colspan=\"5\"", &html::escape(name)))
+}
+
+fn rows_of(session: Session, response: &StepResponse) -> String {
     let style = session.lab.number_style();
     let number = |v: Option<f64>| v.map_or_else(|| "–".to_owned(), |v| style.significant(v, 3));
     let percent =
         |v: Option<f64>| v.map_or_else(|| "–".to_owned(), |v| format!("{}\u{a0}%", style.fixed(100.0 * v, 1)));
     let row = |k: usize| {
-        let label = format!("y{} {name}", ["₁", "₂"][k]);
         let of = response.is_bounded.then(|| response.figures[k]);
         let cells = [
             percent(of.and_then(|of| of.overshoot)),
@@ -238,7 +242,7 @@ fn rows_of(session: Session, name: &str, response: &StepResponse) -> String {
             number(of.and_then(|of| of.peak)),
             number(of.map(|of| of.iae)),
         ];
-        html::row(["loop1", "loop2"][k], label.trim(), &cells)
+        html::row(["loop1", "loop2"][k], ["y₁", "y₂"][k], &cells)
     };
     row(0) + &row(1)
 }

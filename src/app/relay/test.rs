@@ -13,10 +13,10 @@ use super::timeline::timeline;
 use crate::app::start::Control;
 use crate::app::texts::{say, tr};
 use crate::app::widgets::html::{cells, element, escape, option};
-use crate::app::widgets::{DataTable, Scale, ZoomButtons, html};
+use crate::app::widgets::{DataTable, Scale, ZoomButtons, handler, html};
 use crate::control::IsaPid;
 use crate::figure::Frame;
-use crate::scenario::tuning::{Behind, TestKind, Tested, TuningSetup};
+use crate::scenario::tuning::{Behind, CriticalSpec, TestKind, Tested, TuningSetup};
 use crate::tuning::{CurveDistance, RelayReading, RelayVerdict, TestAndSettings, TuningRule};
 
 const KINDS: [TestKind; 4] = [TestKind::Single, TestKind::Independent, TestKind::Sequential, TestKind::Simultaneous];
@@ -50,7 +50,7 @@ pub fn TestCard() -> impl IntoView {
         name: "test",
         number: 1,
         title: say!(lab, relay.test),
-        toolbar: view! { <div class="toolbar"><ZoomButtons axis ids /></div> }.into_any(),
+        toolbar: view! { <div class="toolbar"><TakeOver /><ZoomButtons axis ids /></div> }.into_any(),
         frames,
         place: "chart",
         overlay: surface("test-surface", axis, frames, label, values),
@@ -62,6 +62,32 @@ pub fn TestCard() -> impl IntoView {
         ],
         picture,
     })
+}
+
+/// Hands the point that the test found to the placement.
+#[component]
+fn TakeOver() -> impl IntoView {
+    let session = use_session();
+    let take = move |_| {
+        let found = session.words.test.with_untracked(|outcome| outcome.as_ref().as_ref().ok().and_then(found_point));
+        if let Some(point) = found {
+            session.edit(|s| s.design.critical = point);
+        }
+    };
+    let nothing = Signal::derive(move || {
+        session.words.test.with(|outcome| outcome.as_ref().as_ref().ok().and_then(found_point).is_none())
+    });
+    let disabled = session.locks(Control::Point);
+    view! {
+        <button type="button" class="button small" data-testid="test-take" hidden=nothing disabled=disabled on:click=handler(take)>{say!(session.lab, relay.take_over)}</button>
+    }
+}
+
+/// The critical point by first harmonics, from a simultaneous test.
+fn found_point(test: &Tested) -> Option<CriticalSpec> {
+    let Tested::Simultaneous(test, _) = test else { return None };
+    let oscillation = test.reading.oscillation?;
+    Some(CriticalSpec::Point { gains: oscillation.gains_by_harmonic()?, period: oscillation.period })
 }
 
 fn settings(session: Session) -> AnyView {
@@ -77,6 +103,7 @@ fn settings(session: Session) -> AnyView {
     vec![
         segmented(session, say!(lab, relay.kind), kinds, kind, |s, k| s.test.kind = KINDS[k], Control::Test),
         hideable("", session.flag(|s| s.test.kind != TestKind::Single), single(session)),
+        hideable("", session.flag(|s| s.test.kind == TestKind::Single), vec![ratio(session)]),
         hideable("pairs", Signal::stored(false), sizes(session)),
         hideable("pairs four", session.flag(|s| is_tuned(s.test.kind)), relays(session)),
         hideable("", session.flag(|s| !is_tuned(s.test.kind)), vec![rule(session)]),
@@ -100,8 +127,7 @@ fn field(
     Knob { id: (id, ""), label, name, read, write, limits, travel, scale, is_time, class, lock: Control::Test }
 }
 
-/// Amplitudes, by the first one and the ratio, and duration.
-fn sizes(session: Session) -> Vec<AnyView> {
+fn ratio(session: Session) -> AnyView {
     let lab = session.lab;
     let set_ratio = |s: &mut TuningSetup, v: f64| s.test.amplitudes[1] = v * s.test.amplitudes[0];
     let ratio = Knob {
@@ -110,11 +136,30 @@ fn sizes(session: Session) -> Vec<AnyView> {
         scale: Scale::Logarithmic,
         ..field("", "d₂/d₁", say!(lab, relay.ratio), ratio_of, set_ratio, RATIOS)
     };
-    let first = |s: &TuningSetup| s.test.amplitudes[0];
-    let amplitude = field("test-amplitude", "d₁", say!(lab, relay.amplitude), first, set_amplitude, (0.001, 1e4));
+    knob(session, &ratio)
+}
+
+/// Amplitude of relay 1, or of relay 2 where that one is alone, and duration.
+fn sizes(session: Session) -> Vec<AnyView> {
+    let lab = session.lab;
+    let amplitude = |id, label, number: usize, read, write| {
+        field(id, label, say!(lab, relay.amplitude, number = number), read, write, (0.001, 1e4))
+    };
+    let first = amplitude("test-amplitude", "d₁", 1, |s| s.test.amplitudes[0], set_amplitude);
+    let second = amplitude("test-amplitude2", "d₂", 2, |s| s.test.amplitudes[1], |s, v| s.test.amplitudes[1] = v);
     let read = |s: &TuningSetup| s.test.duration;
     let duration = field("test-duration", "t", say!(lab, relay.duration), read, set_duration, (1.0, 1e5));
-    vec![knob(session, &ratio), knob(session, &amplitude), knob(session, &Knob { is_time: true, ..duration })]
+    let [first, second] = [first, second].map(|amplitude| vec![knob(session, &amplitude)]);
+    vec![
+        hideable("", session.flag(|s| is_idle(s, 1)), first),
+        hideable("", session.flag(|s| !is_idle(s, 1)), second),
+        knob(session, &Knob { is_time: true, ..duration }),
+    ]
+}
+
+/// Whether a loop has no relay because the other one is tested alone.
+fn is_idle(setup: &TuningSetup, number: usize) -> bool {
+    setup.test.kind == TestKind::Single && setup.test.number != number
 }
 
 /// What a test of a single element has besides.
@@ -152,7 +197,9 @@ fn relays(session: Session) -> Vec<AnyView> {
         bias("test-bias1", "b₁", 1, |s| s.test.bias[0], |s, v| s.test.bias[0] = v),
         bias("test-bias2", "b₂", 2, |s| s.test.bias[1], |s, v| s.test.bias[1] = v),
     ];
-    by_loop(session, fields)
+    let idle = [session.flag(|s| is_idle(s, 1)), session.flag(|s| is_idle(s, 2))];
+    let of_loop = |(k, field): (usize, AnyView)| hideable("", idle[k % 2], vec![field]);
+    by_loop(session, fields).into_iter().enumerate().map(of_loop).collect()
 }
 
 /// The factors by which independent tests are made weaker.

@@ -264,6 +264,7 @@ pub fn svg(setup: &TuningSetup, picture: Picture, style: &Style) -> Result<Strin
 /// Charts of a record, as SVG.
 fn loops_svg(trace: &LoopTrace, references: Option<[f64; 2]>, draw: impl Fn(&[Chart]) -> String) -> String {
     let record = LoopsRecord {
+        name: "",
         time: &trace.time,
         outputs: trace.outputs.each_ref().map(Vec::as_slice),
         inputs: trace.inputs.each_ref().map(Vec::as_slice),

@@ -164,7 +164,7 @@ impl PublishedCase {
             4 => named(&["Re λ", "Im λ"], numbers, &[2, if self.row == 3 { 3 } else { 2 }]),
             7 | 13 => {
                 let importance = numbers[0];
-                let mut printed = vec![("r2", importance, u8::from(importance < 1.0))];
+                let mut printed = vec![("r2", importance, u8::from(importance < 1.0 || self.table == 7))];
                 if let CriticalSpec::Point { gains, period } = self.scenario().tuning.design.critical {
                     printed.extend(named(&["kc1", "kc2", "Tc"], &[gains[0], gains[1], period], &[3, 3, 2]));
                 }
