@@ -38,19 +38,21 @@ pub struct Knob {
 pub fn knob(session: Session, knob: &Knob) -> AnyView {
     let &Knob { id, label, name, read, write, limits, travel, scale, is_time, class, lock } = knob;
     let value = session.part(read);
+    // A count has no decimals.
+    let digits = (scale == Scale::Linear(1.0)).then_some(0);
     let on_change = Callback::new(move |v: f64| session.edit(|s| write(s, v)));
     let disabled = session.locks(lock);
     let unit =
         Signal::derive(move || if is_time { session.words.setup.with(|s| time_unit(&s.plant)) } else { "" }.to_owned());
     match travel {
         Some(travel) => view! {
-            <SliderField id label=label.to_owned() name value on_change travel limits=Signal::from(limits) scale digits=None unit class disabled />
+            <SliderField id label=label.to_owned() name value on_change travel limits=Signal::from(limits) scale digits unit class disabled />
         }
         .into_any(),
         None => view! {
             <div class=format!("field-row {class}")>
                 <span>{label}</span>
-                <NumberField id=id.0 name value on_change limits scale digits=None disabled />
+                <NumberField id=id.0 name value on_change limits scale digits disabled />
                 <span class="unit">{unit}</span>
             </div>
         }

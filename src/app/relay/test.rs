@@ -379,20 +379,16 @@ fn table(session: Session) -> String {
     session.words.test.with(|outcome| {
         let Ok(test) = outcome.as_ref() else { return String::new() };
         let distances = if let Tested::Simultaneous(_, distances) = test { *distances } else { [None; 2] };
-        let has_settings = matches!(test, Tested::Independent(_) | Tested::Sequential(_));
         let unit = session.words.setup.with(|s| time_unit(&s.plant));
-        let mut names = vec![
+        let names = [
             tr!(lab, relay.col_loop).to_owned(),
             tr!(lab, relay.col_period, unit = unit).to_string(),
             "a".to_owned(),
             tr!(lab, relay.col_peak).to_owned(),
             tr!(lab, relay.col_harmonic).to_owned(),
         ];
-        if has_settings {
-            names.extend(["K", "Ti", "Td"].map(str::to_owned));
-        }
         let second = session.words.setup.with(|s| s.test.kind == TestKind::Single && s.test.number == 2);
-        let mut rows = String::new();
+        let (mut rows, mut rules) = (String::new(), String::new());
         for (name, reading, settings) in readings(test) {
             let Some(oscillation) = reading.oscillation else { continue };
             for (k, of) in oscillation.loops.iter().enumerate().filter(|(_, of)| of.gain_by_peak.is_some()) {
@@ -400,14 +396,12 @@ fn table(session: Session) -> String {
                 let label = if name.is_empty() { which.to_string() } else { name.clone() };
                 let is_second = label.ends_with('2');
                 let figures = [Some(oscillation.period), Some(of.amplitude), of.gain_by_peak, of.gain_by_harmonic];
-                let mut figures = figures.map(number).to_vec();
-                if has_settings {
-                    let finite = |v: f64| Some(v).filter(|v| v.is_finite());
-                    let settings = settings
-                        .map_or([None; 3], |s| [finite(s.gain), finite(s.integral_time), finite(s.derivative_time)]);
-                    figures.extend(settings.map(number));
+                let class = ["loop1", "loop2"][usize::from(is_second)];
+                rows += &html::row(class, &label, &figures.map(number));
+                if let Some(settings) = settings {
+                    let settings = [settings.gain, settings.integral_time, settings.derivative_time];
+                    rules += &html::row(class, &label, &settings.map(|v| number(Some(v).filter(|v| v.is_finite()))));
                 }
-                rows += &html::row(["loop1", "loop2"][usize::from(is_second)], &label, &figures);
             }
         }
         let percent = |distance: Option<CurveDistance>| {
@@ -416,6 +410,10 @@ fn table(session: Session) -> String {
         if distances.iter().any(Option::is_some) {
             let name = element("th", "scope=\"row\" colspan=\"3\"", &escape(tr!(lab, relay.distance)));
             rows += &element("tr", "", &(name + &cells(&distances.map(percent))));
+        }
+        if !rules.is_empty() {
+            let heads = [&names[0], "K", "Ti", "Td"].map(|head| element("th", "scope=\"col\"", &escape(head)));
+            rows += &(element("tr", "", &heads.concat()) + &rules);
         }
         html::table(tr!(lab, relay.test_caption), &names, &rows)
     })
