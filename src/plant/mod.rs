@@ -9,6 +9,7 @@ mod jacobian;
 mod preset;
 mod published;
 mod quadruple;
+mod schedule;
 mod tank;
 
 pub use equilibrium::{OperatingPoint, SINGULAR_MARGIN};
@@ -16,4 +17,5 @@ pub use error::PlantError;
 pub use jacobian::{DRY_LEVEL, Jacobian};
 pub use preset::{DisplayUnit, Preset, PresetId, Printed, Remark};
 pub use quadruple::{Disturbance, Pump, QuadrupleTank, Sensor};
+pub use schedule::ValveSchedule;
 pub use tank::{CrossSection, Outlet, Tank};

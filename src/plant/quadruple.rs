@@ -115,7 +115,17 @@ impl QuadrupleTank {
     /// Flow that each tank receives through the valves (m³/s): `γ1 q1`, `γ2 q2`, `(1 − γ2) q2`, `(1 − γ1) q1`.
     #[inline]
     pub fn valve_flows(&self, pump_voltage: &[f64; 2], disturbance: &Disturbance) -> [f64; 4] {
-        let [gamma_1, gamma_2] = self.valves;
+        self.valve_flows_at(self.valves, pump_voltage, disturbance)
+    }
+
+    /// The same with the valves at `[γ1, γ2]`.
+    #[inline]
+    pub fn valve_flows_at(
+        &self,
+        [gamma_1, gamma_2]: [f64; 2],
+        pump_voltage: &[f64; 2],
+        disturbance: &Disturbance,
+    ) -> [f64; 4] {
         let [q1, q2]: [f64; 2] =
             from_fn(|i| larger(self.pumps[i].gain * pump_voltage[i] + disturbance.pump_flow[i], 0.0));
         [gamma_1 * q1, gamma_2 * q2, (1.0 - gamma_2) * q2, (1.0 - gamma_1) * q1]

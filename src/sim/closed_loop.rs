@@ -42,5 +42,5 @@ pub fn simulate(
     experiment: &Experiment,
 ) -> Trajectory {
     let rig = Rig { plant, water: Hydraulics::new(plant, &op.levels) };
-    course::run(rig, plant, op, controller, experiment)
+    course::run_pi(rig, plant, op, controller, experiment)
 }

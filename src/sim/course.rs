@@ -77,8 +77,13 @@ impl TimeAxis {
 }
 
 /// Time between rows of a trajectory (s).
-pub(super) fn row_spacing(experiment: &Experiment, controller: &DecentralisedPi) -> f64 {
-    TimeAxis::new(experiment.duration_s, controller.sampling_time_s).time(1)
+pub(super) fn row_spacing(experiment: &Experiment, sampling_time_s: f64) -> f64 {
+    TimeAxis::new(experiment.duration_s, sampling_time_s).time(1)
+}
+
+/// Rows of a trajectory from one sample to the next.
+pub(super) fn rows_per_sample(experiment: &Experiment, sampling_time_s: f64) -> usize {
+    TimeAxis::new(experiment.duration_s, sampling_time_s).rows_per_sample
 }
 
 /// The few steps of an experiment, the next one last.
@@ -138,30 +143,55 @@ impl<'a> Loads<'a> {
     }
 }
 
-/// The two loops with the limits of the pumps that they drive.
-struct Loops {
+/// What gives the outputs of both loops at a sample.
+pub(super) trait Law {
+    /// One sample at `time` (s): takes references and measured signals of levels 1 and 2 (V), returns the limited outputs of
+    /// loops 1 and 2 (V).
+    fn step(&mut self, time: f64, reference: [f64; 2], measured: [f64; 2]) -> [f64; 2];
+}
+
+impl Law for RunningPi {
+    fn step(&mut self, time: f64, reference: [f64; 2], measured: [f64; 2]) -> [f64; 2] {
+        RunningPi::step(self, time, reference, measured)
+    }
+}
+
+/// Runs an experiment with two PI loops that rest at the operating point.
+pub(super) fn run_pi(
+    process: impl Process,
+    plant: &QuadrupleTank,
+    op: &OperatingPoint,
+    controller: &DecentralisedPi,
+    experiment: &Experiment,
+) -> Trajectory {
+    let rest_signal = [op.levels[0], op.levels[1]].map(|level| plant.sensor.measure(level));
+    let mut law = controller.start(plant.controller_limits(), output_at_rest(plant, op), rest_signal);
+    let DecentralisedPi { pairing, sampling_time_s, .. } = *controller;
+    run(process, plant, op, Sampled { law: &mut law, pairing, sampling_time_s }, experiment)
+}
+
+/// Controller output at rest (V), by pump.
+pub(super) fn output_at_rest(plant: &QuadrupleTank, op: &OperatingPoint) -> [f64; 2] {
+    op.pump_voltage.map(|voltage| voltage / plant.power_gain)
+}
+
+/// A law with the limits of the pumps that its loops drive.
+struct Loops<'a, L> {
     pairing: Pairing,
-    pi: RunningPi,
+    law: &'a mut L,
     limits: [(f64, f64); 2],
     power_gain: f64,
 }
 
-impl Loops {
-    fn new(plant: &QuadrupleTank, op: &OperatingPoint, controller: &DecentralisedPi) -> Self {
-        let limits = plant.controller_limits();
-        let output = op.pump_voltage.map(|voltage| voltage / plant.power_gain);
-        let rest_signal = [op.levels[0], op.levels[1]].map(|level| plant.sensor.measure(level));
-        Self {
-            pairing: controller.pairing,
-            pi: controller.start(limits, output, rest_signal),
-            limits: controller.pairing.by_loop(limits),
-            power_gain: plant.power_gain,
-        }
+impl<'a, L: Law> Loops<'a, L> {
+    fn new(plant: &QuadrupleTank, pairing: Pairing, law: &'a mut L) -> Self {
+        let limits = pairing.by_loop(plant.controller_limits());
+        Self { pairing, law, limits, power_gain: plant.power_gain }
     }
 
     /// One sample: new outputs from references and measured signals (V). Notes the pumps that are at a limit.
     fn step(&mut self, time: f64, reference: [f64; 2], measured: [f64; 2], events: &mut Events) -> [f64; 2] {
-        let output = self.pi.step(time, reference, measured);
+        let output = self.law.step(time, reference, measured);
         for (i, (&output, (min, max))) in output.iter().zip(self.limits).enumerate() {
             if output <= min || output >= max {
                 events.note(time, EventKind::Saturated { pump: self.pairing.pump_of(i) });
@@ -176,19 +206,27 @@ impl Loops {
     }
 }
 
+/// A law with the pumps that its loops drive and its sampling time Ts (s).
+pub(super) struct Sampled<'a, L> {
+    pub(super) law: &'a mut L,
+    pub(super) pairing: Pairing,
+    pub(super) sampling_time_s: f64,
+}
+
 /// Runs an experiment from the operating point on; see [`super::simulate`] for what happens when.
 pub(super) fn run(
     mut process: impl Process,
     plant: &QuadrupleTank,
     op: &OperatingPoint,
-    controller: &DecentralisedPi,
+    sampled: Sampled<impl Law>,
     experiment: &Experiment,
 ) -> Trajectory {
-    let axis = TimeAxis::new(experiment.duration_s, controller.sampling_time_s);
+    let Sampled { law, pairing, sampling_time_s } = sampled;
+    let axis = TimeAxis::new(experiment.duration_s, sampling_time_s);
     let slack = TIME_SLACK * axis.sampling_time_s;
     let mut references = References::new([op.levels[0], op.levels[1]], &experiment.set_point_steps);
     let mut loads = Loads::new(&experiment.load_steps);
-    let mut loops = Loops::new(plant, op, controller);
+    let mut loops = Loops::new(plant, pairing, law);
     let mut noise = Noise::new(&experiment.measurement);
     let mut events = Events::default();
     let mut trajectory = Trajectory::with_rows(axis.rows);

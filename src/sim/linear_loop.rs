@@ -97,9 +97,9 @@ pub fn simulate_linear(
     controller: &DecentralisedPi,
     experiment: &Experiment,
 ) -> Trajectory {
-    let row_spacing = course::row_spacing(experiment, controller);
+    let row_spacing = course::row_spacing(experiment, controller.sampling_time_s);
     let model = LinearModel::new(plant, op, jacobian, row_spacing);
-    let mut trajectory = course::run(model, plant, op, controller, experiment);
+    let mut trajectory = course::run_pi(model, plant, op, controller, experiment);
     trajectory.events.clear();
     trajectory
 }

@@ -1,0 +1,99 @@
+use serde::Serialize;
+
+use crate::control::Pairing;
+use crate::plant::QuadrupleTank;
+
+use super::trajectory::Trajectory;
+
+/// Band around the new reference that counts as settled, as a share of the step.
+const SETTLED: f64 = 0.02;
+/// Band that counts as tracked, as a share of the reference.
+const TRACKED: f64 = 0.05;
+
+/// How one level followed its reference, from samples: sums over the whole run, figures of the response from the last step of
+/// this reference on.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct TrackingFigures {
+    /// Σ |r − h| Ts (m s).
+    pub iae: f64,
+    /// Σ (r − h)² Ts (m² s).
+    pub ise: f64,
+    /// Furthest beyond the reference, as a share of the step; `None` when it never steps.
+    pub overshoot: Option<f64>,
+    /// From the step to the last time outside 2 % of it (s); `None` when it never steps, or is outside at the end.
+    pub settling_s: Option<f64>,
+    /// Σ |Δu| of the loop (V).
+    pub total_variation: f64,
+    /// How long the output of the loop was at a limit (s).
+    pub saturated_s: f64,
+    /// When the level left 5 % of its reference for good, after it had been there (s); `None` when it did not.
+    pub lost_at_s: Option<f64>,
+}
+
+/// The figures of both loops of a run whose samples are every `rows_per_sample` rows. A level that starts away from its first
+/// reference has stepped at the start.
+pub fn tracking_figures(
+    run: &Trajectory,
+    rows_per_sample: usize,
+    plant: &QuadrupleTank,
+    pairing: Pairing,
+) -> [TrackingFigures; 2] {
+    let limits = pairing.by_loop(plant.controller_limits());
+    std::array::from_fn(|i| {
+        let column = |values: &[f64]| values.iter().copied().step_by(rows_per_sample).collect();
+        Samples {
+            time: column(&run.time_s),
+            level: column(&run.levels[i]),
+            reference: column(&run.references[i]),
+            output: column(&run.controller_output[i]),
+        }
+        .figures(limits[i])
+    })
+}
+
+/// The samples of one loop.
+struct Samples {
+    time: Vec<f64>,
+    level: Vec<f64>,
+    reference: Vec<f64>,
+    output: Vec<f64>,
+}
+
+impl Samples {
+    fn figures(&self, (min, max): (f64, f64)) -> TrackingFigures {
+        let sampling_time = self.time.get(1).copied().unwrap_or(0.0);
+        let error = |k: usize| self.reference[k] - self.level[k];
+        let held = 0..self.time.len().saturating_sub(1);
+        let sum = |f: &dyn Fn(usize) -> f64| held.clone().map(f).sum::<f64>();
+        let step = self.last_step();
+        TrackingFigures {
+            iae: sampling_time * sum(&|k| error(k).abs()),
+            ise: sampling_time * sum(&|k| error(k).powi(2)),
+            overshoot: step.map(|(first, size)| (first..self.time.len()).map(|k| -error(k) / size).fold(0.0, f64::max)),
+            settling_s: step.and_then(|(first, size)| {
+                let outside = |k: &usize| error(*k).abs() > SETTLED * f64::abs(size);
+                let last = (first..self.time.len()).rev().find(outside).map_or(first, |k| k + 1);
+                Some(self.time.get(last)? - self.time[first])
+            }),
+            total_variation: self.output.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum(),
+            saturated_s: sampling_time * sum(&|k| f64::from(self.output[k] <= min || self.output[k] >= max)),
+            lost_at_s: self.lost_at(step.map_or(0, |(first, _)| first)),
+        }
+    }
+
+    /// Sample of the last step of the reference, and its size (m).
+    fn last_step(&self) -> Option<(usize, f64)> {
+        let moved = (1..self.reference.len()).rev().find(|&k| self.reference[k] != self.reference[k - 1]);
+        if let Some(k) = moved {
+            return Some((k, self.reference[k] - self.reference[k - 1]));
+        }
+        let size = self.reference.first()? - self.level.first()?;
+        (size != 0.0).then_some((0, size))
+    }
+
+    fn lost_at(&self, first: usize) -> Option<f64> {
+        let tracked = |k: &usize| (self.reference[*k] - self.level[*k]).abs() <= TRACKED * self.reference[*k].abs();
+        let last = (first..self.time.len()).rev().find(tracked)?;
+        self.time.get(last + 1).copied()
+    }
+}
