@@ -130,6 +130,16 @@ impl EstimatorSettings {
             Ok(whole as usize)
         }
     }
+
+    /// What the measurement (1/s) and, with α̂ = `model_gain`, the input before it (m/(s V)) of sample n = 0…N of a window
+    /// contribute to φ̂ (eq. 15).
+    ///
+    /// # Errors
+    /// As [`samples`](Self::samples).
+    pub fn weights(&self, model_gain: f64, sampling_time_s: f64) -> Result<Vec<[f64; 2]>, EstimatorError> {
+        let weights = weights(self.samples(sampling_time_s)?, sampling_time_s, self.quadrature);
+        Ok(weights.into_iter().map(|[y, u]| [y, model_gain * u]).collect())
+    }
 }
 
 /// A running estimator of one loop.
@@ -155,9 +165,7 @@ impl Estimator {
         sampling_time_s: f64,
         (level, input, estimate): (f64, f64, f64),
     ) -> Result<Self, EstimatorError> {
-        let count = settings.samples(sampling_time_s)?;
-        let weights = weights(count, sampling_time_s, settings.quadrature);
-        let weights = weights.into_iter().map(|[y, u]| [y, model_gain * u]).collect();
+        let weights = settings.weights(model_gain, sampling_time_s)?;
         Ok(Self { window: settings.window, weights, samples: vec![[level, input]], estimate })
     }
 

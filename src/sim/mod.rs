@@ -3,6 +3,7 @@
 mod closed_loop;
 mod course;
 mod experiment;
+mod held_outputs;
 mod held_tank;
 mod hold;
 mod implicit;
@@ -10,6 +11,7 @@ mod integrate;
 mod linear_loop;
 mod metrics;
 mod model_free;
+mod model_free_poles;
 mod noise;
 mod open_loop;
 mod poles;
@@ -22,10 +24,15 @@ mod two_loops;
 pub use closed_loop::simulate;
 pub use course::MAX_ROWS;
 pub use experiment::{Experiment, Load, LoadStep, Measurement, SetPointStep};
+pub use held_outputs::{HeldOutputs, HoldingEnds};
 pub use held_tank::HeldTank;
 pub use linear_loop::simulate_linear;
 pub use metrics::{LoopMetrics, loop_metrics};
 pub use model_free::{ModelFreeRun, simulate_model_free, simulate_with_valves};
+pub use model_free_poles::{
+    ModelFreePoles, continuous_model_free_poles, model_free_poles, smallest_model_gain,
+    smallest_model_gain_of_integrator,
+};
 pub use poles::{ClosedLoop, Stability, UNIT_CIRCLE_TOLERANCE, closed_loop};
 pub use response::Settling;
 pub use step_figures::StepFigures;

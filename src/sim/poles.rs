@@ -25,7 +25,7 @@ pub enum Stability {
 
 impl Stability {
     /// The verdict on a loop with these poles (z-plane).
-    fn of(poles_z: &[Complex]) -> Self {
+    pub(super) fn of(poles_z: &[Complex]) -> Self {
         let radius = poles_z.iter().map(|z| z.norm()).fold(0.0, f64::max);
         if radius > 1.0 + UNIT_CIRCLE_TOLERANCE {
             Self::Unstable

@@ -10,8 +10,8 @@ const SETTLED: f64 = 0.02;
 /// Band that counts as tracked, as a share of the reference.
 const TRACKED: f64 = 0.05;
 
-/// How one level followed its reference, from samples: sums over the whole run, figures of the response from the last step of
-/// this reference on.
+/// How one level followed its reference, from samples: sums over all of them, the last included; figures of the response from
+/// the last step of this reference on.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct TrackingFigures {
     /// Σ |r − h| Ts (m s).
@@ -63,8 +63,8 @@ impl Samples {
     fn figures(&self, (min, max): (f64, f64)) -> TrackingFigures {
         let sampling_time = self.time.get(1).copied().unwrap_or(0.0);
         let error = |k: usize| self.reference[k] - self.level[k];
-        let held = 0..self.time.len().saturating_sub(1);
-        let sum = |f: &dyn Fn(usize) -> f64| held.clone().map(f).sum::<f64>();
+        let sum = |f: &dyn Fn(usize) -> f64| (0..self.time.len()).map(f).sum::<f64>();
+        let limited = |k: usize| self.output[k] <= min || self.output[k] >= max;
         let step = self.last_step();
         TrackingFigures {
             iae: sampling_time * sum(&|k| error(k).abs()),
@@ -76,7 +76,7 @@ impl Samples {
                 Some(self.time.get(last)? - self.time[first])
             }),
             total_variation: self.output.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum(),
-            saturated_s: sampling_time * sum(&|k| f64::from(self.output[k] <= min || self.output[k] >= max)),
+            saturated_s: sampling_time * sum(&|k| f64::from(limited(k))),
             lost_at_s: self.lost_at(step.map_or(0, |(first, _)| first)),
         }
     }

@@ -1,0 +1,144 @@
+//! What the upper tanks do while the lower ones stand still: the zero dynamics of the nonlinear plant.
+
+use crate::plant::{Disturbance, QuadrupleTank};
+use crate::scalar::larger;
+
+/// Step of the integration, as a share of the smaller time constant of the upper tanks at the start.
+const STEP: f64 = 1.0 / 50.0;
+
+/// The plant with levels 1 and 2 held for good by whatever voltages that takes. Its valves stand still.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HeldOutputs<'a> {
+    plant: &'a QuadrupleTank,
+    /// Outflow of the lower tanks (m³/s).
+    outflow: [f64; 2],
+}
+
+/// What ends the holding of both outputs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum HoldingEnds {
+    /// A pump would have to leave its limits.
+    Pump {
+        /// Index of the pump.
+        pump: usize,
+        /// When (s from the start).
+        after_s: f64,
+    },
+    /// An upper tank runs over.
+    Overflow {
+        /// Index of the tank.
+        tank: usize,
+        /// When (s from the start).
+        after_s: f64,
+    },
+}
+
+impl<'a> HeldOutputs<'a> {
+    /// Levels 1 and 2 held at `references` (m).
+    pub fn new(plant: &'a QuadrupleTank, references: [f64; 2]) -> Self {
+        let outflow = [0, 1].map(|tank| plant.tanks[tank].outflow(references[tank], plant.gravity));
+        Self { plant, outflow }
+    }
+
+    /// The pump voltages (V) that hold the outputs with the upper tanks at `upper` (m): what a lower tank does not get from
+    /// above its own pump must give, `γ_i k_i v_i = q_i − q_{i+2}`.
+    pub fn voltages(&self, upper: [f64; 2]) -> [f64; 2] {
+        let plant = self.plant;
+        [0, 1].map(|i| {
+            let from_above = plant.tanks[i + 2].outflow(larger(upper[i], 0.0), plant.gravity);
+            (self.outflow[i] - from_above) / (plant.valves[i] * plant.pumps[i].gain)
+        })
+    }
+
+    /// Rates of change of the upper levels (m/s) at `upper` (m). Linear around the equilibrium, they have the transmission
+    /// zeros as eigenvalues.
+    pub fn rates(&self, upper: [f64; 2]) -> [f64; 2] {
+        let flows = self.plant.valve_flows(&self.voltages(upper), &Disturbance::default());
+        [0, 1].map(|i| {
+            let (tank, level) = (&self.plant.tanks[i + 2], larger(upper[i], 0.0));
+            (flows[i + 2] - tank.outflow(level, self.plant.gravity)) / tank.section.area(level)
+        })
+    }
+
+    /// What ends the holding, from upper levels (m) on, within a time (s); `None` when nothing does.
+    pub fn ends(&self, upper: [f64; 2], within_s: f64) -> Option<HoldingEnds> {
+        let quickest = [0, 1].map(|i| {
+            let (tank, level) = (&self.plant.tanks[i + 2], larger(upper[i], 1e-3));
+            tank.section.area(level) / tank.outflow_slope(level, self.plant.gravity)
+        });
+        let step = STEP * quickest[0].min(quickest[1]);
+        let (mut levels, mut now) = (upper, 0.0);
+        while now <= within_s {
+            if let Some(end) = self.end_at(levels, now) {
+                return Some(end);
+            }
+            levels = self.after(levels, step);
+            now += step;
+        }
+        None
+    }
+
+    fn end_at(&self, upper: [f64; 2], after_s: f64) -> Option<HoldingEnds> {
+        let voltages = self.voltages(upper);
+        let within = |pump: usize| {
+            let limits = &self.plant.pumps[pump];
+            (limits.voltage_min..=limits.voltage_max).contains(&voltages[pump])
+        };
+        if let Some(pump) = (0..2).find(|&pump| !within(pump)) {
+            return Some(HoldingEnds::Pump { pump, after_s });
+        }
+        let over = (0..2).find(|&i| upper[i] > self.plant.tanks[i + 2].height);
+        over.map(|i| HoldingEnds::Overflow { tank: i + 2, after_s })
+    }
+
+    /// A Runge–Kutta step of order 4.
+    fn after(&self, upper: [f64; 2], step: f64) -> [f64; 2] {
+        let from_here = |k: [f64; 2], by: f64| [upper[0] + by * k[0], upper[1] + by * k[1]];
+        let k1 = self.rates(upper);
+        let k2 = self.rates(from_here(k1, step / 2.0));
+        let k3 = self.rates(from_here(k2, step / 2.0));
+        let k4 = self.rates(from_here(k3, step));
+        [0, 1].map(|i| upper[i] + step / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+    use crate::linear::{StateSpace, transmission_zeros};
+    use crate::plant::PresetId;
+
+    #[test]
+    fn at_rest_nothing_moves_and_around_it_the_zeros_are_the_rates() {
+        for id in PresetId::ALL {
+            let preset = id.preset();
+            let op = preset.plant.free_equilibrium(preset.pump_voltage);
+            let held = HeldOutputs::new(&preset.plant, [op.levels[0], op.levels[1]]);
+            let upper = [op.levels[2], op.levels[3]];
+            for i in 0..2 {
+                assert_relative_eq!(held.voltages(upper)[i], op.pump_voltage[i], max_relative = 1e-9);
+                assert!(held.rates(upper)[i].abs() < 1e-12);
+            }
+            let nudge = 1e-6;
+            let column = |k: usize| {
+                let moved = |sign: f64| {
+                    let mut upper = upper;
+                    upper[k] += sign * nudge;
+                    held.rates(upper)
+                };
+                let (up, down) = (moved(1.0), moved(-1.0));
+                [0, 1].map(|i| (up[i] - down[i]) / (2.0 * nudge))
+            };
+            let [[a, c], [b, d]] = [column(0), column(1)];
+            let (a_matrix, b_matrix, c_matrix) = preset.plant.linearise(&op).reduced();
+            let model = StateSpace::strictly_proper(a_matrix, b_matrix, c_matrix).unwrap();
+            let zeros = transmission_zeros(&model).unwrap();
+            let (sum, product) =
+                zeros.iter().fold((0.0, 1.0), |(sum, product), zero| (sum + zero.value.re, product * zero.value.re));
+            assert_relative_eq!(a + d, sum, max_relative = 1e-5);
+            assert_relative_eq!(a * d - b * c, product, max_relative = 1e-5);
+        }
+    }
+}

@@ -1,0 +1,246 @@
+//! The linear loop of the model-free law, with its estimator, and how small α̂ may be.
+
+use std::array::from_fn;
+
+use nalgebra::{DMatrix, Matrix6, Vector4};
+
+use crate::control::{EstimatorError, EstimatorSettings, ModelFree, Window};
+use crate::linear::{Complex, LinearError, eigenvalues};
+use crate::plant::Jacobian;
+
+use super::hold::Hold;
+use super::poles::Stability;
+
+/// Samples of a sliding window up to which its poles are computed: each is four states.
+const MOST_SLIDING_SAMPLES: usize = 60;
+/// Halvings of the interval in which α̂ is searched: 1e-9 of it is left.
+const HALVINGS: u32 = 40;
+/// Smallest α̂ that is tried, as a share of the present one.
+const SMALLEST: f64 = 1e-4;
+
+/// Poles of the linear loop of a law that does not touch its limits.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ModelFreePoles {
+    /// The poles in the s-plane (1/s), by falling real part. With a block window the loop repeats itself only from window to
+    /// window, and these are `ln(μ)/T` of the multipliers μ over one window; else `ln(z)/Ts`.
+    pub poles_s: Vec<Complex>,
+    /// The verdict.
+    pub stability: Stability,
+}
+
+/// Poles of the sampled linear loop: the plant of `jacobian` under zero-order hold with the law and its estimator. The
+/// estimator is fed with what the pumps get. `power_gain` is that of the power module.
+///
+/// # Errors
+/// [`LinearError::OutOfRange`] when the law [cannot work](ModelFree::check) or its sliding window has more than 60 samples,
+/// [`LinearError::NoConvergence`] when an entry is not finite.
+pub fn model_free_poles(jacobian: &Jacobian, law: &ModelFree, power_gain: f64) -> Result<ModelFreePoles, LinearError> {
+    let (map, period_s) = LinearLoop::new(jacobian, law, power_gain)?.period_map();
+    let multipliers = eigenvalues(&map)?;
+    let stability = Stability::of(&multipliers);
+    let mut poles_s: Vec<Complex> =
+        multipliers.into_iter().filter(|&z| z != Complex::ZERO).map(|z| z.ln() / period_s).collect();
+    poles_s.sort_by(|x, y| y.re.total_cmp(&x.re).then(y.im.total_cmp(&x.im)));
+    Ok(ModelFreePoles { poles_s, stability })
+}
+
+/// Poles (1/s) of the loop in continuous time without estimator, `u = (Kp e + Ki ∫ e dt)/α̂`. A zero of the plant in the right
+/// half-plane attracts one of them.
+///
+/// # Errors
+/// [`LinearError::NoConvergence`] when an entry is not finite.
+pub fn continuous_model_free_poles(
+    jacobian: &Jacobian,
+    law: &ModelFree,
+    power_gain: f64,
+) -> Result<Vec<Complex>, LinearError> {
+    let mut a = Matrix6::zeros();
+    a.fixed_view_mut::<4, 4>(0, 0).copy_from(&jacobian.a);
+    for (i, settings) in law.loops.iter().enumerate() {
+        let pump = law.pairing.pump_of(i);
+        for tank in 0..4 {
+            let gain = jacobian.b[(tank, pump)] * power_gain / settings.model_gain;
+            a[(tank, i)] -= gain * settings.proportional;
+            a[(tank, 4 + i)] += gain * settings.integral;
+        }
+        a[(4 + i, i)] = -1.0;
+    }
+    let wet: Vec<usize> = (0..6).filter(|&k| k > 3 || !jacobian.dry[k]).collect();
+    let mut poles = eigenvalues(&DMatrix::from_fn(wet.len(), wet.len(), |i, j| a[(wet[i], wet[j])]))?;
+    poles.sort_by(|x, y| y.re.total_cmp(&x.re).then(y.im.total_cmp(&x.im)));
+    Ok(poles)
+}
+
+/// Smallest α̂ (m/(s V)) of a single lower tank without drain: below `b Ts (2 Kp + Ki Ts)/4`, with b the slope of the level per
+/// volt (m/(s V)), the sampled loop swings from sample to sample with growing amplitude. Of that, `b Kp Ts/2` is by far the
+/// larger part.
+pub fn smallest_model_gain_of_integrator(slope: f64, proportional: f64, integral: f64, sampling_time_s: f64) -> f64 {
+    slope * sampling_time_s * (2.0 * proportional + integral * sampling_time_s) / 4.0
+}
+
+/// Smallest α̂ (m/(s V)), the same in both loops, with which the linear loop is stable, down from that of the first loop; `None`
+/// when it is not stable to begin with, or stable with any.
+///
+/// # Errors
+/// As [`model_free_poles`].
+pub fn smallest_model_gain(jacobian: &Jacobian, law: &ModelFree, power_gain: f64) -> Result<Option<f64>, LinearError> {
+    let is_stable = |gain: f64| {
+        let mut law = *law;
+        law.loops.iter_mut().for_each(|settings| settings.model_gain = gain);
+        Ok(model_free_poles(jacobian, &law, power_gain)?.stability == Stability::Stable)
+    };
+    let mut stable = law.loops[0].model_gain;
+    let mut unstable = stable / 2.0;
+    if !is_stable(stable)? {
+        return Ok(None);
+    }
+    while is_stable(unstable)? {
+        stable = unstable;
+        unstable /= 2.0;
+        if unstable < SMALLEST * law.loops[0].model_gain {
+            return Ok(None);
+        }
+    }
+    for _ in 0..HALVINGS {
+        let middle = f64::midpoint(stable, unstable);
+        *if is_stable(middle)? { &mut stable } else { &mut unstable } = middle;
+    }
+    Ok(Some(stable))
+}
+
+fn unusable(error: EstimatorError) -> LinearError {
+    match error {
+        EstimatorError::ModelGain { value } => LinearError::OutOfRange { field: "model_gain", value },
+        EstimatorError::WindowTooShort { window_s, .. }
+        | EstimatorError::WindowTooLong { window_s, .. }
+        | EstimatorError::WindowNotWhole { window_s, .. } => {
+            LinearError::OutOfRange { field: "window_s", value: window_s }
+        }
+    }
+}
+
+/// The loop as linear steps, in deviations from a point of rest.
+struct LinearLoop<'a> {
+    law: &'a ModelFree,
+    hold: Hold,
+    /// What an output of loop i held for one sample does to the levels (m/V).
+    input: [Vector4<f64>; 2],
+    /// Tanks that hold water.
+    wet: Vec<usize>,
+    /// The estimators with their weights, where there are any.
+    estimator: Option<(EstimatorSettings, [Vec<[f64; 2]>; 2])>,
+}
+
+/// Levels (m), integrals (m s), and what the estimators remember.
+struct State {
+    levels: Vector4<f64>,
+    integrals: [f64; 2],
+    memory: Vec<f64>,
+}
+
+impl<'a> LinearLoop<'a> {
+    fn new(jacobian: &Jacobian, law: &'a ModelFree, power_gain: f64) -> Result<Self, LinearError> {
+        law.check().map_err(unusable)?;
+        let hold = Hold::new(&jacobian.a, law.sampling_time_s);
+        let by_pump = hold.response * jacobian.b * power_gain;
+        let weights = |settings: EstimatorSettings| {
+            let of_loop = |i: usize| settings.weights(law.loops[i].model_gain, law.sampling_time_s);
+            let weights = [of_loop(0).map_err(unusable)?, of_loop(1).map_err(unusable)?];
+            let count = weights[0].len() - 1;
+            if settings.window == Window::Sliding && count > MOST_SLIDING_SAMPLES {
+                return Err(LinearError::OutOfRange { field: "window_s", value: settings.window_s });
+            }
+            Ok((settings, weights))
+        };
+        Ok(Self {
+            law,
+            hold,
+            input: from_fn(|i| by_pump.column(law.pairing.pump_of(i)).into_owned()),
+            wet: (0..4).filter(|&tank| !jacobian.dry[tank]).collect(),
+            estimator: law.estimator.map(weights).transpose()?,
+        })
+    }
+
+    /// The matrix that takes the state over one period, and the length of that (s).
+    fn period_map(&self) -> (DMatrix<f64>, f64) {
+        let (memory, samples) = match &self.estimator {
+            None => (0, 1),
+            // φ̂ of both loops, just renewed. The output before that has no weight in the window that begins.
+            Some((settings, weights)) if settings.window == Window::Block => (2, weights[0].len() - 1),
+            // Measurements and outputs of both loops over the window.
+            Some((_, weights)) => (4 * (weights[0].len() - 1), 1),
+        };
+        let wet = self.wet.len();
+        let order = wet + 2 + memory;
+        let mut map = DMatrix::zeros(order, order);
+        for column in 0..order {
+            let unit = |k: usize| if k == column { 1.0 } else { 0.0 };
+            let mut levels = Vector4::zeros();
+            for (k, &tank) in self.wet.iter().enumerate() {
+                levels[tank] = unit(k);
+            }
+            let integrals = [unit(wet), unit(wet + 1)];
+            let mut state = State { levels, integrals, memory: (0..memory).map(|k| unit(wet + 2 + k)).collect() };
+            match &self.estimator {
+                None => drop(self.sample(&mut state, [0.0; 2])),
+                Some((settings, weights)) if settings.window == Window::Block => self.block(&mut state, weights),
+                Some((_, weights)) => self.slide(&mut state, weights),
+            }
+            let after = self.wet.iter().map(|&tank| state.levels[tank]).chain(state.integrals).chain(state.memory);
+            for (row, value) in after.enumerate() {
+                map[(row, column)] = value;
+            }
+        }
+        (map, samples as f64 * self.law.sampling_time_s)
+    }
+
+    /// One sample with the estimates `phi`; returns the outputs of both loops.
+    fn sample(&self, state: &mut State, phi: [f64; 2]) -> [f64; 2] {
+        let output = from_fn(|i| {
+            let settings = &self.law.loops[i];
+            let error = -state.levels[i];
+            state.integrals[i] += self.law.sampling_time_s * error;
+            (-phi[i] + settings.proportional * error + settings.integral * state.integrals[i]) / settings.model_gain
+        });
+        state.levels = self.hold.transition * state.levels + self.input[0] * output[0] + self.input[1] * output[1];
+        output
+    }
+
+    /// A whole block window: φ̂ is held while the sums for the next one grow.
+    fn block(&self, state: &mut State, weights: &[Vec<[f64; 2]>; 2]) {
+        let phi = [state.memory[0], state.memory[1]];
+        let mut output = [0.0; 2];
+        let mut next = [0.0; 2];
+        for (n, (first, second)) in weights[0].iter().zip(&weights[1]).enumerate() {
+            if n > 0 {
+                output = self.sample(state, phi);
+            }
+            for (i, weight) in [first, second].into_iter().enumerate() {
+                next[i] += weight[0] * state.levels[i] + weight[1] * output[i];
+            }
+        }
+        state.memory = next.to_vec();
+    }
+
+    /// One sample with a window that slides: the memory holds, for each loop, measurements and then outputs, the oldest first.
+    fn slide(&self, state: &mut State, weights: &[Vec<[f64; 2]>; 2]) {
+        let count = weights[0].len() - 1;
+        let part = |i: usize, kind: usize| (2 * i + kind) * count..(2 * i + kind + 1) * count;
+        let phi = from_fn(|i| {
+            let levels = state.memory[part(i, 0)].iter().chain([&state.levels[i]]);
+            // The output before sample n; that before the first has no weight.
+            let outputs = [&0.0].into_iter().chain(&state.memory[part(i, 1)]);
+            let terms = weights[i].iter().zip(levels.zip(outputs));
+            terms.map(|(weight, (level, output))| weight[0] * level + weight[1] * output).sum()
+        });
+        let measured = [state.levels[0], state.levels[1]];
+        let output = self.sample(state, phi);
+        for i in 0..2 {
+            for (kind, newest) in [(0, measured[i]), (1, output[i])] {
+                let column = &mut state.memory[part(i, kind)];
+                column.rotate_left(1);
+                column[count - 1] = newest;
+            }
+        }
+    }
+}
