@@ -2,7 +2,8 @@
 //!
 //! A picture is made in three steps that know little of each other:
 //!
-//! 1. A builder ([`valve_plane`], [`pole_zero`], [`responses`], [`critical_curve`] …) turns numbers and words into [`Chart`]s: axes and
+//! 1. A builder ([`valve_plane`], [`pole_zero`], [`responses`], [`critical_curve`],
+//!    [`model_free_course`] …) turns numbers and words into [`Chart`]s: axes and
 //!    layers, in the units of the axes. The words come from the caller; this room knows no language.
 //! 2. [`layout`] says where on the page each chart stands. Its [`Frame`]s map data to CSS pixels and back; the painter
 //!    uses them, and so does the app for cursors and handles.
@@ -19,6 +20,7 @@ mod field;
 mod frame;
 mod legend;
 mod measure;
+mod model_free;
 mod number;
 mod paint;
 mod palette;
@@ -33,6 +35,7 @@ mod valve_plane;
 pub use axis::{Axis, Tick};
 pub use chart::{Anchor, Chart, Course, Entry, Field, Label, Layer, Marker, Pen, Role, Sample, Series, Shape};
 pub use frame::{Frame, Rect, Size, layout};
+pub use model_free::{ModelFreeCourse, ModelFreeTexts, model_free_course};
 pub use number::signed;
 pub use paint::{FONT_FAMILY, PaintError, Sheet, Style, paint};
 pub use palette::{Palette, Rgb};

@@ -56,6 +56,22 @@ impl QuadrupleTank {
         Ok(OperatingPoint { levels: [levels[0], levels[1], needed.levels[2], needed.levels[3]], ..needed })
     }
 
+    /// As [`inputs_for_levels`](Self::inputs_for_levels), and also where the plant is singular but the levels happen to be
+    /// among those that it can hold: each pump then gives just what its lower tank loses.
+    ///
+    /// # Errors
+    /// As [`inputs_for_levels`](Self::inputs_for_levels).
+    pub fn rest_at(&self, levels: [f64; 2]) -> Result<OperatingPoint, PlantError> {
+        let found = self.inputs_for_levels(levels);
+        if !matches!(found, Err(PlantError::SingularPlant { .. })) {
+            return found;
+        }
+        let flow = [0, 1].map(|tank| self.tanks[tank].outflow(levels[tank], self.gravity));
+        let point = self.free_equilibrium([0, 1].map(|pump| flow[pump] / self.pumps[pump].gain));
+        let holds = (0..2).all(|i| (point.levels[i] - levels[i]).abs() <= SINGULAR_MARGIN * levels[i].abs());
+        if holds { self.checked(point) } else { found }
+    }
+
     /// What keeps an operating point from existing on the rig: first the voltages outside their limits, then the levels
     /// outside the walls. Empty for a feasible point.
     pub fn violations(&self, operating_point: &OperatingPoint) -> Vec<PlantError> {
@@ -116,6 +132,19 @@ mod tests {
             // Inputs still have their equilibrium.
             assert!(plant.free_equilibrium([3.0, 3.0]).levels.iter().all(|level| level.is_finite()));
         }
+    }
+
+    #[test]
+    fn on_the_line_some_levels_can_still_be_held() {
+        let plant = PresetId::JunqueiraA.preset().plant.with_valves([0.5, 0.5]);
+        let point = plant.rest_at([0.1, 0.1]).unwrap();
+        // As with any other equal valves (Junqueira, Neves and Angelico, eqs. 1 to 4 at rest).
+        let elsewhere = plant.with_valves([0.6, 0.6]).rest_at([0.1, 0.1]).unwrap();
+        for i in 0..2 {
+            assert!((point.levels[i] - 0.1).abs() < 1e-12);
+            assert!((point.pump_voltage[i] - elsewhere.pump_voltage[i]).abs() < 1e-9);
+        }
+        assert!(matches!(plant.rest_at([0.1, 0.12]), Err(PlantError::SingularPlant { .. })));
     }
 
     #[test]

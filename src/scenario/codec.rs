@@ -19,7 +19,7 @@ pub fn from_json(text: &str) -> Result<Scenario, ScenarioError> {
     }
 }
 
-fn tree_of(text: &str) -> Result<Tree, ScenarioError> {
+pub(super) fn tree_of(text: &str) -> Result<Tree, ScenarioError> {
     if text.len() > DOCUMENT_LIMIT {
         return Err(ScenarioError::TooLong { length: text.len(), max: DOCUMENT_LIMIT });
     }
@@ -30,7 +30,7 @@ fn tree_of(text: &str) -> Result<Tree, ScenarioError> {
 }
 
 /// The version of a document, which comes before anything else.
-fn version_of(tree: &Tree) -> Result<u64, ScenarioError> {
+pub(super) fn version_of(tree: &Tree) -> Result<u64, ScenarioError> {
     match tree.get("version") {
         Some(Tree::Unsigned(version)) => Ok(*version),
         Some(_) => Err(malformed("version", &"no whole number")),
@@ -100,7 +100,7 @@ pub fn to_json(scenario: &Scenario) -> Result<String, ScenarioError> {
 /// Path of an error that concerns no single field.
 const DOCUMENT: &str = "document";
 
-fn misread(error: &TreeError) -> ScenarioError {
+pub(super) fn misread(error: &TreeError) -> ScenarioError {
     malformed(error.path(), error)
 }
 

@@ -1,5 +1,6 @@
 use thiserror::Error;
 
+use crate::control::EstimatorError;
 use crate::linear::LinearError;
 use crate::plant::PlantError;
 
@@ -58,6 +59,14 @@ pub enum ScenarioError {
     /// The plant has no such operating point.
     #[error("setup.operating_point: {0}")]
     Plant(#[from] PlantError),
+    /// The model-free law cannot work with such settings.
+    #[error("{field}: {error}")]
+    Law {
+        /// Where in the document.
+        field: String,
+        /// What is wrong.
+        error: EstimatorError,
+    },
     /// The linear model does not answer.
     #[error(transparent)]
     Linear(#[from] LinearError),

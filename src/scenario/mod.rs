@@ -13,6 +13,7 @@ mod error;
 pub mod limits;
 mod link;
 mod margins;
+pub mod model_free;
 mod pack;
 mod path;
 mod presets;

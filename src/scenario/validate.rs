@@ -8,7 +8,7 @@ use super::limits::{self, Limits};
 use super::{OperatingPointSpec, PlantSpec, Scenario, ScenarioError, Setup, View};
 
 /// The outcome of a check; the error names the field by its path in the document.
-type Checked = Result<(), ScenarioError>;
+pub(super) type Checked = Result<(), ScenarioError>;
 
 impl Scenario {
     /// Checks every number against [`limits`], and the lengths of all lists.
@@ -24,10 +24,7 @@ impl Scenario {
 }
 
 fn check_setup(setup: &Setup, path: &str) -> Checked {
-    match &setup.plant {
-        PlantSpec::Preset(_) => {}
-        PlantSpec::Parameters { rig, .. } => check_rig(rig, &format!("{path}.plant.parameters.rig"))?,
-    }
+    check_plant(&setup.plant, &format!("{path}.plant"))?;
     pair(setup.valves, limits::VALVE, format_args!("{path}.valves"))?;
     match setup.operating_point {
         OperatingPointSpec::PumpVoltage(voltage) => {
@@ -39,6 +36,13 @@ fn check_setup(setup: &Setup, path: &str) -> Checked {
     }
     check_controller(&setup.controller, &format!("{path}.controller"))?;
     check_experiment(&setup.experiment, setup.controller.sampling_time_s, &format!("{path}.experiment"))
+}
+
+pub(super) fn check_plant(plant: &PlantSpec, path: &str) -> Checked {
+    match plant {
+        PlantSpec::Preset(_) => Ok(()),
+        PlantSpec::Parameters { rig, .. } => check_rig(rig, &format!("{path}.parameters.rig")),
+    }
 }
 
 fn check_rig(rig: &QuadrupleTank, path: &str) -> Checked {
@@ -76,7 +80,7 @@ fn check_pump(pump: &Pump, path: &str) -> Checked {
     within(pump.voltage_max, above_min, format_args!("{path}.voltage_max"))
 }
 
-fn check_controller(controller: &DecentralisedPi, path: &str) -> Checked {
+pub(super) fn check_controller(controller: &DecentralisedPi, path: &str) -> Checked {
     each(&controller.loops, format_args!("{path}.loops"), check_loop)?;
     within(controller.sampling_time_s, limits::SAMPLING_TIME_S, format_args!("{path}.sampling_time_s"))
 }
@@ -104,7 +108,7 @@ fn check_loop(settings: &PiSettings, path: &str) -> Checked {
     }
 }
 
-fn check_experiment(experiment: &Experiment, sampling_time_s: f64, path: &str) -> Checked {
+pub(super) fn check_experiment(experiment: &Experiment, sampling_time_s: f64, path: &str) -> Checked {
     within(experiment.duration_s, limits::duration_s(sampling_time_s), format_args!("{path}.duration_s"))?;
     let set_points = format!("{path}.set_point_steps");
     at_most(limits::MAX_STEPS, experiment.set_point_steps.len(), &set_points)?;
@@ -149,14 +153,14 @@ fn check_view(view: &View, path: &str) -> Checked {
 }
 
 /// `value` lies within `limits`, which also means that it is a finite number.
-fn within(value: f64, limits: Limits, field: impl Display) -> Checked {
+pub(super) fn within(value: f64, limits: Limits, field: impl Display) -> Checked {
     if limits.contains(value) {
         return Ok(());
     }
     Err(ScenarioError::OutOfRange { field: field.to_string(), value, min: limits.min, max: limits.max })
 }
 
-fn pair(values: [f64; 2], limits: Limits, field: impl Display) -> Checked {
+pub(super) fn pair(values: [f64; 2], limits: Limits, field: impl Display) -> Checked {
     each(&values, field, |value, path| within(*value, limits, path))
 }
 
@@ -169,6 +173,6 @@ fn at_most(max: usize, count: usize, field: impl Display) -> Checked {
 }
 
 /// Checks the entries of a list, each under its own path.
-fn each<T>(entries: &[T], field: impl Display, check: impl Fn(&T, &str) -> Checked) -> Checked {
+pub(super) fn each<T>(entries: &[T], field: impl Display, check: impl Fn(&T, &str) -> Checked) -> Checked {
     entries.iter().enumerate().try_for_each(|(index, entry)| check(entry, &format!("{field}[{index}]")))
 }

@@ -118,15 +118,17 @@ pub fn simulate_model_free(
     Ok(ModelFreeRun { trajectory, rows_per_sample, estimates: recorded.estimates, true_values })
 }
 
-/// Runs the same experiment with two PI loops, to compare with; see [`simulate_model_free`].
+/// Runs the same experiment with two PI loops, to compare with; see [`simulate_model_free`]. Also how many rows it is from one
+/// sample to the next.
 pub fn simulate_with_valves(
     plant: &QuadrupleTank,
     valves: &[ValveSchedule; 2],
     start: &OperatingPoint,
     controller: &DecentralisedPi,
     experiment: &Experiment,
-) -> Trajectory {
-    course::run_pi(MovingRig::new(plant, valves, start), plant, start, controller, experiment)
+) -> (Trajectory, usize) {
+    let run = course::run_pi(MovingRig::new(plant, valves, start), plant, start, controller, experiment);
+    (run, course::rows_per_sample(experiment, controller.sampling_time_s))
 }
 
 fn true_values(

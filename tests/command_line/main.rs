@@ -1,6 +1,7 @@
 //! The command line as a reader of the README uses it: every example there, the exit codes, and what goes wrong.
 #![cfg(not(target_arch = "wasm32"))]
 
+mod model_free;
 mod quadruple;
 mod tuning;
 
@@ -49,16 +50,22 @@ fn folder(test: &str) -> PathBuf {
     folder
 }
 
-/// Every key of a document has its property in the schema, in depth.
-fn assert_described(root: &Value, schema: &Value, document: &Value) {
-    let schema = match schema["$ref"].as_str() {
+/// What a schema refers to, or itself.
+fn resolved<'a>(root: &'a Value, schema: &'a Value) -> &'a Value {
+    match schema["$ref"].as_str() {
         Some(reference) => root.pointer(reference.trim_start_matches('#')).unwrap(),
         None => schema,
-    };
+    }
+}
+
+/// Every key of a document has its property in the schema, in depth.
+fn assert_described(root: &Value, schema: &Value, document: &Value) {
+    let schema = resolved(root, schema);
     match document {
         Value::Object(fields) => {
             for (key, value) in fields {
                 let choices = ["oneOf", "anyOf"].iter().filter_map(|choice| schema[choice].as_array()).flatten();
+                let choices = choices.map(|choice| resolved(root, choice));
                 let property = choices.chain([schema]).map(|choice| &choice["properties"][key]).find(|p| !p.is_null());
                 assert_described(root, property.unwrap_or_else(|| panic!("{key} is not in the schema")), value);
             }

@@ -13,7 +13,7 @@ fn case(name: &str) -> String {
 #[test]
 fn cases_lists_every_published_case_and_tune_gives_its_gains() {
     let list = stdout(&run(&["cases"]));
-    assert_eq!(list.lines().count(), 37);
+    assert_eq!(list.lines().filter(|line| line.contains("Campestrini")).count(), 37);
     assert!(list.contains("equation-88      Campestrini (2006), eq. 88\n"));
     // Table 6, root 1.
     let report: Value = serde_json::from_str(&stdout(&pipe(&["tune", "-"], case("table-6-row-1").as_bytes()))).unwrap();

@@ -7,6 +7,7 @@ use std::process::ExitCode;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Parser, Subcommand, ValueEnum};
 use quadtank::plant::PresetId;
+use quadtank::scenario::model_free::{ModelFreeScenario, ModelFreeSetup, model_free_from_json, published_model_free};
 use quadtank::scenario::tuning::{PublishedCase, TuningScenario, TuningSetup};
 use quadtank::scenario::{
     AnalysisReport, DOCUMENT_LIMIT, Document, Scenario, ScenarioError, Setup, analyse, document_from_json, run,
@@ -16,6 +17,7 @@ use quadtank::tuning::TuningError;
 use serde::Serialize;
 use thiserror::Error;
 
+mod model_free;
 mod plot;
 mod tune;
 
@@ -76,16 +78,16 @@ enum Command {
         #[arg(long, value_enum, default_value_t = Format::Json)]
         format: Format,
     },
-    /// List the published relay-tuning cases of Campestrini (2006), or print the scenario of one
+    /// List the published cases of Campestrini (2006) and of Junqueira et al., or print the scenario of one
     Cases {
         /// Name of a case
         #[arg(value_parser = case_of)]
-        name: Option<PublishedCase>,
+        name: Option<Case>,
     },
     /// Print the JSON Schema of the scenario
     Schema {
-        /// Version of the document: 1 for the quadruple tank, 2 for relay tuning
-        #[arg(long, default_value_t = Scenario::VERSION, value_parser = clap::value_parser!(u32).range(1..=2))]
+        /// Version of the document: 1 for the quadruple tank, 2 for relay tuning, 3 for model-free control
+        #[arg(long, default_value_t = Scenario::VERSION, value_parser = clap::value_parser!(u32).range(1..=3))]
         version: u32,
     },
 }
@@ -101,8 +103,19 @@ fn preset_parser() -> impl TypedValueParser<Value = PresetId> {
         .try_map(|name| PresetId::from_name(&name).ok_or("unknown rig"))
 }
 
-fn case_of(name: &str) -> Result<PublishedCase, &'static str> {
-    PublishedCase::from_name(name).ok_or("unknown case; `quadtank cases` lists them")
+/// A published case of either kind.
+#[derive(Clone, Debug)]
+enum Case {
+    Tuning(PublishedCase),
+    ModelFree(Box<ModelFreeSetup>),
+}
+
+fn case_of(name: &str) -> Result<Case, &'static str> {
+    let model_free = || model_free::published().find(|(known, ..)| known == name);
+    PublishedCase::from_name(name)
+        .map(Case::Tuning)
+        .or_else(|| model_free().map(|(_, valves, run)| Case::ModelFree(Box::new(published_model_free(valves, run)))))
+        .ok_or("unknown case; `quadtank cases` lists them")
 }
 
 /// Why a command was not carried out.
@@ -149,6 +162,7 @@ fn execute(command: Command) -> Result<(), Failure> {
             &file,
             |setup| print_json(&AnalysisReport::from(&told(&file, analyse(setup))?)),
             |session| print_json(&tuned(&file, tune::analysis(session))?),
+            |setup| print_json(&model_free::analysis(setup)),
         ),
         Command::Simulate { file, format } => answer(
             &file,
@@ -163,6 +177,10 @@ fn execute(command: Command) -> Result<(), Failure> {
                 Format::Csv => print(&tuned(&file, tune::response_csv(session))?),
                 Format::Json => print_json(&tuned(&file, tune::report(session))?),
             },
+            |setup| match format {
+                Format::Csv => print(&told(&file, model_free::csv(setup))?),
+                Format::Json => print_json(&told(&file, model_free::report(setup))?),
+            },
         ),
         Command::Plot { file, svg, chart, picture, theme } => {
             let style = theme.style();
@@ -173,6 +191,7 @@ fn execute(command: Command) -> Result<(), Failure> {
                 &file,
                 |setup| write(told(&file, plot::svg(setup, chart, &style))?),
                 |session| write(tuned(&file, tune::svg(session, picture, &style))?),
+                |setup| write(told(&file, model_free::svg(setup, &style))?),
             )
         }
         Command::Tune { file, format } => answer(
@@ -182,12 +201,14 @@ fn execute(command: Command) -> Result<(), Failure> {
                 Format::Json => print_json(&tuned(&file, tune::report(session))?),
                 Format::Csv => print(&tuned(&file, tune::test_csv(session))?),
             },
+            |_| Err(Failure::NoTuning { file: file_name(&file) }),
         ),
         Command::Cases { name: None } => print(&list_of_cases()),
-        Command::Cases { name: Some(case) } => {
+        Command::Cases { name: Some(Case::Tuning(case)) } => {
             let text = tuning_to_json(&case.scenario());
             print(&(text.map_err(|error| Failure::Scenario { file: case.name(), error })? + "\n"))
         }
+        Command::Cases { name: Some(Case::ModelFree(setup)) } => print_json(&ModelFreeScenario::from(*setup)),
         Command::Presets { name: None } => print(&list_of_presets()),
         Command::Presets { name: Some(id) } => {
             let scenario = Scenario::from(setup_of(id));
@@ -195,6 +216,9 @@ fn execute(command: Command) -> Result<(), Failure> {
             print(&(text + "\n"))
         }
         Command::Schema { version: Scenario::VERSION } => print_json(&schemars::schema_for!(Scenario)),
+        Command::Schema { version: ModelFreeScenario::VERSION } => {
+            print_json(&schemars::schema_for!(ModelFreeScenario))
+        }
         Command::Schema { .. } => print_json(&schemars::schema_for!(TuningScenario)),
     }
 }
@@ -204,10 +228,17 @@ fn answer(
     file: &Path,
     of_run: impl Fn(&Setup) -> Result<(), Failure>,
     of_session: impl Fn(&TuningSetup) -> Result<(), Failure>,
+    of_model_free: impl Fn(&ModelFreeSetup) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
-    match told(file, document_from_json(&read(file)?))? {
-        Document::Quadruple(scenario) => of_run(&scenario.setup),
-        Document::Tuning(scenario) => of_session(&scenario.tuning),
+    let text = read(file)?;
+    match document_from_json(&text) {
+        Ok(Document::Quadruple(scenario)) => of_run(&scenario.setup),
+        Ok(Document::Tuning(scenario)) => of_session(&scenario.tuning),
+        // What the page does not read yet.
+        Err(ScenarioError::UnknownVersion { .. }) => {
+            of_model_free(&told(file, model_free_from_json(&text))?.model_free)
+        }
+        Err(error) => told(file, Err(error)),
     }
 }
 
@@ -273,7 +304,7 @@ fn list_of_presets() -> String {
 }
 
 fn list_of_cases() -> String {
-    PublishedCase::all().fold(String::new(), |mut list, case| {
+    let tuning = PublishedCase::all().fold(String::new(), |mut list, case| {
         let place = match case.table {
             0 => "§6.4, solvents column".to_owned(),
             88 => "eq. 88".to_owned(),
@@ -281,6 +312,10 @@ fn list_of_cases() -> String {
         };
         // Writing to a String cannot fail.
         let _ = writeln!(list, "{:<16} Campestrini (2006), {place}", case.name());
+        list
+    });
+    model_free::published().fold(tuning, |mut list, (name, valves, experiment)| {
+        let _ = writeln!(list, "{name:<16} Junqueira, Neves and Angelico, case {valves:?}, experiment {experiment:?}");
         list
     })
 }

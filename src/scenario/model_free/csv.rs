@@ -1,0 +1,27 @@
+use std::fmt::Write as _;
+
+use super::{ModelFreeAnswer, ModelFreeSetup};
+
+impl ModelFreeAnswer {
+    /// The run, one row per sample, with the unit of each column in its name. φ̂ is what the law used at the sample, φ what it
+    /// really is from there on.
+    pub fn to_csv(&self, setup: &ModelFreeSetup) -> String {
+        let mut text = "time_s,level_1_m,level_2_m,level_3_m,level_4_m,reference_1_m,reference_2_m,pump_voltage_1_v,\
+             pump_voltage_2_v,gamma_1,gamma_2,phi_estimate_1_m_per_s,phi_estimate_2_m_per_s,phi_1_m_per_s,phi_2_m_per_s\n"
+            .to_owned();
+        let (run, trajectory) = (&self.run, &self.run.trajectory);
+        for (sample, row) in (0..trajectory.time_s.len()).step_by(run.rows_per_sample).enumerate() {
+            let time = trajectory.time_s[row];
+            let columns = trajectory.levels.iter().chain(&trajectory.references).chain(&trajectory.pump_voltage);
+            let phi = run.estimates.iter().chain(&run.true_values).map(|column| column[sample]);
+            let values = columns.map(|column| column[row]).chain(setup.valves.map(|valve| valve.at(time))).chain(phi);
+            // Writing to a String cannot fail.
+            let _ = write!(text, "{time}");
+            for value in values {
+                let _ = write!(text, ",{value}");
+            }
+            text.push('\n');
+        }
+        text
+    }
+}

@@ -1,0 +1,12 @@
+//! The document of a run under the model-free law, version 3, and what follows from it.
+
+mod answer;
+mod csv;
+mod document;
+mod published;
+mod validate;
+
+pub use answer::{ModelFreeAnalysis, ModelFreeAnswer, Moment, PredictedLoss, analyse_model_free, run_model_free};
+pub use document::{ModelFreeScenario, ModelFreeSetup, StartSpec};
+pub use published::{PublishedExperiment, PublishedValves, published_model_free};
+pub use validate::model_free_from_json;
