@@ -7,9 +7,10 @@ use quadtank::control::{AntiWindup, DecentralisedPi, LoopMode, Pairing, Parallel
 use quadtank::interaction::relative_gain_array;
 use quadtank::linear::{DelayedPlant, StateSpace, transmission_zeros};
 use quadtank::plant::{OperatingPoint, PresetId, QuadrupleTank};
+use quadtank::scenario::model_free::{ModelFreeSetup, PublishedExperiment, PublishedValves, published_model_free};
 use quadtank::sim::{
     Experiment, Measurement, SetPointStep, TwoLoops, closed_loop, loop_metrics, run_two_loops, simulate,
-    simulate_linear,
+    simulate_linear, simulate_model_free,
 };
 use quadtank::tuning::{
     CriticalCurve, CriticalSearch, Design, PublishedPlant, TestTime, frequency_range, simultaneous_test,
@@ -118,5 +119,18 @@ fn pid(proportional: f64, integral: f64, derivative: f64) -> ParallelPid {
     ParallelPid { proportional, integral, derivative }
 }
 
-criterion_group!(benches, theory, runs, relay_tuning);
+/// 2000 s of each published case under the published law.
+fn model_free(c: &mut Criterion) {
+    for valves in PublishedValves::ALL {
+        let mut setup = published_model_free(valves, PublishedExperiment::S2);
+        setup.experiment.duration_s = 2000.0;
+        let (plant, start) = (setup.plant_at(0.0), setup.start().expect("equal levels"));
+        let ModelFreeSetup { valves: schedules, controller, experiment, .. } = &setup;
+        c.bench_function(&format!("model-free run, case {valves:?}"), |t| {
+            t.iter(|| simulate_model_free(black_box(&plant), schedules, &start, controller, experiment));
+        });
+    }
+}
+
+criterion_group!(benches, theory, runs, relay_tuning, model_free);
 criterion_main!(benches);

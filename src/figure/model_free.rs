@@ -144,7 +144,7 @@ mod tests {
         let names = |chart: &Chart| chart.series().map(|series| series.name.to_string()).collect::<Vec<_>>();
         assert_eq!(names(&charts[1]), ["h₃", "h₄"]);
         // Up to the end of the window, in centimetres.
-        assert!((20.0..25.0).contains(&charts[1].y.range.1), "{:?}", charts[1].y.range);
+        assert!((20.0..=25.0).contains(&charts[1].y.range.1), "{:?}", charts[1].y.range);
         // A comparison may leave the chart; the time axis is numbered once.
         assert!(charts[0].y.range.1 < 20.0);
         assert_eq!(charts.each_ref().map(|chart| chart.x.numbered), [false, false, false, true]);

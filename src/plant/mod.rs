@@ -5,6 +5,7 @@
 
 mod equilibrium;
 mod error;
+mod feasible;
 mod jacobian;
 mod preset;
 mod published;

@@ -9,6 +9,9 @@ use quadtank::scenario::model_free::{
 use quadtank::sim::{HoldingEnds, TrackingFigures};
 use serde_json::{Value, json};
 
+/// Steps along each side of the outline of the levels that can be held.
+const OUTLINE_STEPS: u32 = 8;
+
 /// The published cases by name: `junqueira-a-s1` and so on.
 pub fn published() -> impl Iterator<Item = (String, PublishedValves, PublishedExperiment)> {
     PublishedValves::ALL.into_iter().flat_map(|valves| {
@@ -47,6 +50,7 @@ pub fn analysis(setup: &ModelFreeSetup) -> Value {
             Err(error) => json!(error),
         }),
         "smallest_model_gain": found.smallest_model_gain,
+        "feasible_levels": setup.plant_at(0.0).feasible_outline(OUTLINE_STEPS),
     })
 }
 
