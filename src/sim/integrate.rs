@@ -91,7 +91,7 @@ impl Hydraulics {
     }
 
     /// Lets `duration` seconds pass from `time` on.
-    pub(super) fn advance(&mut self, time: f64, duration: f64, watch: &mut impl Watch) {
+    pub(super) fn advance(&mut self, time: f64, duration: f64, watch: &mut dyn Watch) {
         // In units of the longest explicit step.
         let length = duration * self.fastest_rate() / EXPLICIT_SHARE;
         if length <= MOST_EXPLICIT_STEPS {
@@ -123,10 +123,11 @@ impl Hydraulics {
         duration: f64,
         longest: f64,
         pumped: impl Fn(f64) -> [f64; 4],
-        watch: &mut impl Watch,
+        watch: &mut dyn Watch,
     ) {
         let pieces = larger((duration / longest).ceil(), 1.0);
         let piece = duration / pieces;
+        let mut at_end = pumped(time);
         let mut done = 0.0;
         while done < pieces {
             let begin = time + done * piece;
@@ -138,11 +139,14 @@ impl Hydraulics {
             let mut taken = 0.0;
             while taken < steps {
                 let now = begin + taken * step;
-                let middle = pumped(now + step / 2.0);
+                if steps > 1.0 {
+                    self.pumped = pumped(now + step / 2.0);
+                }
+                let (at_begin, middle) = (at_end, self.pumped);
+                at_end = pumped(now + step);
                 if is_explicit {
-                    self.explicit_step(now, step, [&pumped(now), &middle, &pumped(now + step)], watch);
+                    self.explicit_step(now, step, [&at_begin, &middle, &at_end], watch);
                 } else {
-                    self.pumped = middle;
                     self.step(now, step, watch);
                 }
                 taken += 1.0;
@@ -199,7 +203,7 @@ impl Hydraulics {
     /// The classical Runge–Kutta step of order 4, with the flows from the pumps at its beginning, middle and end.
     #[expect(clippy::inline_always, reason = "measured, as above: three equal flows then cost nothing")]
     #[inline(always)]
-    fn explicit_step(&mut self, time: f64, step: f64, pumped: [&[f64; 4]; 3], watch: &mut impl Watch) {
+    fn explicit_step(&mut self, time: f64, step: f64, pumped: [&[f64; 4]; 3], watch: &mut dyn Watch) {
         let h = self.levels();
         let from_here = |k: [f64; 4], by: f64| [h[0] + by * k[0], h[1] + by * k[1], h[2] + by * k[2], h[3] + by * k[3]];
         let k1 = self.slopes(h, pumped[0]);
@@ -236,7 +240,7 @@ impl Hydraulics {
         steps
     }
 
-    fn step(&mut self, time: f64, step: f64, watch: &mut impl Watch) {
+    fn step(&mut self, time: f64, step: f64, watch: &mut dyn Watch) {
         let start = |i: usize| ImplicitStep::new(self.sections[i], self.root_level[i], self.drain[i], step);
         let upper = |i: usize| start(i).root_levels(self.pumped[i], &[0.0; STAGES]);
         let lower = |i: usize, above: &[f64; STAGES]| {
@@ -255,7 +259,7 @@ impl Hydraulics {
     /// Takes over the result of a step, kept within the walls, and tells when it met them.
     #[expect(clippy::inline_always, reason = "measured, as above; what is rare is apart")]
     #[inline(always)]
-    fn settle(&mut self, tank: usize, end: f64, time: f64, step: f64, watch: &mut impl Watch) {
+    fn settle(&mut self, tank: usize, end: f64, time: f64, step: f64, watch: &mut dyn Watch) {
         let top = self.root_height[tank];
         if end > top || end <= EMPTY_ROOT_LEVEL {
             self.tell(tank, end, time, step, watch);
@@ -265,7 +269,7 @@ impl Hydraulics {
 
     /// Tells when, on the way to `end`, the level met wall or bottom.
     #[inline(never)]
-    fn tell(&self, tank: usize, end: f64, time: f64, step: f64, watch: &mut impl Watch) {
+    fn tell(&self, tank: usize, end: f64, time: f64, step: f64, watch: &mut dyn Watch) {
         let start = self.root_level[tank];
         let reached = |root: f64| time + step * ((root - start) / (end - start)).clamp(0.0, 1.0);
         let (top, bottom) = (self.root_height[tank], EMPTY_ROOT_LEVEL);

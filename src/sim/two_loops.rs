@@ -123,7 +123,7 @@ const DIVERGED: f64 = 1e12;
 const MAX_ROWS: usize = 400_000;
 
 /// Runs the loops from rest. Relays start with the sign of their first error, and a positive one where that is zero.
-pub fn run_two_loops(plant: &mut impl HeldPlant, loops: &TwoLoops) -> LoopTrace {
+pub fn run_two_loops(plant: &mut dyn HeldPlant, loops: &TwoLoops) -> LoopTrace {
     let mut run = Run::new(plant, loops);
     let mut sample = 0_u32;
     while run.trace.halt.is_none() && run.time < loops.duration {
@@ -135,8 +135,8 @@ pub fn run_two_loops(plant: &mut impl HeldPlant, loops: &TwoLoops) -> LoopTrace 
     run.trace
 }
 
-struct Run<'a, P> {
-    plant: &'a mut P,
+struct Run<'a> {
+    plant: &'a mut dyn HeldPlant,
     loops: &'a TwoLoops,
     controllers: crate::control::RunningPidMatrix,
     /// Output of the controllers, held between samples.
@@ -150,8 +150,8 @@ struct Run<'a, P> {
     trace: LoopTrace,
 }
 
-impl<'a, P: HeldPlant> Run<'a, P> {
-    fn new(plant: &'a mut P, loops: &'a TwoLoops) -> Self {
+impl<'a> Run<'a> {
+    fn new(plant: &'a mut dyn HeldPlant, loops: &'a TwoLoops) -> Self {
         let outputs = plant.outputs();
         let positive = [0, 1].map(|i| loops.references[i] - outputs[i] >= 0.0);
         let controllers = loops.controllers.start(loops.step);

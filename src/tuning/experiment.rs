@@ -33,7 +33,7 @@ pub struct RelayTest {
 /// # Errors
 /// [`TuningError::OutOfRange`] for an amplitude, a duration or a step that is not positive, or a hysteresis below zero.
 pub fn relay_test(
-    plant: &mut impl HeldPlant,
+    plant: &mut dyn HeldPlant,
     relays: [Option<Relay>; 2],
     controllers: PidMatrix,
     time: TestTime,
