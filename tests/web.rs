@@ -4,6 +4,7 @@
 mod seeded;
 
 use quadtank::plant::PresetId;
+use quadtank::scenario::model_free::{PublishedExperiment, PublishedValves, published_model_free, run_model_free};
 use quadtank::scenario::{Document, Scenario, ScenarioError, analyse, document_from_link, run, setup_of, to_link};
 use wasm_bindgen_test::{wasm_bindgen_test, wasm_bindgen_test_configure};
 
@@ -67,4 +68,14 @@ fn a_damaged_link_is_an_error() {
 fn a_seed_gives_the_same_run_as_on_the_host() {
     let found = seeded::total_variation();
     assert!((found - seeded::TOTAL_VARIATION).abs() <= seeded::TOLERANCE, "{found}");
+}
+
+#[wasm_bindgen_test]
+fn model_free_control_does_here_what_it_does_on_the_host() {
+    // Junqueira, Neves and Angelico from empty tanks, IAE of tank 1 (cm s), as in tests/junqueira.rs.
+    for (valves, iae) in PublishedValves::ALL.into_iter().zip([190.3, 269.1, 207.2]) {
+        let answer = run_model_free(&published_model_free(valves, PublishedExperiment::S1)).expect("empty tanks");
+        let found = 100.0 * answer.figures[0].iae;
+        assert!((found - iae).abs() <= 0.05, "{valves:?}: {found}");
+    }
 }
