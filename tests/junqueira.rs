@@ -4,7 +4,7 @@
 use quadtank::control::{EstimatorSettings, FedWith, ModelFree, ModelFreeSettings, ModelFreeWindup, Pairing, Window};
 use quadtank::interaction::{niederlinski, relative_gain_array};
 use quadtank::linear::{StateSpace, transmission_zeros};
-use quadtank::plant::{Disturbance, OperatingPoint, PresetId, QuadrupleTank, ValveSchedule};
+use quadtank::plant::{OperatingPoint, PresetId, QuadrupleTank, ValveSchedule};
 use quadtank::sim::{
     EventKind, Experiment, HeldOutputs, HoldingEnds, Measurement, ModelFreeRun, SetPointStep, Stability,
     TrackingFigures, continuous_model_free_poles, model_free_poles, simulate_model_free, smallest_model_gain,
@@ -161,12 +161,15 @@ fn s2_of_case_b_is_slower_and_the_windup_is_its_overshoot() {
 fn other_windows_and_inputs_do_what_the_reading_says() {
     let estimator = ModelFree::PUBLISHED.estimator.unwrap();
     let with = |estimator| ModelFree { estimator: Some(estimator), ..ModelFree::PUBLISHED };
-    // A sliding window: the same IAE with less movement. Both loops' variation is in the published 7.3 against 11.4 V.
+    // A sliding window: the same IAE with less movement, counted from the step on.
     let sliding = with(EstimatorSettings { window: Window::Sliding, ..estimator });
-    let [first, _] = figures(&from_rest('a', &sliding, 320.0, &BOTH));
-    within(first.iae / CM, 77.87, 0.05, 'a');
-    let [block, _] = figures(&from_rest('a', &ModelFree::PUBLISHED, 320.0, &BOTH));
-    assert!(first.total_variation < block.total_variation - 3.5, "{first:?} {block:?}");
+    for (law, variation) in [(&sliding, 7.3), (&ModelFree::PUBLISHED, 11.4)] {
+        let run = from_rest('a', law, 320.0, &BOTH);
+        within(figures(&run)[0].iae / CM, 77.87, 0.05, 'a');
+        let output = run.trajectory.controller_output[0].iter().step_by(run.rows_per_sample).skip(20);
+        let output: Vec<f64> = output.copied().collect();
+        within(output.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum(), variation, 0.05, 'a');
+    }
     // The voltage that was asked for instead of the one that was had: strong windup.
     let commanded = with(EstimatorSettings { fed_with: FedWith::Commanded, ..estimator });
     for (name, iae) in [('a', 127.0), ('b', 385.0)] {
@@ -267,7 +270,7 @@ fn the_smallest_model_gain_of_case_a() {
         (column[399] - column[398]).abs() / (column[41] - column[40]).abs()
     };
     assert!(swing(1.005 * by_poles) < 1.0 && swing(0.995 * by_poles) > 1.0);
-    // In case b the zero makes it unstable whatever α̂.
+    // In case b the loop is unstable as published, and a larger α̂ only makes that slower.
     let (plant, rest) = at_rest('b');
     assert_eq!(smallest_model_gain(&plant.linearise(&rest), &ModelFree::PUBLISHED, 1.0), Ok(None));
 }
@@ -326,51 +329,15 @@ fn case_b_drifts_apart_behind_equal_steps_too() {
 #[test]
 fn case_c_tracks_with_a_ripple() {
     // Equal set-points, from rest at 10 cm, where the mean valves are singular and the flows of both pumps the same.
-    let rest = plant().with_valves([0.5; 2]).inputs_for_levels([0.1, 0.1]);
-    assert!(rest.is_err(), "γ1 + γ2 = 1");
-    let (_, rest) = at_rest('a');
+    let singular = plant().with_valves([0.5; 2]);
+    assert!(singular.inputs_for_levels([0.1, 0.1]).is_err(), "γ1 + γ2 = 1");
+    let rest = singular.rest_at([0.1, 0.1]).unwrap();
+    within(rest.levels[2] / CM, 8.148, 3.5e-3, 'c');
     let experiment = experiment(320.0, &BOTH);
     let run = simulate_model_free(&plant(), &case('c'), &rest, &ModelFree::PUBLISHED, &experiment).unwrap();
     for i in 0..2 {
         let late = run.trajectory.row_at(200.0).unwrap()..;
         let ripple = run.trajectory.levels[i][late].iter().map(|h| (h - 0.15).abs()).fold(0.0, f64::max) / CM;
-        assert!((0.05..0.25).contains(&ripple), "{ripple} cm");
+        assert!((0.1..0.15).contains(&ripple), "{ripple} cm");
     }
-}
-
-#[test]
-fn a_moving_valve_enters_the_integration() {
-    // Against samples ten times as short with valves that stand still in each of them: half a part in 10⁵ of the ripple.
-    let valves = case('c');
-    let (_, rest) = at_rest('a');
-    let coarse = {
-        let law = ModelFree { estimator: None, ..ModelFree::PUBLISHED };
-        let run = simulate_model_free(&plant(), &valves, &rest, &law, &experiment(100.0, &[])).unwrap();
-        run.trajectory
-    };
-    // The same voltages, by an integration of our own with steps of 1 ms.
-    let mut levels = rest.levels;
-    let plant = plant();
-    let mut worst = 0.0_f64;
-    let rows = coarse.time_s.len();
-    for row in 0..rows - 1 {
-        let (begin, end) = (coarse.time_s[row], coarse.time_s[row + 1]);
-        let voltage = [coarse.pump_voltage[0][row], coarse.pump_voltage[1][row]];
-        let steps = 200;
-        let step = (end - begin) / f64::from(steps);
-        for k in 0..steps {
-            let now = begin + f64::from(k) * step;
-            let slope = |time: f64, levels: [f64; 4]| {
-                let plant = plant.with_valves(valves.map(|valve| valve.at(time)));
-                plant.derivative(&levels, &voltage, &Disturbance::default())
-            };
-            let k1 = slope(now, levels);
-            let middle = std::array::from_fn(|i| levels[i] + step / 2.0 * k1[i]);
-            let k2 = slope(now + step / 2.0, middle);
-            levels = std::array::from_fn(|i| levels[i] + step * k2[i]);
-        }
-        worst = (0..4).map(|i| (levels[i] - coarse.levels[i][row + 1]).abs()).fold(worst, f64::max);
-    }
-    // 1e-6 of a step of 5 cm.
-    assert!(worst < 5e-8, "{worst} m");
 }

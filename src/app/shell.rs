@@ -319,7 +319,7 @@ fn of_error(lab: Lab, error: &ScenarioError) -> String {
         }
         ScenarioError::TooLong { length, max } => tr!(lab, refused.long, length = *length, max = *max).to_string(),
         ScenarioError::DamagedLink => tr!(lab, refused.damaged).to_string(),
-        ScenarioError::Plant(error) => error.to_string(),
+        ScenarioError::Plant(error) | ScenarioError::Start(error) => error.to_string(),
         ScenarioError::Law { field, error } => format!("{field}: {error}"),
         ScenarioError::Linear(error) => error.to_string(),
     }

@@ -154,7 +154,7 @@ pub struct Estimator {
 }
 
 impl Estimator {
-    /// An estimator at its first sample, which measured `level` (m) after the input `input` (V), with the estimate φ̂ that it
+    /// An estimator at its first sample, with `level` (m) after the input `input` (V), with the estimate φ̂ that it
     /// gives until its first window is full (m/s).
     ///
     /// # Errors
@@ -167,6 +167,13 @@ impl Estimator {
     ) -> Result<Self, EstimatorError> {
         let weights = settings.weights(model_gain, sampling_time_s)?;
         Ok(Self { window: settings.window, weights, samples: vec![[level, input]], estimate })
+    }
+
+    /// Corrects what the first sample measured (m).
+    pub fn begin(&mut self, level: f64) {
+        if let [first] = &mut self.samples[..] {
+            first[0] = level;
+        }
     }
 
     /// Takes the measurement (m) at a sample and the input (V) that acted on the way to it.

@@ -164,8 +164,11 @@ impl ModelFreeLoop {
     }
 
     fn step(&mut self, reference: f64, measured: f64) -> f64 {
-        if let (Some(estimator), Some(last)) = (&mut self.estimator, self.last) {
-            estimator.push(measured, last);
+        match (&mut self.estimator, self.last) {
+            (Some(estimator), Some(last)) => estimator.push(measured, last),
+            // With noise it is not the level that the run begins with.
+            (Some(estimator), None) => estimator.begin(measured),
+            (None, _) => {}
         }
         let ModelFreeSettings { model_gain, proportional, integral, anti_windup } = self.settings;
         let error = reference - measured;

@@ -4,7 +4,7 @@ impl QuadrupleTank {
     /// The outline of what the pumps can hold: levels 1 and 2 (m) at rest along the edges of the square of pump voltages, each
     /// edge in `steps` steps, from both pumps at their lowest voltage around by pump 1. Every pair of levels inside is held by
     /// some pair of voltages, and none outside; where γ1 + γ2 = 1 the outline collapses to a curve, on which two inputs hold one
-    /// ratio of flows. Walls are ignored.
+    /// ratio of flows. Walls are ignored, those of the upper tanks too.
     ///
     /// The map from voltages to flows is linear, and flows rise with levels, so edges bound what corners span.
     pub fn feasible_outline(&self, steps: u32) -> Vec<[f64; 2]> {

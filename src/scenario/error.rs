@@ -59,6 +59,9 @@ pub enum ScenarioError {
     /// The plant has no such operating point.
     #[error("setup.operating_point: {0}")]
     Plant(#[from] PlantError),
+    /// Nothing holds the levels that a run under the model-free law is to begin with.
+    #[error("model_free.start: {0}")]
+    Start(PlantError),
     /// The model-free law cannot work with such settings.
     #[error("{field}: {error}")]
     Law {

@@ -48,7 +48,7 @@ pub const MAX_ROWS: usize = 200_000;
 const SMOOTH_ROWS: f64 = 1500.0;
 
 /// Slack by which rounding may make a sample come early, in sampling times.
-const TIME_SLACK: f64 = 1e-9;
+pub(super) const TIME_SLACK: f64 = 1e-9;
 
 /// When the rows of a trajectory are, and which of them are samples.
 #[derive(Clone, Copy, Debug)]
@@ -117,13 +117,13 @@ impl<'a> References<'a> {
 }
 
 /// Loads that begin at their exact times.
-struct Loads<'a> {
+pub(super) struct Loads<'a> {
     acting: Disturbance,
     pending: Vec<&'a LoadStep>,
 }
 
 impl<'a> Loads<'a> {
-    fn new(steps: &'a [LoadStep]) -> Self {
+    pub(super) fn new(steps: &'a [LoadStep]) -> Self {
         Self { acting: Disturbance::default(), pending: latest_first(steps.iter(), |step| step.time_s) }
     }
 
@@ -131,7 +131,7 @@ impl<'a> Loads<'a> {
         self.pending.last().map(|step| step.time_s).filter(|&begin| begin < time)
     }
 
-    fn at(&mut self, time: f64) -> &Disturbance {
+    pub(super) fn at(&mut self, time: f64) -> &Disturbance {
         while let Some(step) = self.pending.pop_if(|step| step.time_s <= time) {
             match step.load {
                 Load::PumpFlow { pump, flow } if pump < 2 => self.acting.pump_flow[pump] += flow,

@@ -6,6 +6,9 @@ use crate::scalar::larger;
 /// Step of the integration, as a share of the smaller time constant of the upper tanks at the start.
 const STEP: f64 = 1.0 / 50.0;
 
+/// Most steps of a prediction.
+const MOST_STEPS: f64 = 100_000.0;
+
 /// The plant with levels 1 and 2 held for good by whatever voltages that takes. Its valves stand still.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HeldOutputs<'a> {
@@ -66,7 +69,7 @@ impl<'a> HeldOutputs<'a> {
             let (tank, level) = (&self.plant.tanks[i + 2], larger(upper[i], 1e-3));
             tank.section.area(level) / tank.outflow_slope(level, self.plant.gravity)
         });
-        let step = STEP * quickest[0].min(quickest[1]);
+        let step = (STEP * quickest[0].min(quickest[1])).max(within_s / MOST_STEPS);
         let (mut levels, mut now) = (upper, 0.0);
         while now <= within_s {
             if let Some(end) = self.end_at(levels, now) {

@@ -5,13 +5,13 @@ use std::array::from_fn;
 use crate::control::{DecentralisedPi, EstimatorError, ModelFree, RunningModelFree};
 use crate::plant::{Disturbance, OperatingPoint, QuadrupleTank, ValveSchedule};
 
-use super::course::{self, Events, Law, Process, Sampled};
+use super::course::{self, Events, Law, Loads, Process, Sampled, TIME_SLACK};
 use super::experiment::Experiment;
 use super::integrate::Hydraulics;
 use super::trajectory::Trajectory;
 
-/// Longest step of the integration, in the time in which a valve turns by one radian. Half a part in a million of the ripple
-/// is left.
+/// Longest step of the integration, in the time in which a valve turns by one radian. About a part in a million of the
+/// ripple is left.
 const TURN: f64 = 0.25;
 
 /// The plant with its water and its moving valves.
@@ -114,7 +114,7 @@ pub fn simulate_model_free(
     let sampled = Sampled { law: &mut recorded, pairing, sampling_time_s };
     let trajectory = course::run(MovingRig::new(plant, valves, start), plant, start, sampled, experiment);
     let rows_per_sample = course::rows_per_sample(experiment, sampling_time_s);
-    let true_values = true_values(plant, valves, law, &trajectory, rows_per_sample);
+    let true_values = true_values(plant, valves, law, experiment, &trajectory, rows_per_sample);
     Ok(ModelFreeRun { trajectory, rows_per_sample, estimates: recorded.estimates, true_values })
 }
 
@@ -135,17 +135,23 @@ fn true_values(
     plant: &QuadrupleTank,
     valves: &[ValveSchedule; 2],
     law: &ModelFree,
+    experiment: &Experiment,
     run: &Trajectory,
     rows_per_sample: usize,
 ) -> [Vec<f64>; 2] {
+    let mut loads = Loads::new(&experiment.load_steps);
+    let slack = TIME_SLACK * law.sampling_time_s;
     let mut values: [Vec<f64>; 2] = Default::default();
     for row in (0..run.time_s.len()).step_by(rows_per_sample) {
         let plant = plant.with_valves(valves.map(|valve| valve.at(run.time_s[row])));
         let levels = from_fn(|tank| run.levels[tank][row]);
         let voltage = [run.pump_voltage[0][row], run.pump_voltage[1][row]];
-        let slope = plant.derivative(&levels, &voltage, &Disturbance::default());
+        let slope = plant.derivative(&levels, &voltage, loads.at(run.time_s[row] + slack));
         for (i, column) in values.iter_mut().enumerate() {
-            column.push(slope[i] - law.loops[i].model_gain * run.controller_output[i][row]);
+            // At its wall a level rises no further, whatever comes in.
+            let is_full = levels[i] >= plant.tanks[i].height;
+            let slope = if is_full { slope[i].min(0.0) } else { slope[i] };
+            column.push(slope - law.loops[i].model_gain * run.controller_output[i][row]);
         }
     }
     values

@@ -12,7 +12,9 @@ use super::hold::Hold;
 use super::poles::Stability;
 
 /// Samples of a sliding window up to which its poles are computed: each is four states.
-const MOST_SLIDING_SAMPLES: usize = 60;
+const MOST_SLIDING_SAMPLES: usize = 30;
+/// What rounding makes of a zero multiplier of a shift register of N samples is `(1e-12)^(1/N)` at most.
+const SHIFTED: f64 = 1e-12;
 /// Halvings of the interval in which α̂ is searched: 1e-9 of it is left.
 const HALVINGS: u32 = 40;
 /// Smallest α̂ that is tried, as a share of the present one.
@@ -22,7 +24,8 @@ const SMALLEST: f64 = 1e-4;
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModelFreePoles {
     /// The poles in the s-plane (1/s), by falling real part. With a block window the loop repeats itself only from window to
-    /// window, and these are `ln(μ)/T` of the multipliers μ over one window; else `ln(z)/Ts`.
+    /// window, and these are `ln(μ)/T` of the multipliers μ over one window; else `ln(z)/Ts`. Those at z = 0, of the memory of a
+    /// sliding window say, have no image and are left out, with all that rounding does not tell from them.
     pub poles_s: Vec<Complex>,
     /// The verdict.
     pub stability: Stability,
@@ -32,14 +35,16 @@ pub struct ModelFreePoles {
 /// estimator is fed with what the pumps get. `power_gain` is that of the power module.
 ///
 /// # Errors
-/// [`LinearError::OutOfRange`] when the law [cannot work](ModelFree::check) or its sliding window has more than 60 samples,
+/// [`LinearError::OutOfRange`] when the law [cannot work](ModelFree::check) or its sliding window has more than 30 samples,
 /// [`LinearError::NoConvergence`] when an entry is not finite.
 pub fn model_free_poles(jacobian: &Jacobian, law: &ModelFree, power_gain: f64) -> Result<ModelFreePoles, LinearError> {
-    let (map, period_s) = LinearLoop::new(jacobian, law, power_gain)?.period_map();
+    let linear = LinearLoop::new(jacobian, law, power_gain)?;
+    let (map, period_s) = linear.period_map();
+    let nothing = linear.shifted();
     let multipliers = eigenvalues(&map)?;
     let stability = Stability::of(&multipliers);
     let mut poles_s: Vec<Complex> =
-        multipliers.into_iter().filter(|&z| z != Complex::ZERO).map(|z| z.ln() / period_s).collect();
+        multipliers.into_iter().filter(|z| z.norm() > nothing).map(|z| z.ln() / period_s).collect();
     poles_s.sort_by(|x, y| y.re.total_cmp(&x.re).then(y.im.total_cmp(&x.im)));
     Ok(ModelFreePoles { poles_s, stability })
 }
@@ -79,7 +84,7 @@ pub fn smallest_model_gain_of_integrator(slope: f64, proportional: f64, integral
 }
 
 /// Smallest α̂ (m/(s V)), the same in both loops, with which the linear loop is stable, down from that of the first loop; `None`
-/// when it is not stable to begin with, or stable with any.
+/// when it is not stable to begin with, or still stable with a ten-thousandth of it.
 ///
 /// # Errors
 /// As [`model_free_poles`].
@@ -159,6 +164,16 @@ impl<'a> LinearLoop<'a> {
             wet: (0..4).filter(|&tank| !jacobian.dry[tank]).collect(),
             estimator: law.estimator.map(weights).transpose()?,
         })
+    }
+
+    /// Modulus up to which a multiplier is not told from zero.
+    fn shifted(&self) -> f64 {
+        match &self.estimator {
+            Some((settings, weights)) if settings.window == Window::Sliding => {
+                SHIFTED.powf(1.0 / (weights[0].len() - 1) as f64)
+            }
+            _ => 0.0,
+        }
     }
 
     /// The matrix that takes the state over one period, and the length of that (s).

@@ -10,6 +10,9 @@ const SETTLED: f64 = 0.02;
 /// Band that counts as tracked, as a share of the reference.
 const TRACKED: f64 = 0.05;
 
+/// Smallest difference that counts as a step of the start (m): rounding leaves less, and no sensor sees it.
+const LEAST_STEP: f64 = 1e-9;
+
 /// How one level followed its reference, from samples: sums over all of them, the last included; figures of the response from
 /// the last step of this reference on.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -88,7 +91,7 @@ impl Samples {
             return Some((k, self.reference[k] - self.reference[k - 1]));
         }
         let size = self.reference.first()? - self.level.first()?;
-        (size != 0.0).then_some((0, size))
+        (size.abs() > LEAST_STEP).then_some((0, size))
     }
 
     fn lost_at(&self, first: usize) -> Option<f64> {

@@ -65,7 +65,7 @@ fn simulate_and_plot_show_what_two_levels_hide() {
     let csv = stdout(&pipe(&["simulate", "-"], scenario.to_string().as_bytes()));
     assert_eq!(csv.lines().count(), 322);
     assert!(csv.starts_with("time_s,level_1_m,level_2_m,level_3_m,level_4_m,reference_1_m,"));
-    assert!(csv.lines().all(|line| line.split(',').count() == 15));
+    assert!(csv.lines().all(|line| line.split(',').count() == 16));
     let svg = stdout(&pipe(&["plot", "-", "--svg", "-"], scenario.to_string().as_bytes()));
     let document = roxmltree::Document::parse(&svg).unwrap();
     assert!(document.descendants().filter(|node| node.has_tag_name("path")).count() > 10);

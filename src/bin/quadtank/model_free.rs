@@ -36,7 +36,7 @@ fn moment(of: &Moment) -> Value {
     })
 }
 
-/// What theory says at the references that the run ends with, the valves as at its start.
+/// What theory says at the references that the run ends with, with the valves where they come to rest.
 pub fn analysis(setup: &ModelFreeSetup) -> Value {
     let found = analyse_model_free(setup);
     json!({
@@ -49,8 +49,13 @@ pub fn analysis(setup: &ModelFreeSetup) -> Value {
             }),
             Err(error) => json!(error),
         }),
+        "continuous_poles_without_estimator": found.continuous_poles.map(|poles| match poles {
+            Ok(poles) => json!(poles.iter().map(complex).collect::<Vec<_>>()),
+            Err(error) => json!(error),
+        }),
         "smallest_model_gain": found.smallest_model_gain,
-        "feasible_levels": setup.plant_at(0.0).feasible_outline(OUTLINE_STEPS),
+        "smallest_model_gain_of_integrators": found.smallest_of_integrators,
+        "levels_in_range_of_the_pumps": setup.plant_at(setup.valves_rest_from_s()).feasible_outline(OUTLINE_STEPS),
     })
 }
 

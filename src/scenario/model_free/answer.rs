@@ -1,11 +1,12 @@
-use crate::control::Pairing;
+use crate::control::{ModelFree, Pairing};
 use crate::interaction::{niederlinski, relative_gain_array};
 use crate::linear::{Complex, LinearError, StateSpace, transmission_zeros};
 use crate::plant::{OperatingPoint, PlantError, QuadrupleTank, ValveSchedule};
 use crate::scenario::ScenarioError;
 use crate::sim::{
-    HeldOutputs, HoldingEnds, ModelFreePoles, ModelFreeRun, TrackingFigures, Trajectory, model_free_poles,
-    simulate_model_free, simulate_with_valves, smallest_model_gain, tracking_figures,
+    Experiment, HeldOutputs, HoldingEnds, ModelFreePoles, ModelFreeRun, Stability, TrackingFigures, Trajectory,
+    continuous_model_free_poles, model_free_poles, simulate_model_free, simulate_with_valves, smallest_model_gain,
+    smallest_model_gain_of_integrator, tracking_figures,
 };
 
 use super::{ModelFreeSetup, StartSpec};
@@ -37,7 +38,12 @@ impl Moment {
             valves: plant.valves,
             zeros,
             rga_11: gain.as_ref().ok().and_then(|gain| Some(relative_gain_array(gain).ok()?[(0, 0)])),
-            niederlinski: gain.as_ref().map_or([None; 2], niederlinski),
+            // On the singular line its sign is rounding.
+            niederlinski: gain
+                .as_ref()
+                .ok()
+                .filter(|gain| relative_gain_array(gain).is_ok())
+                .map_or([None; 2], niederlinski),
         }
     }
 
@@ -47,7 +53,8 @@ impl Moment {
     }
 }
 
-/// What theory says of a setup, as the valves stand at its start and at the references that it ends with.
+/// What theory says of a setup at the references that it ends with, and with its valves as they stand after their last step or
+/// ramp; where they swing, as at the start.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModelFreeAnalysis {
     /// Where the loops should end, or why nothing holds those levels.
@@ -56,19 +63,31 @@ pub struct ModelFreeAnalysis {
     pub moment: Option<Moment>,
     /// Poles of the linear loop there.
     pub poles: Option<Result<ModelFreePoles, LinearError>>,
-    /// Smallest α̂ of a stable loop there (m/(s V)); `None` where no α̂ is the limit.
+    /// Poles of the loop in continuous time without estimator there (1/s).
+    pub continuous_poles: Option<Result<Vec<Complex>, LinearError>>,
+    /// Smallest α̂ of a stable loop there (m/(s V)), see [`smallest_model_gain`].
     pub smallest_model_gain: Option<f64>,
+    /// The same of each lower tank alone and without drain (m/(s V)).
+    pub smallest_of_integrators: Option<[f64; 2]>,
 }
 
 /// Analyses a setup at the references that its experiment ends with.
 pub fn analyse_model_free(setup: &ModelFreeSetup) -> ModelFreeAnalysis {
-    let plant = setup.plant_at(0.0);
+    let plant = setup.plant_at(setup.valves_rest_from_s());
     let rest = plant.rest_at(last_references(setup));
     let jacobian = rest.as_ref().ok().map(|rest| plant.linearise(rest));
     let gain = plant.power_gain;
     ModelFreeAnalysis {
         moment: rest.as_ref().ok().map(|rest| Moment::of(&plant, rest)),
         poles: jacobian.map(|jacobian| model_free_poles(&jacobian, &setup.controller, gain)),
+        continuous_poles: jacobian.map(|jacobian| continuous_model_free_poles(&jacobian, &setup.controller, gain)),
+        smallest_of_integrators: jacobian.map(|jacobian| {
+            let ModelFree { pairing, loops, sampling_time_s, .. } = setup.controller;
+            [0, 1].map(|i| {
+                let slope = gain * jacobian.b[(i, pairing.pump_of(i))];
+                smallest_model_gain_of_integrator(slope, loops[i].proportional, loops[i].integral, sampling_time_s)
+            })
+        }),
         smallest_model_gain: jacobian.and_then(|j| smallest_model_gain(&j, &setup.controller, gain).ok().flatten()),
         rest,
     }
@@ -101,8 +120,8 @@ pub struct ModelFreeAnswer {
     pub figures: [TrackingFigures; 2],
     /// The same experiment with two PI loops, where one is asked for.
     pub comparison: Option<(Trajectory, [TrackingFigures; 2])>,
-    /// What the zero dynamics say once both levels are held at their last references; `None` while valves move, or where they
-    /// are never held.
+    /// What the zero dynamics say once both levels are held at their last references; `None` where they never are, while
+    /// valves move, and where the linear loop is stable: it does not hold the levels at any price. Loads are not foreseen.
     pub predicted: Option<PredictedLoss>,
 }
 
@@ -113,7 +132,7 @@ const HELD_FOR_S: f64 = 10.0;
 /// Runs the experiment of a setup.
 ///
 /// # Errors
-/// [`ScenarioError::Plant`] when no input holds the levels that it begins with.
+/// [`ScenarioError::Start`] when no input holds the levels that it begins with.
 pub fn run_model_free(setup: &ModelFreeSetup) -> Result<ModelFreeAnswer, ScenarioError> {
     let (plant, start) = (setup.plant_at(0.0), setup.start()?);
     let ModelFreeSetup { valves, controller, experiment, .. } = setup;
@@ -135,7 +154,14 @@ fn predicted_loss(setup: &ModelFreeSetup, plant: &QuadrupleTank, run: &Trajector
         return None;
     }
     let references = last_references(setup);
-    let last_step = setup.experiment.set_point_steps.iter().map(|step| step.time_s).fold(0.0, f64::max);
+    let jacobian = plant.linearise(&plant.rest_at(references).ok()?);
+    let poles = model_free_poles(&jacobian, &setup.controller, plant.power_gain).ok()?;
+    if poles.stability != Stability::Unstable {
+        return None;
+    }
+    let Experiment { set_point_steps, duration_s, .. } = &setup.experiment;
+    let in_time = set_point_steps.iter().filter(|step| step.size != 0.0 && step.time_s <= *duration_s);
+    let last_step = in_time.map(|step| step.time_s).fold(0.0, f64::max);
     let is_held = |row: &usize| {
         let near = |i: usize| (run.levels[i][*row] - references[i]).abs() <= HELD * references[i].abs();
         run.time_s[*row] > last_step && near(0) && near(1)

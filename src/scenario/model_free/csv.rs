@@ -1,13 +1,15 @@
 use std::fmt::Write as _;
 
-use super::{ModelFreeAnswer, ModelFreeSetup};
+use super::{ModelFreeAnswer, ModelFreeSetup, Moment};
+use crate::plant::OperatingPoint;
 
 impl ModelFreeAnswer {
     /// The run, one row per sample, with the unit of each column in its name. φ̂ is what the law used at the sample, φ what it
-    /// really is from there on.
+    /// really is from there on; the zero is that of the moment, empty where there is none.
     pub fn to_csv(&self, setup: &ModelFreeSetup) -> String {
         let mut text = "time_s,level_1_m,level_2_m,level_3_m,level_4_m,reference_1_m,reference_2_m,pump_voltage_1_v,\
-             pump_voltage_2_v,gamma_1,gamma_2,phi_estimate_1_m_per_s,phi_estimate_2_m_per_s,phi_1_m_per_s,phi_2_m_per_s\n"
+             pump_voltage_2_v,gamma_1,gamma_2,phi_estimate_1_m_per_s,phi_estimate_2_m_per_s,phi_1_m_per_s,phi_2_m_per_s,\
+             rightmost_zero_per_s\n"
             .to_owned();
         let (run, trajectory) = (&self.run, &self.run.trajectory);
         for (sample, row) in (0..trajectory.time_s.len()).step_by(run.rows_per_sample).enumerate() {
@@ -20,7 +22,16 @@ impl ModelFreeAnswer {
             for value in values {
                 let _ = write!(text, ",{value}");
             }
-            text.push('\n');
+            // Of the linear model as levels, voltages and valves are at that moment.
+            let of = |column: &Vec<f64>| column[row];
+            let point = OperatingPoint {
+                levels: trajectory.levels.each_ref().map(of),
+                pump_voltage: trajectory.pump_voltage.each_ref().map(of),
+            };
+            let _ = match Moment::of(&setup.plant_at(time), &point).rightmost_zero() {
+                Some(zero) => writeln!(text, ",{zero}"),
+                None => writeln!(text, ","),
+            };
         }
         text
     }

@@ -46,13 +46,19 @@ impl ModelFreeSetup {
         rig.with_valves(self.valves.map(|valve| valve.at(time_s)))
     }
 
+    /// When the last step or ramp of a valve within the experiment ends (s); 0 where there is none.
+    pub fn valves_rest_from_s(&self) -> f64 {
+        let breaks = self.valves.iter().flat_map(ValveSchedule::breaks_s).flatten();
+        breaks.filter(|&time| time <= self.experiment.duration_s).fold(0.0, f64::max)
+    }
+
     /// Levels and voltages that the run begins with.
     ///
     /// # Errors
-    /// [`ScenarioError::Plant`] when no input holds the given levels.
+    /// [`ScenarioError::Start`] when no input holds the given levels.
     pub fn start(&self) -> Result<OperatingPoint, ScenarioError> {
         match self.start {
-            StartSpec::Rest(levels) => Ok(self.plant_at(0.0).rest_at(levels)?),
+            StartSpec::Rest(levels) => self.plant_at(0.0).rest_at(levels).map_err(ScenarioError::Start),
             StartSpec::Empty => Ok(OperatingPoint { levels: [0.0; 4], pump_voltage: [0.0; 2] }),
         }
     }
