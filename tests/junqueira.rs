@@ -341,3 +341,103 @@ fn case_c_tracks_with_a_ripple() {
         assert!((0.1..0.15).contains(&ripple), "{ripple} cm");
     }
 }
+
+mod seen {
+    //! What the bench says of each case, computed from the run and from theory.
+
+    use quadtank::scenario::ScenarioError;
+    use quadtank::scenario::model_free::{
+        Claim, LossBy, ModelFreeVerdict, PublishedExperiment, PublishedValves, Standing, analyse_model_free,
+        check_claims, published_model_free, run_model_free,
+    };
+
+    fn verdict(v: PublishedValves, e: PublishedExperiment, duration_s: f64) -> Result<ModelFreeVerdict, ScenarioError> {
+        let mut setup = published_model_free(v, e);
+        setup.experiment.duration_s = duration_s;
+        Ok(ModelFreeVerdict::of(&setup, &run_model_free(&setup)?, &analyse_model_free(&setup)))
+    }
+
+    const LONG: f64 = 2000.0;
+
+    #[test]
+    fn case_a_settles_whatever_is_asked_of_it() -> Result<(), ScenarioError> {
+        use PublishedExperiment::{S1, S2, S3};
+        // The settling times of the second program, S1 and S2.
+        for (experiment, times) in [(S1, [122.0, 121.0]), (S2, [108.0, 107.0])] {
+            let seen = verdict(PublishedValves::A, experiment, LONG)?;
+            assert_eq!(seen, ModelFreeVerdict::Settled(times.map(Some)), "{experiment:?}");
+        }
+        // Level 2 is not asked for anything.
+        assert!(matches!(verdict(PublishedValves::A, S3, LONG)?, ModelFreeVerdict::Settled([Some(_), None])));
+        Ok(())
+    }
+
+    #[test]
+    fn case_b_looks_settled_while_the_upper_tanks_leave_and_is_lost_when_told() -> Result<(), ScenarioError> {
+        let ModelFreeVerdict::Leaving { ends_s, e_folding_s, .. } =
+            verdict(PublishedValves::B, PublishedExperiment::S2, 320.0)?
+        else {
+            panic!("the drift is not seen");
+        };
+        // The zero at 15 cm: T3 T4 s² + (T3 + T4) s + 1 − 2.25 = 0 with T3 = T4 = 54.38 s √1.5, so T/(1.5 − 1).
+        assert!((e_folding_s.unwrap() - 2.0 * 54.38 * 1.5_f64.sqrt()).abs() < 0.05, "{e_folding_s:?}");
+        let seen = verdict(PublishedValves::B, PublishedExperiment::S2, LONG)?;
+        let ModelFreeVerdict::Lost {
+            at_s, by: LossBy::Overflow { tank: 2, time_s }, foretold_s: Some(foretold_s), ..
+        } = seen
+        else {
+            panic!("{seen:?}");
+        };
+        assert!((time_s - ends_s).abs() < 5.0 && (time_s - foretold_s).abs() < 5.0 && at_s > time_s);
+        Ok(())
+    }
+
+    #[test]
+    fn a_step_of_one_level_of_case_b_is_lost_at_the_limit_of_a_pump() -> Result<(), ScenarioError> {
+        let seen = verdict(PublishedValves::B, PublishedExperiment::S3, 320.0)?;
+        let ModelFreeVerdict::Lost { level: 0, at_s, by: LossBy::Pump(0), .. } = seen else { panic!("{seen:?}") };
+        // The source: under two minutes after the step at 20 s.
+        assert!(at_s - 20.0 < 120.0, "{at_s}");
+        Ok(())
+    }
+
+    #[test]
+    fn case_c_ripples_for_equal_set_points_and_cannot_hold_others() -> Result<(), ScenarioError> {
+        let equal = verdict(PublishedValves::C, PublishedExperiment::S2, 320.0)?;
+        let ModelFreeVerdict::Rippling(most) = equal else { panic!("{equal:?}") };
+        // The source: about 0.1 cm.
+        assert!(most.iter().all(|most| (0.05e-2..0.15e-2).contains(most)), "{most:?}");
+        let other = verdict(PublishedValves::C, PublishedExperiment::S3, 320.0)?;
+        assert!(matches!(other, ModelFreeVerdict::Unsettled(_)), "{other:?}");
+        Ok(())
+    }
+
+    #[test]
+    fn every_claim_of_the_paper_stands_as_the_documentation_says() -> Result<(), ScenarioError> {
+        let claims = check_claims()?;
+        let standing: Vec<(Claim, Standing)> = claims.iter().map(|claim| (claim.claim, claim.standing)).collect();
+        assert_eq!(
+            standing,
+            [
+                (Claim::CaseA, Standing::Reproduced),
+                (Claim::CaseB, Standing::LimitedTime),
+                (Claim::AnyZero, Standing::Refuted),
+                (Claim::CaseC, Standing::EqualSetPoints),
+                (Claim::ModelGain, Standing::Reproduced),
+            ]
+        );
+        // What the claim shows is what it was judged by.
+        for claim in claims {
+            let setup = claim.setup();
+            let seen = ModelFreeVerdict::of(&setup, &run_model_free(&setup)?, &analyse_model_free(&setup));
+            let is_lost = matches!(seen, ModelFreeVerdict::Lost { .. });
+            assert_eq!(
+                is_lost,
+                matches!(claim.standing, Standing::LimitedTime | Standing::Refuted),
+                "{:?}",
+                claim.claim
+            );
+        }
+        Ok(())
+    }
+}

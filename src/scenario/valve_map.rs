@@ -21,6 +21,11 @@ impl ValveMap {
         Ok(Self { plant: setup.plant(), pump_voltage: setup.operating_point()?.pump_voltage })
     }
 
+    /// The map of a rig at these pump voltages (V).
+    pub const fn at(plant: QuadrupleTank, pump_voltage: [f64; 2]) -> Self {
+        Self { plant, pump_voltage }
+    }
+
     /// The same map without a present setting: equal for any two settings of one rig at the same voltages, so that what
     /// shows the whole plane is redone only when the plane changes.
     #[must_use]
