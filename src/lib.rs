@@ -10,7 +10,7 @@
 //! | 2 | [`control`] | what acts: sampled PI and PID controllers, alone, decentralised or as a matrix; relays |
 //! | 3 | [`sim`] | plant + controller + experiment → trajectories, events, metrics |
 //! | 4 | [`tuning`] | how gains are found: relay tests, ultimate points, critical curve, rules, placement |
-//! | 5 | [`scenario`] | the document that describes an experiment, its links, and what follows from it |
+//! | 5 | [`scenario`] | the document that describes an experiment (`fields`: one table per type), its links, and what follows from it |
 //! | 5 | [`figure`] | charts as data, and how to paint them on any plotters backend |
 //! | 6 | `app` | the Leptos user interface (feature `app`) |
 //!

@@ -18,7 +18,7 @@ use serde_json::{Value, json};
 fn from_link(link: &str) -> Result<Scenario, ScenarioError> {
     document_from_link(link).map(|document| match document {
         Document::Quadruple(scenario) => scenario,
-        Document::Tuning(_) => panic!("{link} is a tuning session"),
+        other => panic!("{link} is {other:?}"),
     })
 }
 
@@ -186,7 +186,7 @@ fn an_unknown_version_is_refused_before_anything_else_is_read() {
         let text = json!({ "version": found, "whatever": [1, 2, 3] }).to_string();
         assert_eq!(from_json(&text), Err(ScenarioError::UnknownVersion { found, newest: 1 }));
     }
-    assert_eq!(from_link("q3.AAAA"), Err(ScenarioError::UnknownVersion { found: 3, newest: 2 }));
+    assert_eq!(from_link("q4.AAAA"), Err(ScenarioError::UnknownVersion { found: 4, newest: 3 }));
     for text in ["{}", r#"{"version": "1"}"#, r#"{"version": -1}"#, "[]", "null", "", "{"] {
         assert!(matches!(from_json(text), Err(ScenarioError::Malformed { .. })), "{text}");
     }
@@ -206,7 +206,7 @@ fn full() -> Value {
     pinned.operating_point = OperatingPointSpec::Levels([0.1, 0.12]);
     scenario.pinned = vec![pinned];
     scenario.view = View { cursor_s: Some(10.0), zoom_s: Some([0.0, 100.0]), hide_linear: false };
-    serde_json::to_value(&scenario).unwrap()
+    serde_json::from_str(&to_json(&scenario).unwrap()).unwrap()
 }
 
 /// Fields (by the path that an error gives, and by JSON pointer) and a number that is out of their range.
@@ -366,10 +366,50 @@ fn unknown_missing_and_double_fields_are_refused_by_name() {
     let error = from_json(&more).unwrap_err().to_string();
     assert!(error.starts_with("document: trailing characters"), "{error}");
 
+    let shorter = {
+        let mut shorter = full();
+        shorter["setup"]["valves"] = json!([0.5]);
+        shorter.to_string()
+    };
+    let error = from_json(&shorter).unwrap_err().to_string();
+    assert!(error.starts_with("setup.valves: invalid length 1, expected 2 elements"), "{error}");
+
+    let mode = |mode: Value| {
+        let mut document = full();
+        document["setup"]["controller"]["loops"][0]["mode"] = mode;
+        from_json(&document.to_string()).unwrap_err().to_string()
+    };
+    let path = "setup.controller.loops[0].mode";
+    for (value, error) in [
+        (json!("manual"), ".manual: a choice that needs a value"),
+        (json!({ "automatic": {} }), ".automatic: invalid type: map, expected a choice without a value"),
+        (json!({ "automatic": null }), ".automatic: invalid type: null, expected a choice without a value"),
+        (json!({}), ": invalid length 0, expected one choice"),
+        (json!({ "manual": {}, "automatic": {} }), ": invalid length 2, expected one choice"),
+        (json!({ "manual": [] }), ".manual: invalid type: list, expected a map"),
+        (json!({ "slow": 1 }), ": unknown variant `slow`, expected one of `automatic`, `manual`"),
+        (json!(1), ": invalid type: integer `1`, expected a choice"),
+    ] {
+        assert_eq!(mode(value), format!("{path}{error}"));
+    }
+
     let mut other_rig = full();
     other_rig["pinned"][0]["plant"] = json!({ "preset": "johansson-1999" });
     let error = from_json(&other_rig.to_string()).unwrap_err().to_string();
     assert!(error.starts_with("pinned[0].plant.preset: unknown variant `johansson-1999`"), "{error}");
+}
+
+#[test]
+fn what_may_be_absent_is_as_if_it_were_not_used() {
+    let mut document = full();
+    let fields = document.as_object_mut().unwrap();
+    fields.remove("view");
+    fields.remove("pinned");
+    let scenario = from_json(&document.to_string()).unwrap();
+    assert_eq!((scenario.pinned, scenario.view), (Vec::new(), View::default()));
+    document["view"] = json!({ "cursor_s": 7 });
+    let scenario = from_json(&document.to_string()).unwrap();
+    assert_eq!(scenario.view, View { cursor_s: Some(7.0), ..View::default() });
 }
 
 #[test]

@@ -1,12 +1,16 @@
 //! Relay-tuning documents: published cases, versions, bad input.
 #![cfg(not(target_arch = "wasm32"))]
 
+use quadtank::control::Pairing;
 use quadtank::linear::LoopStability;
 use quadtank::plant::PresetId;
-use quadtank::scenario::tuning::{PublishedCase, Study, Tested, TuningPlant, TuningScenario, TuningSetup, tune};
+use quadtank::scenario::tuning::{
+    Element, PublishedCase, Study, Tested, TuningPlant, TuningScenario, TuningSetup, tune,
+};
 use quadtank::scenario::{
     Document, ScenarioError, document_from_json, document_from_link, from_json, tuning_to_json, tuning_to_link,
 };
+use serde_json::{Value, json};
 
 /// What print and computation differ in by more than the digits of the print and of its periods leave open. Where the source is
 /// called a slip elsewhere it is among them; the others are off by less than a unit of the last digit or 1 % of a period.
@@ -80,8 +84,8 @@ fn documents_of_both_versions_come_back() {
     }
     let text = include_str!("data/scenario-v1-johansson.json");
     assert_eq!(document_from_json(text), from_json(text).map(Document::Quadruple));
-    let unknown = document_from_json(r#"{"version": 3}"#);
-    assert_eq!(unknown, Err(ScenarioError::UnknownVersion { found: 3, newest: 2 }));
+    let unknown = document_from_json(r#"{"version": 4}"#);
+    assert_eq!(unknown, Err(ScenarioError::UnknownVersion { found: 4, newest: 3 }));
 }
 
 #[test]
@@ -95,6 +99,42 @@ fn a_wrong_field_is_named() {
     assert!(refused("\"step\": 0.05", "\"step\": 0.0").starts_with("tuning.test.step: 0"));
     assert!(refused("\"period\": 12.9", "\"period\": -1").starts_with("tuning.design.critical.point.period: -1"));
     assert!(refused("\"wood-berry\"", "\"wood\"").starts_with("tuning.plant.published"));
+}
+
+#[test]
+fn what_may_be_absent_is_as_if_it_were_not_used() {
+    let mut document: Value = serde_json::from_str(&tuning_to_json(&TuningScenario::default()).unwrap()).unwrap();
+    document.as_object_mut().unwrap().remove("pinned");
+    let tuning = &mut document["tuning"];
+    for (part, names) in [
+        ("test", &["number", "behind", "hysteresis", "bias", "detuning", "passes"][..]),
+        ("design", &["decoupler"]),
+        ("response", &["compare"]),
+    ] {
+        for name in names {
+            tuning[part].as_object_mut().unwrap().remove(*name).unwrap();
+        }
+    }
+    assert_eq!(document_from_json(&document.to_string()), Ok(Document::Tuning(TuningScenario::default())));
+
+    let rig = json!({ "preset": "johansson-2000-minimum-phase", "pairing": "diagonal" });
+    document["tuning"]["plant"] = json!({ "quadruple_tank": rig });
+    let Ok(Document::Tuning(scenario)) = document_from_json(&document.to_string()) else { panic!("a session") };
+    let expected = TuningPlant::QuadrupleTank {
+        preset: PresetId::JohanssonMinimumPhase,
+        valves: None,
+        pairing: Pairing::Diagonal,
+        dead_time_s: 0.0,
+        lag_s: 0.0,
+        nonlinear: false,
+    };
+    assert_eq!(scenario.tuning.plant, expected);
+    let element = json!({ "numerator": [1], "denominator": [1, 2.5] });
+    document["tuning"]["plant"] = json!({ "elements": [[element, element], [element, element]] });
+    let Ok(Document::Tuning(scenario)) = document_from_json(&document.to_string()) else { panic!("a session") };
+    let TuningPlant::Elements(rows) = &scenario.tuning.plant else { panic!("elements") };
+    assert_eq!(rows[1][0], Element { numerator: vec![1.0], denominator: vec![1.0, 2.5], dead_time: 0.0 });
+    assert_eq!(document_from_json(&tuning_to_json(&scenario).unwrap()), Ok(Document::Tuning(scenario)));
 }
 
 #[test]

@@ -14,7 +14,7 @@ wasm_bindgen_test_configure!(run_in_browser);
 fn from_link(link: &str) -> Result<Scenario, ScenarioError> {
     document_from_link(link).map(|document| match document {
         Document::Quadruple(scenario) => scenario,
-        Document::Tuning(_) => panic!("{link} is a tuning session"),
+        _ => panic!("{link} is no run of the quadruple tank"),
     })
 }
 

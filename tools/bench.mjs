@@ -132,6 +132,12 @@ async function choosePlants(page, moves) {
   }
 }
 
+/** Drags a slider of the model-free bench after a case and its long run were chosen. */
+const dragInLongRun = (name) => async (page, moves) => {
+  for (const button of [name, 'free-long']) await page.getByTestId(button).click();
+  await dragSlider('free-kp')(page, moves);
+};
+
 const clearMeasures = (page) => page.evaluate(() => performance.clearMeasures());
 
 const readMeasures = (page) =>
@@ -155,6 +161,12 @@ const WAYS = [
   { way: 'target λ (both loci, two roots, response)', query: RELAY, move: dragHandle('target-handle', [0.47, 0.58], [0.06, 0.05]), bars: { 1: { compute: 3, paint: 16.7 } } },
   { way: 'ratio d2/d1 (Wood-Berry test of 400)', query: RELAY, move: dragSlider('ratio'), bars: { 1: { compute: 20 } } },
   { way: 'plant (curve of 200 directions, test, design)', query: RELAY, move: choosePlants, bars: { 1: { compute: 50 } } },
+  ...['a', 'b', 'c'].map((name) => ({
+    way: `Kp of case ${name} (2000 s with estimator, figures, theory)`,
+    query: '?bench=model-free',
+    move: dragInLongRun(`free-${name}`),
+    bars: { 1: { compute: 3, paint: 16.7 } },
+  })),
 ];
 
 /** Compute, event to charts painted and to words (ms) of each way that has bars, at a speed of the processor. */

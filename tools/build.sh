@@ -8,6 +8,7 @@ release_flags
 # A failure is told by its message; a stack of Trunk itself helps nobody.
 RUST_BACKTRACE=0 trunk --quiet build --release --offline
 node tools/order.mjs
+node tools/names.mjs
 node tools/release.mjs
 node tools/single.mjs
 node tools/minify.mjs

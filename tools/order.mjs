@@ -4,6 +4,7 @@
 // wasm-opt can sort functions by their names, so this gives every function the name of its place.
 import { execFileSync } from 'node:child_process';
 import { readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { CODE, IMPORTS, NAME_SECTION, Reader, encoded, imports, sections, sized } from './wasm.mjs';
 
 const SITE = 'dist';
 /** Bytes of the pieces that functions are compared by. */
@@ -13,86 +14,20 @@ const COMMON = 1500;
 /** Least share of common pieces for a neighbour; below it the order of the compiler is as good. */
 const ALIKE = 0.02;
 
-const [NAME_SECTION, IMPORTS, CODE] = [0, 2, 10];
 const FUNCTION_NAMES = 1;
-
-/** Reads the numbers of a wasm file. */
-class Reader {
-  constructor(bytes, at) {
-    this.bytes = bytes;
-    this.at = at;
-  }
-  byte() {
-    return this.bytes[this.at++];
-  }
-  number() {
-    let value = 0;
-    for (let scale = 1; ; scale *= 128) {
-      const byte = this.byte();
-      value += (byte & 127) * scale;
-      if (byte < 128) return value;
-    }
-  }
-  skip(count) {
-    this.at += count;
-  }
-  limits() {
-    const flags = this.byte();
-    this.number();
-    if (flags & 1) this.number();
-  }
-}
-
-function encoded(number) {
-  const bytes = [];
-  do {
-    bytes.push((number % 128) | (number > 127 ? 128 : 0));
-    number = Math.floor(number / 128);
-  } while (number > 0);
-  return Buffer.from(bytes);
-}
-
-const sized = (bytes) => Buffer.concat([encoded(bytes.length), bytes]);
-
-/** How many functions come from outside: they have the first numbers. */
-function importedFunctions(reader) {
-  let functions = 0;
-  for (let left = reader.number(); left > 0; left--) {
-    for (const _ of ['module', 'name']) reader.skip(reader.number());
-    const kind = reader.byte();
-    if (kind === 0) {
-      functions += 1;
-      reader.number();
-    } else if (kind === 1) {
-      reader.skip(1);
-      reader.limits();
-    } else if (kind === 2) {
-      reader.limits();
-    } else if (kind === 3) {
-      reader.skip(2);
-    } else {
-      throw new Error(`an import of kind ${kind} is not known here`);
-    }
-  }
-  return functions;
-}
 
 function partsOf(wasm) {
   const parts = { imported: 0, bodies: [] };
-  const reader = new Reader(wasm, 8);
-  while (reader.at < wasm.length) {
-    const kind = reader.byte();
-    const length = reader.number();
-    const end = reader.at + length;
-    if (kind === IMPORTS) parts.imported = importedFunctions(reader);
+  for (const { kind, content } of sections(wasm)) {
+    if (kind === IMPORTS) parts.imported = [...imports(wasm, content)].filter(({ isFunction }) => isFunction).length;
     if (kind === CODE) {
+      const reader = new Reader(wasm, content);
       for (let left = reader.number(); left > 0; left--) {
         const size = reader.number();
         parts.bodies.push(wasm.subarray(reader.at, reader.at + size));
         reader.skip(size);
       }
     }
-    reader.at = end;
   }
   return parts;
 }

@@ -9,6 +9,7 @@ use leptos::prelude::*;
 
 use super::canvas;
 use super::format::NumberStyle;
+use super::model_free;
 use super::pace::Pace;
 use super::relay::Session;
 use super::results::{Results, run_all};
@@ -16,6 +17,7 @@ use super::start::{Bench, Control, StartFlags};
 use super::texts::Language;
 use crate::figure::{Palette, Style};
 use crate::plant::DisplayUnit;
+use crate::scenario::model_free::ModelFreeScenario;
 use crate::scenario::tuning::TuningScenario;
 use crate::scenario::{self, Document, Scenario, ScenarioError, Setup};
 
@@ -69,6 +71,10 @@ pub struct State {
     pub tuning: RwSignal<TuningScenario>,
     /// The relay-tuning bench, from the first time it is shown.
     session: OnceLock<Session>,
+    /// The document of the model-free bench.
+    pub model_free: RwSignal<ModelFreeScenario>,
+    /// The model-free bench, from the first time it is shown.
+    model_free_session: OnceLock<model_free::Session>,
     /// Owns what stays when benches change.
     owner: Owner,
     /// The setups of the pinned runs that are computed.
@@ -99,6 +105,8 @@ impl Lab {
             tuning: RwSignal::new(TuningScenario::default()),
             flags: StoredValue::new(flags),
             session: OnceLock::new(),
+            model_free: RwSignal::new(ModelFreeScenario::default()),
+            model_free_session: OnceLock::new(),
             owner: Owner::current().unwrap_or_default(),
             pinned: StoredValue::new(pinned),
         })));
@@ -147,9 +155,14 @@ impl Lab {
         *self.session.get_or_init(|| self.owner.with(|| Session::start(self)))
     }
 
+    /// The model-free bench. It is computed when it is shown for the first time and stays.
+    pub fn model_free_session(self) -> model_free::Session {
+        *self.model_free_session.get_or_init(|| self.owner.with(|| model_free::Session::start(self)))
+    }
+
     /// The id of a bench: that of the page while it is shown.
-    pub fn id_of(self, bench: Bench) -> Option<&'static str> {
-        (self.bench.get() == bench).then_some("bench")
+    pub fn id_of(self, bench: Bench) -> Option<String> {
+        (self.bench.get() == bench).then(|| "bench".to_owned())
     }
 
     /// Changes the run that is worked on.
@@ -167,6 +180,10 @@ impl Lab {
             Ok(Document::Tuning(scenario)) => {
                 self.tuning.set(scenario);
                 self.bench.set(Bench::RelayTuning);
+            }
+            Ok(Document::ModelFree(scenario)) => {
+                self.model_free.set(scenario);
+                self.bench.set(Bench::ModelFree);
             }
             Err(error) => return self.notice.set(Some(Notice::Refused(error))),
         }
@@ -213,7 +230,7 @@ impl Lab {
         let theory = (!same_theory(&before, &after.setup)).then(|| Arc::new(scenario::analyse(&after.setup)));
         let run = (*before != after.setup).then(|| {
             // A run may take megabytes: the last one goes before the next is made. Words may still hold the one they tell.
-            self.charts.run.update_untracked(|last| *last = self.words.run.get_untracked());
+            self.charts.run.set_untracked(self.words.run.get_untracked());
             Arc::new(scenario::run(&after.setup))
         });
         let pinned = self.pinned.with_value(|pinned| *pinned != after.pinned).then(|| run_all(&after.pinned));

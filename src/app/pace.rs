@@ -11,6 +11,7 @@ use gloo_timers::callback::Timeout;
 use leptos::prelude::*;
 
 use super::timing::Stopwatch;
+use super::widgets::effect;
 
 /// Computes what changed and returns what hands it to the panels; nothing once the document is gone.
 type Compute = Rc<dyn Fn() -> Option<Box<dyn FnOnce()>>>;
@@ -42,11 +43,13 @@ impl Pace {
         let backstage = StoredValue::new_local(Backstage { stopwatch, compute, tell, next: None, told: None });
         let pace = Self { backstage };
         // The document as it stands is computed already.
-        Effect::new(move |known: Option<()>| {
+        let mut known = false;
+        effect(move || {
             document.track();
-            if known.is_some() {
+            if known {
                 pace.request_frame();
             }
+            known = true;
         });
     }
 

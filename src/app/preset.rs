@@ -3,7 +3,7 @@
 use crate::app::widgets::handler;
 use leptos::prelude::*;
 
-use super::lab::{Lab, use_lab};
+use super::lab::Lab;
 use super::start::Control;
 use super::texts::{say, tr};
 use super::widgets::html::option;
@@ -53,24 +53,22 @@ pub fn load(lab: Lab, id: PresetId) {
 
 /// The rig in force, if it is a published one.
 pub fn chosen(lab: Lab) -> Signal<Option<PresetId>> {
-    lab.part(|s| match s.plant {
-        PlantSpec::Preset(id) => Some(id),
-        PlantSpec::Parameters { .. } => None,
-    })
+    let name = lab.part(|s| match s.plant {
+        PlantSpec::Preset(id) => id.name().to_owned(),
+        PlantSpec::Parameters { .. } => String::new(),
+    });
+    Signal::derive(move || name.with(|name| PresetId::from_name(name)))
 }
 
 /// What to know about the rig in force.
-#[component]
-pub fn PresetRemark() -> impl IntoView {
-    let lab = use_lab();
+pub fn preset_remark(lab: Lab) -> AnyView {
     let id = chosen(lab);
     view! { <p class="remark" data-testid="preset-remark">{Signal::derive(move || remark_of(lab, id.get()))}</p> }
+        .into_any()
 }
 
 /// The select with all published rigs.
-#[component]
-pub fn PresetChoice() -> impl IntoView {
-    let lab = use_lab();
+pub fn preset_choice(lab: Lab) -> AnyView {
     let id = chosen(lab);
     let on_change = move |event| {
         if let Some(id) = PresetId::from_name(&event_target_value(&event)) {
@@ -94,4 +92,5 @@ pub fn PresetChoice() -> impl IntoView {
             inner_html=options
         ></select>
     }
+    .into_any()
 }

@@ -6,7 +6,10 @@ use super::download::{copy, download_text};
 use super::json;
 use super::lab::{Lab, Notice};
 use super::start::Bench;
-use crate::scenario::{Document, ScenarioError, json_of_link, to_json, to_link, tuning_to_json, tuning_to_link};
+use crate::scenario::{
+    Document, ScenarioError, json_of_link, model_free_to_json, model_free_to_link, to_json, to_link, tuning_to_json,
+    tuning_to_link,
+};
 
 /// What stands before the link text in the fragment of an address.
 const PREFIX: &str = "lab=";
@@ -22,6 +25,7 @@ fn link_of(lab: Lab) -> Result<String, ScenarioError> {
     match lab.bench.get_untracked() {
         Bench::QuadrupleTank => lab.scenario.with_untracked(to_link),
         Bench::RelayTuning => lab.tuning.with_untracked(tuning_to_link),
+        Bench::ModelFree => lab.model_free.with_untracked(model_free_to_link),
     }
 }
 
@@ -76,6 +80,7 @@ pub fn save(lab: Lab) {
     let text = match lab.bench.get_untracked() {
         Bench::QuadrupleTank => lab.scenario.with_untracked(to_json),
         Bench::RelayTuning => lab.tuning.with_untracked(tuning_to_json),
+        Bench::ModelFree => lab.model_free.with_untracked(model_free_to_json),
     };
     match text {
         Ok(text) => download_text("quadtank-experiment.json", "application/json", &text),

@@ -6,13 +6,14 @@ use leptos::prelude::*;
 use leptos::wasm_bindgen::JsCast;
 
 use super::lab::{Lab, Notice, use_lab};
+use super::model_free::ModelFreeBench;
 use super::quadruple::QuadrupleTankBench;
 use super::relay::RelayTuningBench;
 use super::share;
 use super::start::{Bench, StartFlags};
 use super::storage::{LANGUAGE, THEME};
 use super::texts::{Language, say, tr};
-use super::widgets::handler;
+use super::widgets::{effect, handler};
 use crate::scenario::{Document, Scenario, ScenarioError, setup_of};
 
 /// The element of the page that the laboratory fills; it holds the static outline until then.
@@ -36,9 +37,9 @@ pub fn mount() {
 pub fn Laboratory() -> impl IntoView {
     let lab = start();
     provide_context(lab);
-    Effect::new(move || show_on_root("data-theme", if lab.dark.get() { "dark" } else { "light" }));
-    Effect::new(move || show_on_root("lang", lab.language.get().tag()));
-    Effect::new(move || document().set_title(tr!(lab, app.page_title)));
+    effect(move || show_on_root("data-theme", if lab.dark.get() { "dark" } else { "light" }));
+    effect(move || show_on_root("lang", lab.language.get().tag()));
+    effect(move || document().set_title(tr!(lab, app.page_title)));
     let on_hash = window_event_listener(ev::hashchange, move |_| {
         if let Some(outcome) = share::from_address() {
             lab.open(outcome);
@@ -76,7 +77,7 @@ pub fn Laboratory() -> impl IntoView {
 fn KeptBench(bench: Bench) -> impl IntoView {
     let lab = use_lab();
     let seen = RwSignal::new(false);
-    Effect::new(move || {
+    effect(move || {
         if lab.bench.get() == bench && !seen.get_untracked() {
             seen.set(true);
         }
@@ -85,6 +86,7 @@ fn KeptBench(bench: Bench) -> impl IntoView {
         seen.get().then(|| match bench {
             Bench::QuadrupleTank => view! { <QuadrupleTankBench /> }.into_any(),
             Bench::RelayTuning => view! { <RelayTuningBench /> }.into_any(),
+            Bench::ModelFree => view! { <ModelFreeBench /> }.into_any(),
         })
     };
     view! { <div hidden=Signal::derive(move || lab.bench.get() != bench)>{content}</div> }
@@ -167,6 +169,7 @@ fn BenchLink(bench: Bench) -> impl IntoView {
     let text = match bench {
         Bench::QuadrupleTank => say!(lab, app.quadruple_tank),
         Bench::RelayTuning => say!(lab, app.relay_tuning),
+        Bench::ModelFree => say!(lab, app.model_free),
     };
     let go = move |event: ev::MouseEvent| {
         if !(event.ctrl_key() || event.meta_key() || event.shift_key()) {
@@ -178,7 +181,7 @@ fn BenchLink(bench: Bench) -> impl IntoView {
         <a
             href=format!("?bench={}", bench.name())
             data-testid=format!("bench-{}", bench.name())
-            aria-current=move || (lab.bench.get() == bench).then_some("page")
+            aria-current=move || (lab.bench.get() == bench).then(|| "page".to_owned())
             on:click=handler(go)
         >
             {text}

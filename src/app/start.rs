@@ -2,7 +2,7 @@
 //!
 //! `embed=1` hides the header and packs the bench; `panels=valves,zeros` shows only these; `lock=valves,gains` disables
 //! these controls; `lang=en|pt-BR` and `theme=light|dark` choose without being remembered; `preset=NAME` loads a
-//! published rig; `bench=relay-tuning` shows that bench. A flag that is not understood is ignored.
+//! published rig; `bench=relay-tuning` or `bench=model-free` shows that bench. A flag that is not understood is ignored.
 
 use crate::plant::PresetId;
 
@@ -14,17 +14,20 @@ pub enum Bench {
     QuadrupleTank,
     /// Relay tests and ultimate-point placement.
     RelayTuning,
+    /// Model-free control with moving valves.
+    ModelFree,
 }
 
 impl Bench {
     /// All benches, in the order of the navigation.
-    pub const ALL: [Self; 2] = [Self::QuadrupleTank, Self::RelayTuning];
+    pub const ALL: [Self; 3] = [Self::QuadrupleTank, Self::RelayTuning, Self::ModelFree];
 
     /// Its name in an address.
     pub const fn name(self) -> &'static str {
         match self {
             Self::QuadrupleTank => "quadruple-tank",
             Self::RelayTuning => "relay-tuning",
+            Self::ModelFree => "model-free",
         }
     }
 }
@@ -56,9 +59,11 @@ pub enum Panel {
     Curve,
     /// The characteristic loci with their target.
     Placement,
+    /// What the paper on model-free control claims.
+    Claims,
 }
 
-const PANELS: [(&str, Panel); 12] = [
+const PANELS: [(&str, Panel); 13] = [
     ("process", Panel::Process),
     ("valves", Panel::Valves),
     ("zeros", Panel::Zeros),
@@ -71,6 +76,7 @@ const PANELS: [(&str, Panel); 12] = [
     ("test", Panel::Test),
     ("curve", Panel::Curve),
     ("placement", Panel::Placement),
+    ("claims", Panel::Claims),
 ];
 
 /// A group of controls that can be disabled.

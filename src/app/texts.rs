@@ -1,6 +1,7 @@
 //! The texts for people: keys from `assets/locales`, checked when the crate is compiled (see `build.rs`).
 
 use std::fmt::{Display, Write as _};
+use std::sync::OnceLock;
 
 use leptos::prelude::*;
 
@@ -45,19 +46,23 @@ impl Language {
     }
 }
 
-/// A text with its `{{ values }}` filled in. Only the generated code calls this, so every value has a name that the text
-/// knows.
-fn fill(text: &str, values: &[(&str, &dyn Display)]) -> String {
+/// A text by its number.
+fn text(number: usize, language: Language) -> &'static str {
+    static TEXTS: OnceLock<[Vec<&str>; 2]> = OnceLock::new();
+    TEXTS.get_or_init(|| generated::TEXTS.map(|texts| texts.split('\u{1f}').collect()))[language as usize][number]
+}
+
+/// A text with its values filled in: a control character stands where the value of this number belongs, counted from 1.
+fn fill(text: &str, values: &[&dyn Display]) -> String {
     let mut filled = String::with_capacity(text.len() + 16);
-    let mut parts = text.split("{{");
-    filled.push_str(parts.next().unwrap_or_default());
-    for part in parts {
-        let (name, rest) = part.split_once("}}").unwrap_or((part, ""));
-        if let Some((_, value)) = values.iter().find(|(known, _)| *known == name.trim()) {
-            // Writing to a String cannot fail.
-            let _ = write!(filled, "{value}");
+    for character in text.chars() {
+        match (character as usize).checked_sub(1).and_then(|place| values.get(place)) {
+            Some(value) => {
+                // Writing to a String cannot fail.
+                let _ = write!(filled, "{value}");
+            }
+            None => filled.push(character),
         }
-        filled.push_str(rest);
     }
     filled
 }
@@ -74,14 +79,14 @@ macro_rules! tr {
 pub(crate) use tr;
 
 /// A text without values, following the language.
-pub fn follow(language: RwSignal<Language>, texts: &'static [&'static str; 2]) -> Signal<String> {
-    Signal::derive(move || texts[language.get() as usize].to_owned())
+pub fn follow(language: RwSignal<Language>, number: usize) -> Signal<String> {
+    Signal::derive(move || text(number, language.get()).to_owned())
 }
 
 /// The same as a signal. Views take this rather than a closure: they are then compiled once, not once for each text.
 macro_rules! say {
     ($lab:expr, $group:ident . $key:ident) => {
-        $crate::app::texts::follow($lab.language, $crate::app::texts::generated::$group::$key::TEXTS)
+        $crate::app::texts::follow($lab.language, $crate::app::texts::generated::$group::$key::NUMBER)
     };
     ($lab:expr, $($key_and_values:tt)+) => {
         leptos::prelude::Signal::derive(move || $crate::app::texts::tr!($lab, $($key_and_values)+).to_string())
@@ -95,8 +100,8 @@ mod tests {
 
     #[test]
     fn values_are_filled_in_wherever_they_stand() {
-        assert_eq!(fill("{{ a }} to {{b}}, {{ a }}", &[("a", &1), ("b", &"x")]), "1 to x, 1");
-        assert_eq!(fill("nothing", &[("a", &1)]), "nothing");
+        assert_eq!(fill("\u{1} to \u{2}, \u{1}", &[&1, &"x"]), "1 to x, 1");
+        assert_eq!(fill("nothing", &[&1]), "nothing");
     }
 
     #[test]

@@ -1,12 +1,8 @@
-use serde::{Deserialize, Serialize};
-
-use super::{Estimator, EstimatorError, EstimatorSettings, FedWith, Pairing};
+use super::{Estimator, EstimatorError, EstimatorSettings, FedWith, MAX_WINDOW_SAMPLES, Pairing};
 use crate::scalar::{larger, smaller};
 
 /// What keeps the integral of the law from winding up while its output is limited. The source has nothing.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ModelFreeWindup {
     /// Nothing: the integral runs on.
     Off,
@@ -21,9 +17,7 @@ pub enum ModelFreeWindup {
 
 /// Settings of one loop of the law, `u = (−φ̂ + Kp e + Ki ∫ e dt)/α̂` with e = r − y in metres
 /// (Junqueira, Neves and Angelico, eqs. 16 and 17).
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ModelFreeSettings {
     /// Gain α̂ of the ultra-local model (m/(s V)), positive.
     pub model_gain: f64,
@@ -36,9 +30,7 @@ pub struct ModelFreeSettings {
 }
 
 /// Two loops of the law that know nothing of each other. Loop 1 controls level 1, loop 2 level 2, whatever pump they drive.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ModelFree {
     /// Which pump each loop drives.
     pub pairing: Pairing,
@@ -62,15 +54,21 @@ impl ModelFree {
         Self {
             pairing: Pairing::Diagonal,
             loops: [one; 2],
-            estimator: Some(EstimatorSettings {
-                window_s: 10.0,
-                window: super::Window::Block,
-                quadrature: super::Quadrature::Rectangular,
-                fed_with: FedWith::Applied,
-            }),
+            estimator: Some(EstimatorSettings::PUBLISHED),
             sampling_time_s: 1.0,
         }
     };
+
+    /// The same law with another sampling time (s). Its window becomes the nearest whole number of samples, two at least.
+    #[must_use]
+    pub fn with_sampling_time(mut self, sampling_time_s: f64) -> Self {
+        self.sampling_time_s = sampling_time_s;
+        if let Some(estimator) = &mut self.estimator {
+            let samples = (estimator.window_s / sampling_time_s).round();
+            estimator.window_s = samples.clamp(2.0, MAX_WINDOW_SAMPLES as f64) * sampling_time_s;
+        }
+        self
+    }
 
     /// Whether both gains and the window can work.
     ///

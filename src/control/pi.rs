@@ -1,11 +1,7 @@
-use serde::{Deserialize, Serialize};
-
 use crate::scalar::{larger, smaller};
 
 /// What keeps the integral from winding up while the output is limited.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AntiWindup {
     /// Nothing: the integral runs on.
     Off,
@@ -17,9 +13,7 @@ pub enum AntiWindup {
 }
 
 /// Who moves the output of a loop.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LoopMode {
     /// The controller.
     Automatic,
@@ -33,9 +27,7 @@ pub enum LoopMode {
 }
 
 /// Settings of one PI loop, `u = K (b r − y + (1/Ti) ∫ (r − y) dt)` in volts of measured signal and controller output.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PiSettings {
     /// Gain K (V/V); negative where the loop needs it.
     pub gain: f64,

@@ -24,6 +24,7 @@ mod model_free;
 mod number;
 mod paint;
 mod palette;
+mod paper;
 mod pole_zero;
 mod responses;
 mod svg;
@@ -37,8 +38,9 @@ pub use chart::{Anchor, Chart, Course, Entry, Field, Label, Layer, Marker, Pen, 
 pub use frame::{Frame, Rect, Size, layout};
 pub use model_free::{ModelFreeCourse, ModelFreeTexts, model_free_course};
 pub use number::signed;
-pub use paint::{FONT_FAMILY, PaintError, Sheet, Style, paint};
+pub use paint::{FONT_FAMILY, Sheet, Style, paint};
 pub use palette::{Palette, Rgb};
+pub use paper::PaintError;
 pub use pole_zero::{PoleZero, PoleZeroTexts, pole_zero};
 pub use responses::{ResponseTexts, Responses, RunColumns, responses};
 pub use svg::{escape, to_svg};
@@ -46,4 +48,4 @@ pub use table::{Summary, Table, table};
 pub use tuning::{
     CurveChart, LociChart, LoopsChart, LoopsRecord, RulePoint, characteristic_loci, critical_curve, two_loops,
 };
-pub use valve_plane::{ValvePlane, ValvePlaneTexts, valve_plane};
+pub use valve_plane::{ValvePlane, ValvePlaneTexts, valve_plane, with_way};

@@ -1,6 +1,4 @@
 use plotters::coord::Shift;
-use plotters::drawing::DrawingAreaErrorKind;
-use plotters::element::{Circle, PathElement, Polygon};
 use plotters::prelude::{DrawingArea, DrawingBackend};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{FontDesc, FontFamily, FontStyle, FontTransform, RGBAColor, ShapeStyle, TextStyle};
@@ -8,13 +6,11 @@ use plotters::style::{FontDesc, FontFamily, FontStyle, FontTransform, RGBAColor,
 use super::frame::tick_counts;
 use super::legend::{self, SAMPLE};
 use super::measure::{CHARACTER, FONT, LINE, TICK_GAP};
+use super::paper::{Fine, PaintError, Paper, Surface};
 use super::trace::{self, Px};
 use super::{
     Anchor, Axis, Chart, Frame, Label, Layer, Marker, Palette, Pen, Rect, Rgb, Sample, Shape, Size, field, layout,
 };
-
-/// What can go wrong while painting: only what the backend reports.
-pub type PaintError<DB> = DrawingAreaErrorKind<<DB as DrawingBackend>::ErrorType>;
 
 /// Fonts of the charts, as a CSS family list: those of the page, nothing to load.
 pub const FONT_FAMILY: &str = "system-ui, -apple-system, Segoe UI, Roboto, DejaVu Sans, sans-serif";
@@ -66,7 +62,7 @@ pub(super) enum Part<'a> {
 /// `style.scale` pixels for each of them. The background is left as it is. The frames are those of [`layout`].
 ///
 /// # Errors
-/// What the backend reports.
+/// The first that the backend reports.
 pub fn paint<DB: DrawingBackend>(
     area: &DrawingArea<DB, Shift>,
     charts: &[Chart],
@@ -74,7 +70,7 @@ pub fn paint<DB: DrawingBackend>(
     style: &Style,
     sheet: Sheet,
 ) -> Result<(), PaintError<DB>> {
-    paint_parts(area, charts, size, style, sheet, |_| ())
+    paint_parts(area, charts, size, style, sheet, &mut |_| ())
 }
 
 /// As [`paint`], and announces every part before it is painted.
@@ -84,30 +80,13 @@ pub(super) fn paint_parts<DB: DrawingBackend>(
     size: Size,
     style: &Style,
     sheet: Sheet,
-    mut announce: impl FnMut(Part),
+    announce: &mut dyn FnMut(Part),
 ) -> Result<(), PaintError<DB>> {
+    let surface = Surface::of(area);
     for (chart, frame) in charts.iter().zip(layout(charts, size)) {
-        let brush = Brush { area, style, frame };
-        let (shades, rest): (Vec<&Layer>, Vec<&Layer>) =
-            chart.layers.iter().filter(|layer| sheet.has(layer.is_ground())).partition(|layer| layer.is_shade());
-        for layer in shades {
-            announce(Part::Layer(layer));
-            brush.layer(layer)?;
-        }
-        if sheet.has(true) {
-            announce(Part::Axes);
-            brush.axes(chart)?;
-        }
-        for layer in rest {
-            announce(Part::Layer(layer));
-            brush.layer(layer)?;
-        }
-        if sheet.has(true) && !chart.legend.is_empty() {
-            announce(Part::Legend);
-            brush.legend(chart)?;
-        }
+        Brush { paper: &surface, style, frame }.chart(chart, sheet, announce);
     }
-    Ok(())
+    surface.outcome()
 }
 
 /// Width of a line (CSS px).
@@ -131,35 +110,60 @@ fn dash(pen: Pen) -> Option<(f64, f64)> {
 }
 
 /// Paints the things of one chart, given in CSS px.
-struct Brush<'a, DB: DrawingBackend> {
-    area: &'a DrawingArea<DB, Shift>,
+struct Brush<'a> {
+    paper: &'a dyn Paper,
     style: &'a Style,
     frame: Frame,
 }
 
-impl<DB: DrawingBackend> Brush<'_, DB> {
-    fn layer(&self, layer: &Layer) -> Result<(), PaintError<DB>> {
+impl Brush<'_> {
+    fn chart(&self, chart: &Chart, sheet: Sheet, announce: &mut dyn FnMut(Part)) {
+        let (shades, rest): (Vec<&Layer>, Vec<&Layer>) =
+            chart.layers.iter().filter(|layer| sheet.has(layer.is_ground())).partition(|layer| layer.is_shade());
+        for layer in shades {
+            announce(Part::Layer(layer));
+            self.layer(layer);
+        }
+        if sheet.has(true) {
+            announce(Part::Axes);
+            self.axes(chart);
+        }
+        for layer in rest {
+            announce(Part::Layer(layer));
+            self.layer(layer);
+        }
+        if sheet.has(true) && !chart.legend.is_empty() {
+            announce(Part::Legend);
+            self.legend(chart);
+        }
+    }
+
+    fn layer(&self, layer: &Layer) {
         let (palette, plot) = (&self.style.palette, &self.frame.plot);
         match layer {
-            Layer::Field(field) => field::patches(field).iter().try_for_each(|patch| {
-                let outline: Vec<Px> = patch.outline.iter().map(|&point| self.inside(point)).collect();
-                self.polygon(&outline, palette.shade(patch.shade))
-            }),
+            Layer::Field(field) => {
+                for patch in field::patches(field) {
+                    let outline: Vec<Px> = patch.outline.iter().map(|&point| self.inside(point)).collect();
+                    self.polygon(&outline, palette.shade(patch.shade));
+                }
+            }
             &Layer::Region { x, y, role } => {
                 let ((left, bottom), (right, top)) = (self.inside((x.0, y.0)), self.inside((x.1, y.1)));
                 let corners = [(left, top), (right, top), (right, bottom), (left, bottom)];
-                self.polygon(&corners, palette.region(role))
+                self.polygon(&corners, palette.region(role));
             }
-            Layer::Line(series) => trace::polylines(series, &self.frame)
-                .iter()
-                .try_for_each(|run| self.line(run, palette.line(series.role, series.pen), series.pen)),
+            Layer::Line(series) => {
+                for run in trace::polylines(series, &self.frame) {
+                    self.line(&run, palette.line(series.role, series.pen), series.pen);
+                }
+            }
             &Layer::Upright { x, role, pen } => {
                 let x = self.frame.x_px(x);
-                self.straight((x, plot.bottom()), (x, plot.top), palette.line(role, pen), pen)
+                self.straight((x, plot.bottom()), (x, plot.top), palette.line(role, pen), pen);
             }
             &Layer::Level { y, role, pen } => {
                 let y = self.frame.y_px(y);
-                self.straight((plot.left, y), (plot.right(), y), palette.line(role, pen), pen)
+                self.straight((plot.left, y), (plot.right(), y), palette.line(role, pen), pen);
             }
             Layer::Marker(marker) => self.marker(marker),
             Layer::Label(label) => self.label(label),
@@ -167,19 +171,20 @@ impl<DB: DrawingBackend> Brush<'_, DB> {
     }
 
     /// A line across the plot, if it is in it.
-    fn straight(&self, from: Px, to: Px, color: Rgb, pen: Pen) -> Result<(), PaintError<DB>> {
+    fn straight(&self, from: Px, to: Px, color: Rgb, pen: Pen) {
         let finite = [from.0, from.1, to.0, to.1].into_iter().all(f64::is_finite);
-        match trace::clipped(&self.frame.plot, from, to).filter(|_| finite) {
-            Some((from, to)) => self.line(&[from, to], color, pen),
-            None => Ok(()),
+        if let Some((from, to)) = trace::clipped(&self.frame.plot, from, to).filter(|_| finite) {
+            self.line(&[from, to], color, pen);
         }
     }
 
-    fn line(&self, run: &[Px], color: Rgb, pen: Pen) -> Result<(), PaintError<DB>> {
+    fn line(&self, run: &[Px], color: Rgb, pen: Pen) {
         match dash(pen) {
             None => self.path(run, color, width(pen)),
             Some((on, off)) => {
-                trace::dashes(run, on, off).iter().try_for_each(|dash| self.path(dash, color, width(pen)))
+                for dash in trace::dashes(run, on, off) {
+                    self.path(&dash, color, width(pen));
+                }
             }
         }
     }
@@ -192,57 +197,55 @@ impl<DB: DrawingBackend> Brush<'_, DB> {
         (within(x, plot.left, plot.right()), within(y, plot.top, plot.bottom()))
     }
 
-    fn marker(&self, marker: &Marker) -> Result<(), PaintError<DB>> {
+    fn marker(&self, marker: &Marker) {
         let color = self.style.palette.color(marker.role);
         let point = self.frame.to_px(marker.at);
         if point.0.is_nan() || point.1.is_nan() {
-            return Ok(());
+            return;
         }
         let edge = self.inside(marker.at);
         // Half a pixel of rounding is not outside.
         if (point.0 - edge.0).abs().max((point.1 - edge.1).abs()) < 0.5 {
-            self.mark(marker.shape, edge, color)
+            self.mark(marker.shape, edge, color);
         } else if marker.points_beyond {
-            self.arrow(edge, point, color)
-        } else {
-            Ok(())
+            self.arrow(edge, point, color);
         }
     }
 
-    fn mark(&self, shape: Shape, (x, y): Px, color: Rgb) -> Result<(), PaintError<DB>> {
+    fn mark(&self, shape: Shape, (x, y): Px, color: Rgb) {
         let background = self.style.palette.background;
         match shape {
             Shape::Cross => {
                 let arm = 4.0;
-                self.path(&[(x - arm, y - arm), (x + arm, y + arm)], color, 1.9)?;
-                self.path(&[(x - arm, y + arm), (x + arm, y - arm)], color, 1.9)
+                self.path(&[(x - arm, y - arm), (x + arm, y + arm)], color, 1.9);
+                self.path(&[(x - arm, y + arm), (x + arm, y - arm)], color, 1.9);
             }
             Shape::Ring => {
-                self.disc((x, y), 5.0, background)?;
-                self.circle((x, y), 5.0, color, 2.0)
+                self.disc((x, y), 5.0, background);
+                self.circle((x, y), 5.0, color, 2.0);
             }
             Shape::Diamond => self.polygon(&[(x - 4.5, y), (x, y - 4.5), (x + 4.5, y), (x, y + 4.5)], color),
             Shape::Point => {
-                self.disc((x, y), 3.6, background)?;
-                self.circle((x, y), 3.6, color, 1.5)
+                self.disc((x, y), 3.6, background);
+                self.circle((x, y), 3.6, color, 1.5);
             }
             Shape::Arrow => self.arrow((x + 4.5, y), (x + 9.0, y), color),
             Shape::Handle => {
-                self.disc((x, y), 8.0, background)?;
-                self.disc((x, y), 6.0, color)
+                self.disc((x, y), 8.0, background);
+                self.disc((x, y), 6.0, color);
             }
         }
     }
 
     /// A small arrow at the edge of the plot towards a point outside.
-    fn arrow(&self, (x, y): Px, target: Px, color: Rgb) -> Result<(), PaintError<DB>> {
+    fn arrow(&self, (x, y): Px, target: Px, color: Rgb) {
         let (dx, dy) = (target.0 - x, target.1 - y);
         let (u, v) = if dx.abs() >= dy.abs() { (dx.signum(), 0.0) } else { (0.0, dy.signum()) };
         let back = |along: f64, across: f64| (x - u * along - v * across, y - v * along + u * across);
-        self.polygon(&[back(1.0, 0.0), back(9.0, 5.0), back(9.0, -5.0)], color)
+        self.polygon(&[back(1.0, 0.0), back(9.0, 5.0), back(9.0, -5.0)], color);
     }
 
-    fn label(&self, label: &Label) -> Result<(), PaintError<DB>> {
+    fn label(&self, label: &Label) {
         let (x, y) = self.inside(label.at);
         let length = label.text.chars().count() as f64 * if label.bold { CHARACTER * 1.25 } else { CHARACTER };
         let (h_pos, behind, ahead) = match label.anchor {
@@ -254,104 +257,103 @@ impl<DB: DrawingBackend> Brush<'_, DB> {
         let x = (x + label.offset.0).min(plot.right() - 2.0 - ahead).max(plot.left + 2.0 + behind);
         let font = if label.bold { FontStyle::Bold } else { FontStyle::Normal };
         let text = Text { words: &label.text, color: self.style.palette.color(label.role), font, h_pos, turned: false };
-        self.text(&text, (x, y + label.offset.1))
+        self.text(&text, (x, y + label.offset.1));
     }
 
-    fn axes(&self, chart: &Chart) -> Result<(), PaintError<DB>> {
+    fn axes(&self, chart: &Chart) {
         let Palette { grid, edge, .. } = self.style.palette;
         let plot = &self.frame.plot;
         let (columns, rows) = tick_counts(chart, &self.frame);
         let (uprights, levels) = (chart.x.ticks(columns), chart.y.ticks(rows));
         for tick in &uprights {
             let x = snapped(self.frame.x_px(tick.value), plot.left, plot.right());
-            self.path(&[(x, plot.top), (x, plot.bottom())], grid, 1.0)?;
+            self.path(&[(x, plot.top), (x, plot.bottom())], grid, 1.0);
         }
         for tick in &levels {
             let y = snapped(self.frame.y_px(tick.value), plot.top, plot.bottom());
-            self.path(&[(plot.left, y), (plot.right(), y)], grid, 1.0)?;
+            self.path(&[(plot.left, y), (plot.right(), y)], grid, 1.0);
         }
-        self.edge(plot, edge)?;
+        self.edge(plot, edge);
         if chart.x.numbered {
             for tick in &uprights {
                 let below = (self.frame.x_px(tick.value), plot.bottom() + TICK_GAP + LINE / 2.0 - 2.0);
-                self.note(&tick.text(self.style.decimal), HPos::Center, below)?;
+                self.note(&tick.text(self.style.decimal), HPos::Center, below);
             }
         }
         if chart.y.numbered {
             for tick in &levels {
                 let beside = (plot.left - TICK_GAP, self.frame.y_px(tick.value));
-                self.note(&tick.text(self.style.decimal), HPos::Right, beside)?;
+                self.note(&tick.text(self.style.decimal), HPos::Right, beside);
             }
         }
-        self.axis_labels(&chart.x, &chart.y)
+        self.axis_labels(&chart.x, &chart.y);
     }
 
-    fn axis_labels(&self, x: &Axis, y: &Axis) -> Result<(), PaintError<DB>> {
+    fn axis_labels(&self, x: &Axis, y: &Axis) {
         let Frame { outer, plot, .. } = &self.frame;
         let below = plot.bottom() + LINE / 2.0 + if x.numbered { TICK_GAP + LINE - 3.0 } else { 4.0 };
-        self.note(&x.label, HPos::Center, (plot.left + plot.width / 2.0, below))?;
+        self.note(&x.label, HPos::Center, (plot.left + plot.width / 2.0, below));
         let font = FontStyle::Normal;
         let color = self.style.palette.muted;
         let text = Text { words: &y.label, color, font, h_pos: HPos::Center, turned: true };
-        self.text(&text, (outer.left + LINE / 2.0, plot.top + plot.height / 2.0))
+        self.text(&text, (outer.left + LINE / 2.0, plot.top + plot.height / 2.0));
     }
 
     /// The edge of the plot, just inside it.
-    fn edge(&self, plot: &Rect, color: Rgb) -> Result<(), PaintError<DB>> {
+    fn edge(&self, plot: &Rect, color: Rgb) {
         let (left, right, top, bottom) = (plot.left + 0.5, plot.right() - 0.5, plot.top + 0.5, plot.bottom() - 0.5);
         let corners = [(left, top), (right, top), (right, bottom), (left, bottom), (left, top)];
-        self.path(&corners, color, 1.0)
+        self.path(&corners, color, 1.0);
     }
 
-    fn legend(&self, chart: &Chart) -> Result<(), PaintError<DB>> {
+    fn legend(&self, chart: &Chart) {
         let Frame { outer, plot, .. } = &self.frame;
         let palette = &self.style.palette;
         for (entry, (left, row)) in chart.legend.iter().zip(legend::places(&chart.legend, outer.right())) {
             let (x, y) = (plot.left + left, outer.top + (row + 0.5) * LINE + 2.0);
             match entry.sample {
-                Sample::Line(pen) => self.line(&[(x, y), (x + SAMPLE - 5.0, y)], palette.line(entry.role, pen), pen)?,
-                Sample::Mark(shape) => self.mark(shape, (x + SAMPLE / 2.0, y), palette.color(entry.role))?,
+                Sample::Line(pen) => self.line(&[(x, y), (x + SAMPLE - 5.0, y)], palette.line(entry.role, pen), pen),
+                Sample::Mark(shape) => self.mark(shape, (x + SAMPLE / 2.0, y), palette.color(entry.role)),
             }
-            self.note(&entry.text, HPos::Left, (x + SAMPLE, y))?;
+            self.note(&entry.text, HPos::Left, (x + SAMPLE, y));
         }
-        Ok(())
     }
 
     /// Small print.
-    fn note(&self, text: &str, h_pos: HPos, at: Px) -> Result<(), PaintError<DB>> {
+    fn note(&self, text: &str, h_pos: HPos, at: Px) {
         let color = self.style.palette.muted;
-        self.text(&Text { words: text, color, font: FontStyle::Normal, h_pos, turned: false }, at)
+        self.text(&Text { words: text, color, font: FontStyle::Normal, h_pos, turned: false }, at);
     }
 
-    fn text(&self, text: &Text, at: Px) -> Result<(), PaintError<DB>> {
+    fn text(&self, text: &Text, at: Px) {
         if text.words.is_empty() {
-            return Ok(());
+            return;
         }
         let turn = if text.turned { FontTransform::Rotate270 } else { FontTransform::None };
         let size = FONT * f64::from(self.style.scale);
         let font = FontDesc::new(FontFamily::Name(FONT_FAMILY), size, text.font).transform(turn);
         let color = opaque(text.color);
         let style = TextStyle::from(font).color(&color).pos(Pos::new(text.h_pos, VPos::Center));
-        self.area.draw_text(text.words, &style, self.fine(at))
+        self.paper.text(text.words, &style, self.fine(at));
     }
 
-    fn path(&self, points: &[Px], color: Rgb, width: f64) -> Result<(), PaintError<DB>> {
+    fn path(&self, points: &[Px], color: Rgb, width: f64) {
         let points: Vec<_> = points.iter().map(|&point| self.fine(point)).collect();
-        self.area.draw(&PathElement::new(points, self.stroke(color, width)))
+        self.paper.path(points, self.stroke(color, width));
     }
 
-    fn polygon(&self, points: &[Px], color: Rgb) -> Result<(), PaintError<DB>> {
+    fn polygon(&self, points: &[Px], color: Rgb) {
         let points: Vec<_> = points.iter().map(|&point| self.fine(point)).collect();
-        self.area.draw(&Polygon::new(points, opaque(color)))
+        self.paper.polygon(points, opaque(color));
     }
 
-    fn circle(&self, center: Px, radius: f64, color: Rgb, width: f64) -> Result<(), PaintError<DB>> {
-        self.area.draw(&Circle::new(self.fine(center), self.length(radius), self.stroke(color, width)))
+    fn circle(&self, center: Px, radius: f64, color: Rgb, width: f64) {
+        self.paper.circle(self.fine(center), self.length(radius), self.stroke(color, width));
     }
 
-    fn disc(&self, center: Px, radius: f64, color: Rgb) -> Result<(), PaintError<DB>> {
+    fn disc(&self, center: Px, radius: f64, color: Rgb) {
         let filled = ShapeStyle::from(opaque(color)).filled();
-        self.area.draw(&Circle::new(self.fine(center), self.length(radius), filled))
+        self.paper.circle(self.fine(center), self.length(radius), filled);
     }
 
     fn stroke(&self, color: Rgb, width: f64) -> ShapeStyle {
@@ -360,7 +362,7 @@ impl<DB: DrawingBackend> Brush<'_, DB> {
 
     /// Pixel of the backend.
     #[expect(clippy::cast_possible_truncation, reason = "the size of a figure is clamped far below i32")]
-    fn fine(&self, (x, y): Px) -> (i32, i32) {
+    fn fine(&self, (x, y): Px) -> Fine {
         let scale = f64::from(self.style.scale);
         ((x * scale).round() as i32, (y * scale).round() as i32)
     }

@@ -24,7 +24,8 @@ pub fn to_svg(charts: &[Chart], size: Size, style: &Style, title: &str, descript
     let backend = Rc::new(RefCell::new(Svg::new(size, style.scale.max(1))));
     let area = DrawingArea::<Svg, Shift>::from(&backend);
     // Writing to memory cannot fail, so there is no error to report.
-    let Ok(()) = paint_parts(&area, charts, size, style, Sheet::Both, |part| backend.borrow_mut().group(part)) else {
+    let Ok(()) = paint_parts(&area, charts, size, style, Sheet::Both, &mut |part| backend.borrow_mut().group(part))
+    else {
         return String::new();
     };
     let body = backend.borrow_mut().take_body();

@@ -53,6 +53,20 @@ pub fn valve_plane(spec: &ValvePlane) -> Chart<'static> {
     chart
 }
 
+/// The plane with the way that the valves took, γ1 and γ2 in order of time.
+pub fn with_way<'a>(mut plane: Chart<'a>, way: &[[f64; 2]]) -> Chart<'a> {
+    plane.layers.push(Layer::Line(Series {
+        name: "γ(t)".into(),
+        role: Role::Neutral,
+        pen: Pen::Solid,
+        course: Course::Straight,
+        x: way.iter().map(|valves| valves[0]).collect(),
+        y: way.iter().map(|valves| valves[1]).collect(),
+        y_scale: 1.0,
+    }));
+    plane
+}
+
 fn shading(spec: &ValvePlane) -> Field {
     let node = |step: u32| f64::from(step) / f64::from(STEPS);
     let shades = (0..=STEPS).flat_map(|row| (0..=STEPS).map(move |column| shade(spec, [node(column), node(row)])));

@@ -1,11 +1,7 @@
-use serde::{Deserialize, Serialize};
-
 /// How a valve fraction γ moves in time (γ without unit, time in s).
 ///
 /// The schedules of Junqueira, Neves and Angelico (cases a, b and c) are constants and sines; steps and ramps are ours.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ValveSchedule {
     /// It stands still.
     Constant {
@@ -82,6 +78,32 @@ impl ValveSchedule {
         }
     }
 
+    /// Half way between the lowest and the highest γ.
+    pub fn middle(&self) -> f64 {
+        let (low, high) = self.extremes();
+        f64::midpoint(low, high)
+    }
+
+    /// How far γ goes to either side of its [`middle`](Self::middle).
+    pub fn swing(&self) -> f64 {
+        let (low, high) = self.extremes();
+        0.5 * (high - low)
+    }
+
+    /// The same movement around another middle.
+    #[must_use]
+    pub fn around(self, middle: f64) -> Self {
+        let by = middle - self.middle();
+        match self {
+            Self::Constant { .. } => Self::Constant { gamma: middle },
+            Self::Step { from, to, at_s } => Self::Step { from: from + by, to: to + by, at_s },
+            Self::Ramp { from, to, begin_s, end_s } => Self::Ramp { from: from + by, to: to + by, begin_s, end_s },
+            Self::Sine { mean, amplitude, frequency, phase } => {
+                Self::Sine { mean: mean + by, amplitude, frequency, phase }
+            }
+        }
+    }
+
     /// Whether γ ever moves.
     pub fn is_constant(&self) -> bool {
         let (low, high) = self.extremes();
@@ -123,6 +145,19 @@ mod tests {
         assert_relative_eq!(sine.at(5.0), 0.5 + 0.1 * 1.0_f64.sin(), max_relative = 1e-15);
         assert_eq!(sine.extremes(), (0.4, 0.6));
         assert_eq!(ValveSchedule::Ramp { from: 0.2, to: 0.8, begin_s: 5.0, end_s: 5.0 }.at(5.0), 0.8);
+    }
+
+    #[test]
+    fn a_movement_keeps_its_shape_around_another_middle() {
+        let ramp = ValveSchedule::Ramp { from: 0.25, to: 0.75, begin_s: 10.0, end_s: 20.0 };
+        let sine = ValveSchedule::Sine { mean: 0.5, amplitude: -0.125, frequency: 0.2, phase: 1.0 };
+        let step = ValveSchedule::Step { from: 0.5, to: 0.25, at_s: 3.0 };
+        for schedule in [ramp, sine, step, ValveSchedule::Constant { gamma: 0.5 }] {
+            let moved = schedule.around(0.625);
+            assert_eq!((moved.middle(), moved.swing()), (0.625, schedule.swing()), "{schedule:?}");
+            let by = 0.625 - schedule.middle();
+            assert_relative_eq!(moved.at(14.0), schedule.at(14.0) + by, max_relative = 1e-15);
+        }
     }
 
     #[test]

@@ -1,13 +1,9 @@
-use serde::{Deserialize, Serialize};
-
 use crate::scalar::larger;
 
 /// Horizontal cross-section of a tank as a function of level, `A(h) = area_at_empty + area_slope h` (m²).
 ///
 /// `area_slope` is 0 for a prismatic tank and `b tan θ` for a trapezoidal one (Cocota 2009, eq. 2.28).
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CrossSection {
     /// Cross-section at level 0 (m²).
     pub area_at_empty: f64,
@@ -24,7 +20,10 @@ impl CrossSection {
     /// A tank of breadth `b` (m) whose bottom has the length `c` (m) and one of whose end walls leans outwards by the
     /// angle `θ` (rad) from the vertical: `A(h) = b (c + h tan θ)` (Cocota 2009, eq. 2.28).
     pub fn trapezoidal(breadth: f64, bottom_length: f64, wall_angle_rad: f64) -> Self {
-        Self { area_at_empty: breadth * bottom_length, area_slope: breadth * wall_angle_rad.tan() }
+        Self {
+            area_at_empty: breadth * bottom_length,
+            area_slope: breadth * wall_angle_rad.sin() / wall_angle_rad.cos(),
+        }
     }
 
     /// Area of the water surface at `level` (m²); below the bottom the tank goes on as it is at the bottom.
@@ -41,9 +40,7 @@ impl CrossSection {
 }
 
 /// The hole through which a tank drains.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outlet {
     /// Geometric area `a` (m²).
     pub area: f64,
@@ -60,9 +57,7 @@ impl Outlet {
 }
 
 /// One tank with its outlet.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tank {
     /// Cross-section as a function of level.
     pub section: CrossSection,

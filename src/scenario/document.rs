@@ -1,15 +1,11 @@
-use serde::{Deserialize, Serialize};
-
 use crate::control::DecentralisedPi;
 use crate::plant::{DisplayUnit, OperatingPoint, PresetId, QuadrupleTank};
 use crate::sim::Experiment;
 
-use super::ScenarioError;
+use super::{ScenarioError, fields};
 
 /// The plant of a setup: a published rig by name, or all its parameters.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(clippy::large_enum_variant, reason = "one per scenario, and plain data is easier to share than a box")]
 pub enum PlantSpec {
     /// A published rig; its valves are overridden by those of the setup.
@@ -24,9 +20,7 @@ pub enum PlantSpec {
 }
 
 /// How the operating point is given.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum OperatingPointSpec {
     /// The pump voltages (V); the levels follow, for any valves.
     PumpVoltage([f64; 2]),
@@ -35,9 +29,7 @@ pub enum OperatingPointSpec {
 }
 
 /// Everything that one run depends on.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Setup {
     /// The plant.
     pub plant: PlantSpec,
@@ -83,9 +75,7 @@ impl Setup {
 }
 
 /// What the screen shows beside the run itself. Nothing here changes a number.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields, default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct View {
     /// Time at which the cursor of the responses stands (s); `None` at rest.
     pub cursor_s: Option<f64>,
@@ -99,19 +89,15 @@ pub struct View {
 ///
 /// In JSON every key is in snake case, also the name of a choice that holds fields, and every name of a rig in kebab
 /// case; units are SI.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Scenario {
     /// Version of the document: 1. It is checked before anything else is read.
     pub version: u32,
     /// The run that is worked on.
     pub setup: Setup,
     /// Runs pinned to compare with, at most 3.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub pinned: Vec<Setup>,
     /// What the screen shows.
-    #[serde(default)]
     pub view: View,
 }
 
@@ -120,4 +106,12 @@ impl Scenario {
     pub const VERSION: u32 = 1;
     /// How many pinned runs a scenario holds.
     pub const MAX_PINNED: usize = 3;
+
+    /// Checks every number against [`limits`](super::limits), and the lengths of all lists.
+    ///
+    /// # Errors
+    /// [`ScenarioError::OutOfRange`] or [`ScenarioError::TooMany`] for the first field that is not allowed.
+    pub fn validate(&self) -> Result<(), ScenarioError> {
+        fields::check(&mut self.clone())
+    }
 }

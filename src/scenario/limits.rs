@@ -36,6 +36,8 @@ pub const PUMP_VOLTAGE: Limits = Limits::new(0.0, 1000.0);
 /// Level at the operating point (m).
 pub const LEVEL: Limits = Limits::new(0.0, 10.0);
 
+/// A loop gain K (V/V) of either sign; see also [`gain_like`].
+pub const GAIN: Limits = Limits::new(-GAIN_MAGNITUDE.max, GAIN_MAGNITUDE.max);
 /// Magnitude of a loop gain K (V/V); its sign is free.
 pub const GAIN_MAGNITUDE: Limits = Limits::new(1e-3, 1e3);
 /// Integral time Ti (s).
@@ -48,6 +50,19 @@ pub const TRACKING_RATIO: Limits = Limits::new(0.01, 100.0);
 pub const MANUAL_OUTPUT: Limits = Limits::new(0.0, 1000.0);
 /// Sampling time Ts (s).
 pub const SAMPLING_TIME_S: Limits = Limits::new(0.05, 60.0);
+
+/// Gain α̂ of the ultra-local model (m/(s V)).
+pub const MODEL_GAIN: Limits = Limits::new(1e-7, 1.0);
+/// Kp (1/s) and Ki (1/s²) of the model-free law.
+pub const MODEL_FREE_FEEDBACK: Limits = Limits::new(0.0, 1e3);
+/// Length T of the window of the estimator (s); how many samples it has is limited too.
+pub const WINDOW_S: Limits = Limits::new(0.0, 1e5);
+/// Amplitude of a valve fraction that swings; see also [`VALVE`].
+pub const VALVE_AMPLITUDE: Limits = Limits::new(-1.0, 1.0);
+/// Angular frequency of a valve that swings (rad/s).
+pub const VALVE_FREQUENCY: Limits = Limits::new(0.0, 10.0);
+/// Phase of a valve that swings (rad).
+pub const VALVE_PHASE: Limits = Limits::new(-100.0, 100.0);
 
 /// Duration of an experiment (s).
 pub const DURATION_S: Limits = Limits::new(10.0, 20_000.0);
@@ -63,6 +78,8 @@ pub const LOAD_FLOW: Limits = Limits::new(-0.01, 0.01);
 pub const LEAK_AREA: Limits = Limits::new(0.0, 0.01);
 /// Standard deviation of the measurement noise (m).
 pub const NOISE_STD: Limits = Limits::new(0.0, 1.0);
+/// Seed of the measurement noise: any whole number of 32 bits.
+pub const SEED: Limits = Limits::new(0.0, u32::MAX as f64);
 /// Steps in one list of an experiment.
 pub const MAX_STEPS: usize = 8;
 

@@ -1,15 +1,16 @@
 //! Links: a document as text for the fragment of a URL.
 //!
-//! `q1.` for a run of the quadruple tank or `q2.` for a tuning session, and then, in base64url without padding, the
+//! `q1.` for a run of the quadruple tank, `q2.` for a tuning session, `q3.` for a run under the model-free law, and then, in base64url without padding, the
 //! [packed](super::pack) JSON on one line. What it is packed against holds field names and published settings, so a link to a
 //! published rig takes some twenty characters and one with every number changed stays under the limit.
 //!
-//! The dictionaries must never change, or old links break. A better one would be `q3.`, beside them.
+//! The dictionaries must never change, or old links break. A better one would be `q4.`, beside them.
 
 use base64::Engine;
 use base64::engine::general_purpose::URL_SAFE_NO_PAD;
 
-use super::codec::{DOCUMENT_LIMIT, Document, document_from_json, to_json, tuning_to_json};
+use super::codec::{DOCUMENT_LIMIT, Document, document_from_json, model_free_to_json, to_json, tuning_to_json};
+use super::model_free::ModelFreeScenario;
 use super::pack::{pack, unpack};
 use super::tuning::TuningScenario;
 use super::{Scenario, ScenarioError};
@@ -20,9 +21,10 @@ pub const LINK_LIMIT: usize = 2000;
 /// First character of every link; the number of its format follows.
 const MARK: char = 'q';
 /// Number of the newest format.
-const NEWEST: u32 = 2;
+const NEWEST: u32 = 3;
 /// What links of each format, from 1, are packed against.
-const DICTIONARIES: [&[u8]; 2] = [include_bytes!("dictionary-1.jsonl"), include_bytes!("dictionary-2.jsonl")];
+const DICTIONARIES: [&[u8]; 3] =
+    [include_bytes!("dictionary-1.jsonl"), include_bytes!("dictionary-2.jsonl"), include_bytes!("dictionary-3.jsonl")];
 
 /// Writes a scenario as text for the fragment of a URL: only letters, digits, `.`, `-` and `_`.
 ///
@@ -40,6 +42,14 @@ pub fn tuning_to_link(scenario: &TuningScenario) -> Result<String, ScenarioError
     write(2, &tuning_to_json(scenario)?)
 }
 
+/// Writes a run under the model-free law as [`to_link`] writes a scenario.
+///
+/// # Errors
+/// [`ScenarioError::TooLong`] beyond [`LINK_LIMIT`], or what [`ModelFreeScenario::validate`] finds.
+pub fn model_free_to_link(scenario: &ModelFreeScenario) -> Result<String, ScenarioError> {
+    write(3, &model_free_to_json(scenario)?)
+}
+
 fn write(format: usize, json: &str) -> Result<String, ScenarioError> {
     // Without the indentation: a string of a document has no line breaks, so every line starts with it.
     let line: String = json.lines().map(str::trim_start).collect();
@@ -50,7 +60,7 @@ fn write(format: usize, json: &str) -> Result<String, ScenarioError> {
     Ok(link)
 }
 
-/// Reads a document from the text that [`to_link`] or [`tuning_to_link`] writes.
+/// Reads a document from the text that [`to_link`] and its like write.
 ///
 /// # Errors
 /// As [`json_of_link`] and [`document_from_json`].
@@ -58,7 +68,7 @@ pub fn document_from_link(link: &str) -> Result<Document, ScenarioError> {
     document_from_json(&json_of_link(link)?)
 }
 
-/// The JSON in the text that [`to_link`] or [`tuning_to_link`] writes.
+/// The JSON in the text that [`to_link`] and its like write.
 ///
 /// # Errors
 /// [`ScenarioError::TooLong`] beyond [`LINK_LIMIT`]; [`ScenarioError::UnknownVersion`] for a format of a later program;

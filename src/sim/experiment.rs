@@ -1,9 +1,5 @@
-use serde::{Deserialize, Serialize};
-
 /// A step of one reference, relative to the operating point.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SetPointStep {
     /// Index of the loop (and lower tank), 0 or 1.
     pub level: usize,
@@ -14,9 +10,7 @@ pub struct SetPointStep {
 }
 
 /// What a load step changes.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Load {
     /// Flow added to that of a pump, ahead of its valve.
     PumpFlow {
@@ -35,9 +29,7 @@ pub enum Load {
 }
 
 /// A load that begins at a time and stays.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoadStep {
     /// When (s).
     pub time_s: f64,
@@ -46,9 +38,7 @@ pub struct LoadStep {
 }
 
 /// What the sensors add to the true level.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measurement {
     /// Standard deviation of white Gaussian noise at each sample (m of level); 0 for none.
     pub noise_std: f64,
@@ -59,9 +49,7 @@ pub struct Measurement {
 }
 
 /// What is done to the closed loop, from the operating point on.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Experiment {
     /// How long (s).
     pub duration_s: f64,

@@ -21,7 +21,7 @@ impl Hold {
     #[expect(clippy::cast_possible_truncation, reason = "a logarithm of a float is small, and the cast saturates")]
     pub(super) fn new(a: &Matrix4<f64>, duration: f64) -> Self {
         let norm = a.abs().row_sum().max() * duration;
-        let doublings = larger(2.0 * norm, 1.0).log2().ceil() as i32;
+        let doublings = (larger(2.0 * norm, 1.0).ln() / std::f64::consts::LN_2).ceil() as i32;
         let doublings = doublings.min(f64::MAX_EXP - 1);
         let short = duration * power_of_two(-doublings);
         let step = a * short;

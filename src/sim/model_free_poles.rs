@@ -1,12 +1,14 @@
 //! The linear loop of the model-free law, with its estimator, and how small α̂ may be.
 
 use std::array::from_fn;
+use std::cmp::Ordering;
 
 use nalgebra::{DMatrix, Matrix6, Vector4};
 
 use crate::control::{EstimatorError, EstimatorSettings, ModelFree, Window};
 use crate::linear::{Complex, LinearError, eigenvalues};
 use crate::plant::Jacobian;
+use crate::scalar::{power, sort_few};
 
 use super::hold::Hold;
 use super::poles::Stability;
@@ -31,6 +33,11 @@ pub struct ModelFreePoles {
     pub stability: Stability,
 }
 
+/// The order of poles: by falling real part, then by falling imaginary part.
+fn falling(one: &Complex, other: &Complex) -> Ordering {
+    other.re.total_cmp(&one.re).then(other.im.total_cmp(&one.im))
+}
+
 /// Poles of the sampled linear loop: the plant of `jacobian` under zero-order hold with the law and its estimator. The
 /// estimator is fed with what the pumps get. `power_gain` is that of the power module.
 ///
@@ -45,7 +52,7 @@ pub fn model_free_poles(jacobian: &Jacobian, law: &ModelFree, power_gain: f64) -
     let stability = Stability::of(&multipliers);
     let mut poles_s: Vec<Complex> =
         multipliers.into_iter().filter(|z| z.norm() > nothing).map(|z| z.ln() / period_s).collect();
-    poles_s.sort_by(|x, y| y.re.total_cmp(&x.re).then(y.im.total_cmp(&x.im)));
+    sort_few(&mut poles_s, falling);
     Ok(ModelFreePoles { poles_s, stability })
 }
 
@@ -72,7 +79,7 @@ pub fn continuous_model_free_poles(
     }
     let wet: Vec<usize> = (0..6).filter(|&k| k > 3 || !jacobian.dry[k]).collect();
     let mut poles = eigenvalues(&DMatrix::from_fn(wet.len(), wet.len(), |i, j| a[(wet[i], wet[j])]))?;
-    poles.sort_by(|x, y| y.re.total_cmp(&x.re).then(y.im.total_cmp(&x.im)));
+    sort_few(&mut poles, falling);
     Ok(poles)
 }
 
@@ -170,7 +177,7 @@ impl<'a> LinearLoop<'a> {
     fn shifted(&self) -> f64 {
         match &self.estimator {
             Some((settings, weights)) if settings.window == Window::Sliding => {
-                SHIFTED.powf(1.0 / (weights[0].len() - 1) as f64)
+                power(SHIFTED, 1.0 / (weights[0].len() - 1) as f64)
             }
             _ => 0.0,
         }

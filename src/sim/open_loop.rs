@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, Matrix2, Matrix4, Matrix4x2};
 use crate::control::{DecentralisedPi, PiSettings};
 use crate::linear::Complex;
 use crate::plant::Jacobian;
-use crate::scalar::larger;
+use crate::scalar::{larger, power};
 
 use super::hold::Hold;
 
@@ -84,8 +84,8 @@ impl<'a> OpenLoop<'a> {
         let nyquist = std::f64::consts::PI / self.controller.sampling_time_s;
         let resonances = poles_s.iter().map(|s| s.norm().min(nyquist));
         let slowest = BELOW_SLOWEST * resonances.clone().fold(nyquist, f64::min);
-        let ratio = (nyquist / slowest).powf(1.0 / f64::from(GRID));
-        let grid = (0..=GRID).map(|k| nyquist * ratio.powf(-f64::from(k)));
+        let ratio = power(nyquist / slowest, 1.0 / f64::from(GRID));
+        let grid = (0..=GRID).map(|k| nyquist * power(ratio, -f64::from(k)));
         let sampled = grid.chain(resonances).map(|w| (self.sensitivity(w), w));
         let highest = sampled.fold((0.0, nyquist), |best, new| if new.0 > best.0 { new } else { best });
         self.refine(highest, ratio, nyquist)

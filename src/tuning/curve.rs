@@ -92,5 +92,5 @@ fn corner(
     // A steep but smooth change of frequency ends in one point, not in two.
     let last = last.filter(|last| jumps(&first, last))?;
     let points = if first.frequency < last.frequency { [first, last] } else { [last, first] };
-    Some(Corner { importance: low.tan(), points })
+    Some(Corner { importance: low.sin() / low.cos(), points })
 }

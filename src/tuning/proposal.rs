@@ -1,5 +1,5 @@
 use nalgebra::Matrix2;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::control::{ParallelPid, PidMatrix};
 use crate::linear::{Complex, LinearError, TransferMatrix};
@@ -9,9 +9,7 @@ use super::error::positive;
 use super::placement::{ControllerPair, integral_action_may_be_stable, place_both_loci, place_one_locus};
 
 /// Which loci a placement moves to the target.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlacementMethod {
     /// Method A: one locus, both controllers alike.
     OneLocus,
@@ -20,9 +18,7 @@ pub enum PlacementMethod {
 }
 
 /// Which actions the controllers have.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Action {
     /// Proportional and integral.
     Pi,

@@ -1,7 +1,5 @@
 use std::f64::consts::TAU;
 
-use serde::{Deserialize, Serialize};
-
 use crate::control::IsaPid;
 use crate::linear::Complex;
 
@@ -15,9 +13,7 @@ pub struct UltimatePoint {
 }
 
 /// A rule that makes controller settings of an ultimate point.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TuningRule {
     /// Ziegler and Nichols, P (Campestrini 2006, Table 1).
     ZieglerNicholsP,

@@ -136,6 +136,14 @@ fn schema_describes_what_presets_prints() {
     assert_eq!(schema["title"], "Scenario");
     let scenario: Value = serde_json::from_str(&preset(PresetId::JohanssonMinimumPhase)).unwrap();
     assert_described(&schema, &schema, &scenario);
+    let setup = &schema["properties"]["setup"]["properties"];
+    assert_eq!(setup["valves"]["items"], json!({ "type": "number", "minimum": 0.0, "maximum": 1.0 }));
+    assert_eq!(setup["controller"]["required"], json!(["pairing", "loops", "sampling_time_s"]));
+    assert_eq!(setup["controller"]["properties"]["pairing"]["enum"], json!(["diagonal", "swapped"]));
+    assert_eq!(schema["required"], json!(["version", "setup"]));
+    assert_eq!(schema["properties"]["pinned"]["maxItems"], json!(3));
+    assert_eq!(schema["properties"]["version"]["maximum"], json!(1.0));
+    assert_eq!(schema["additionalProperties"], json!(false));
 }
 
 #[test]

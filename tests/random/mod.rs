@@ -3,8 +3,12 @@
 
 use proptest::collection::vec;
 use proptest::prelude::*;
-use quadtank::control::{AntiWindup, DecentralisedPi, LoopMode, Pairing, PiSettings};
-use quadtank::plant::{CrossSection, DisplayUnit, Outlet, PresetId, Pump, QuadrupleTank, Sensor, Tank};
+use quadtank::control::{
+    AntiWindup, DecentralisedPi, EstimatorSettings, FedWith, LoopMode, ModelFree, ModelFreeSettings, ModelFreeWindup,
+    Pairing, PiSettings, Quadrature, Window,
+};
+use quadtank::plant::{CrossSection, DisplayUnit, Outlet, PresetId, Pump, QuadrupleTank, Sensor, Tank, ValveSchedule};
+use quadtank::scenario::model_free::{ModelFreeScenario, ModelFreeSetup, StartSpec};
 use quadtank::scenario::{Limits, OperatingPointSpec, PlantSpec, Scenario, Setup, View, limits};
 use quadtank::sim::{Experiment, Load, LoadStep, Measurement, SetPointStep};
 
@@ -150,5 +154,87 @@ pub fn scenario(steps: usize, pinned: usize) -> impl Strategy<Value = Scenario> 
         setup,
         pinned,
         view,
+    })
+}
+
+fn valve() -> impl Strategy<Value = ValveSchedule> {
+    let valve = || within(limits::VALVE);
+    prop_oneof![
+        valve().prop_map(|gamma| ValveSchedule::Constant { gamma }),
+        (valve(), valve(), within(limits::TIME_S)).prop_map(|(from, to, at_s)| ValveSchedule::Step { from, to, at_s }),
+        (valve(), valve(), pair(limits::TIME_S)).prop_map(|(from, to, [one, other])| ValveSchedule::Ramp {
+            from,
+            to,
+            begin_s: one.min(other),
+            end_s: one.max(other),
+        }),
+        (valve(), -1.0..=1.0, within(limits::VALVE_FREQUENCY), within(limits::VALVE_PHASE)).prop_map(
+            |(mean, share, frequency, phase): (f64, f64, f64, f64)| {
+                // A little less than what touches 0 or 1.
+                let amplitude = 0.999 * share * mean.min(1.0 - mean);
+                ValveSchedule::Sine { mean, amplitude, frequency, phase }
+            }
+        ),
+    ]
+}
+
+fn law() -> impl Strategy<Value = ModelFree> {
+    let settings = || {
+        let windup = prop_oneof![
+            Just(ModelFreeWindup::Off),
+            Just(ModelFreeWindup::Conditional),
+            within(limits::INTEGRAL_TIME_S)
+                .prop_map(|tracking_time_s| ModelFreeWindup::BackCalculation { tracking_time_s }),
+        ];
+        let feedback = || within(limits::MODEL_FREE_FEEDBACK);
+        (within(limits::MODEL_GAIN), feedback(), feedback(), windup).prop_map(
+            |(model_gain, proportional, integral, anti_windup)| ModelFreeSettings {
+                model_gain,
+                proportional,
+                integral,
+                anti_windup,
+            },
+        )
+    };
+    let estimator = (
+        prop::sample::select(vec![Window::Block, Window::Sliding]),
+        prop::sample::select(vec![Quadrature::Rectangular, Quadrature::Trapezoidal]),
+        prop::sample::select(vec![FedWith::Applied, FedWith::Commanded]),
+        2..=1000_u32,
+    );
+    let pairing = prop_oneof![Just(Pairing::Diagonal), Just(Pairing::Swapped)];
+    // From 1 s on any duration is few enough samples.
+    (pairing, [settings(), settings()], prop::option::of(estimator), 1.0..=limits::SAMPLING_TIME_S.max).prop_map(
+        |(pairing, loops, estimator, sampling_time_s)| ModelFree {
+            pairing,
+            loops,
+            estimator: estimator.map(|(window, quadrature, fed_with, samples)| EstimatorSettings {
+                window_s: f64::from(samples) * sampling_time_s,
+                window,
+                quadrature,
+                fed_with,
+            }),
+            sampling_time_s,
+        },
+    )
+}
+
+pub fn model_free_setup(steps: usize) -> impl Strategy<Value = ModelFreeSetup> {
+    let start = prop_oneof![Just(StartSpec::Empty), pair(limits::LEVEL).prop_map(StartSpec::Rest)];
+    (plant(), [valve(), valve()], start, law(), prop::option::of(controller()), experiment(steps)).prop_map(
+        |(plant, valves, start, controller, compare, experiment)| ModelFreeSetup {
+            plant,
+            valves,
+            start,
+            controller,
+            compare,
+            experiment,
+        },
+    )
+}
+
+pub fn model_free(steps: usize) -> impl Strategy<Value = ModelFreeScenario> {
+    (model_free_setup(steps), prop::option::of(within(limits::TIME_S))).prop_map(|(model_free, cursor_s)| {
+        ModelFreeScenario { version: ModelFreeScenario::VERSION, model_free, cursor_s }
     })
 }

@@ -1,252 +1,238 @@
 //! The decentralised PI controller.
 
-use crate::app::widgets::handler;
 use leptos::prelude::*;
 
-use super::sentences::{self};
-use crate::app::lab::use_lab;
+use super::sentences;
+use crate::app::controls::{Knob, knob, number};
+use crate::app::lab::{Lab, use_lab};
 use crate::app::start::Control;
 use crate::app::texts::{say, tr};
 use crate::app::widgets::html::rich;
-use crate::app::widgets::{NumberField, Scale, Segmented, SliderField};
+use crate::app::widgets::{Scale, Segmented, card, handler, remark, tick};
 use crate::control::{AntiWindup, LoopMode, Pairing, PiSettings};
 use crate::interaction::PairingVerdict;
 use crate::scenario::{Setup, limits};
 
-/// Travel of the gain sliders (V/V); the number field takes more.
-const GAIN_TRAVEL: (f64, f64) = (0.05, 50.0);
-/// Travel of the integral-time sliders (s); the number field takes more.
-const INTEGRAL_TRAVEL_S: (f64, f64) = (3.0, 3000.0);
 /// Tt/Ti when anti-windup is switched on (Cocota 2009, ch. 4).
 const TRACKING_RATIO: f64 = 0.5;
 /// When a loop that is put into manual goes back to automatic, unless the student says otherwise (s).
 const MANUAL_UNTIL_S: f64 = 500.0;
 
-const GAIN_IDS: [(&str, &str); 2] = [("gain1", "gain1-number"), ("gain2", "gain2-number")];
-const INTEGRAL_IDS: [(&str, &str); 2] = [("integral1", "integral1-number"), ("integral2", "integral2-number")];
 const SIGN_IDS: [&str; 2] = ["sign1", "sign2"];
-const MANUAL_IDS: [(&str, &str, &str); 2] =
-    [("manual1", "manual1-until", "manual1-output"), ("manual2", "manual2-until", "manual2-output")];
+const MANUAL_IDS: [&str; 2] = ["manual1", "manual2"];
+const PAIRINGS: [Pairing; 2] = [Pairing::Diagonal, Pairing::Swapped];
 
-/// Pairing, gains and the fine print of the two loops.
-#[component]
-pub fn ControllerCard() -> impl IntoView {
-    let lab = use_lab();
-    let windup = lab.part(|s| s.controller.loops.iter().any(|l| l.anti_windup != AntiWindup::Off));
-    let remark = move || {
-        let windup = if windup.get() { tr!(lab, pi.windup_on) } else { tr!(lab, pi.windup_off) };
-        tr!(lab, pi.remark, windup = windup).to_string()
-    };
-    let stability = move || sentences::of_stability(lab);
-    view! {
-        <section class="card pi" aria-labelledby="pi-title">
-            <header>
-                <h2 id="pi-title">{say!(lab, pi.title)}</h2>
-                <span class="remark">{Signal::derive(remark)}</span>
-            </header>
-            <PairingSwitch />
-            <LoopControls index=0 />
-            <LoopControls index=1 />
-            <details class="more">
-                <summary data-testid="pi-more">{say!(lab, pi.more)}</summary>
-                <FinePrint />
-            </details>
-            <p class=move || if stability().1 { "sentence warm" } else { "sentence" }.to_owned() role="status" data-testid="stability" inner_html=Signal::derive(move || rich(&stability().0))></p>
-        </section>
+const GAIN: Knob<Setup> = Knob {
+    ids: [("gain1", "gain1-number"), ("gain2", "gain2-number")],
+    label: |_, k| ["K₁", "K₂"][k],
+    name: |lab, k| tr!(lab, pi.gain, level = k + 1),
+    read: |s, k| s.controller.loops[k].gain,
+    write: |s, k, gain| s.controller.loops[k].gain = gain,
+    limits: |_, _| (-limits::GAIN_MAGNITUDE.max, limits::GAIN_MAGNITUDE.max),
+    smallest: limits::GAIN_MAGNITUDE.min,
+    travel: Some(|_| (0.05, 50.0)),
+    unit: |_| "V/V",
+    ..OF_LOOP
+};
+const INTEGRAL_TIME: Knob<Setup> = Knob {
+    ids: [("integral1", "integral1-number"), ("integral2", "integral2-number")],
+    label: |_, k| ["Ti₁", "Ti₂"][k],
+    name: |lab, k| tr!(lab, pi.integral, level = k + 1),
+    read: |s, k| s.controller.loops[k].integral_time_s,
+    write: |s, k, time_s| s.controller.loops[k].integral_time_s = time_s,
+    limits: |_, _| (limits::INTEGRAL_TIME_S.min, limits::INTEGRAL_TIME_S.max),
+    travel: Some(|_| (3.0, 3000.0)),
+    unit: |_| "s",
+    ..OF_LOOP
+};
+const OF_LOOP: Knob<Setup> =
+    Knob { scale: Scale::Logarithmic, class: ["loop1-row", "loop2-row"], lock: Control::Gains, ..Knob::PLAIN };
+
+const WEIGHT: Knob<Setup> = Knob {
+    ids: [("weight", "weight-number"); 2],
+    label: |lab, _| tr!(lab, pi.weight_label),
+    name: |lab, _| tr!(lab, pi.weight).to_owned(),
+    read: |s, _| s.controller.loops[0].set_point_weight,
+    write: |s, _, weight| both(s, |l| l.set_point_weight = weight),
+    limits: |_, _| (limits::SET_POINT_WEIGHT.min, limits::SET_POINT_WEIGHT.max),
+    travel: Some(|_| (limits::SET_POINT_WEIGHT.min, limits::SET_POINT_WEIGHT.max)),
+    scale: Scale::Linear(0.05),
+    digits: Some(2),
+    ..FINE
+};
+const SAMPLING: Knob<Setup> = Knob {
+    ids: [("sampling", "sampling-number"); 2],
+    label: |lab, _| tr!(lab, pi.sampling_label),
+    name: |lab, _| tr!(lab, pi.sampling).to_owned(),
+    read: |s, _| s.controller.sampling_time_s,
+    write: |s, _, time_s| s.controller.sampling_time_s = time_s,
+    limits: |s, _| sampling_times(s),
+    travel: Some(sampling_times),
+    unit: |_| "s",
+    ..FINE
+};
+const TRACKING: Knob<Setup> = Knob {
+    ids: [("tracking", "tracking-number"); 2],
+    label: |lab, _| tr!(lab, pi.tracking_label),
+    name: |lab, _| tr!(lab, pi.tracking).to_owned(),
+    read: |s, _| match s.controller.loops[0].anti_windup {
+        AntiWindup::BackCalculation { tracking_ratio } => tracking_ratio,
+        AntiWindup::Off => TRACKING_RATIO,
+    },
+    write: |s, _, tracking_ratio| both(s, |l| l.anti_windup = AntiWindup::BackCalculation { tracking_ratio }),
+    limits: |_, _| (0.02, 20.0),
+    travel: Some(|_| (0.02, 20.0)),
+    matters: Some(is_guarded),
+    ..FINE
+};
+const MANUAL_UNTIL: Knob<Setup> = Knob {
+    ids: [("", "manual1-until"), ("", "manual2-until")],
+    name: |lab, k| tr!(lab, pi.manual_until, level = k + 1),
+    read: |s, k| manual(s, k).1,
+    write: |s, k, until_s| s.controller.loops[k].mode = LoopMode::Manual { output: manual(s, k).0, until_s },
+    limits: |_, _| (limits::TIME_S.min, limits::TIME_S.max),
+    scale: Scale::Linear(10.0),
+    digits: Some(0),
+    ..FINE
+};
+const MANUAL_OUTPUT: Knob<Setup> = Knob {
+    ids: [("", "manual1-output"), ("", "manual2-output")],
+    name: |lab, k| tr!(lab, pi.manual_output, level = k + 1),
+    read: |s, k| manual(s, k).0,
+    write: |s, k, output| s.controller.loops[k].mode = LoopMode::Manual { output, until_s: manual(s, k).1 },
+    limits: |s, k| s.plant().controller_limits()[s.controller.pairing.pump_of(k)],
+    scale: Scale::Linear(0.1),
+    digits: Some(2),
+    ..FINE
+};
+const FINE: Knob<Setup> =
+    Knob { scale: Scale::Logarithmic, class: ["wide"; 2], lock: Control::Sampling, ..Knob::PLAIN };
+
+fn both(setup: &mut Setup, change: impl Fn(&mut PiSettings)) {
+    setup.controller.loops.iter_mut().for_each(change);
+}
+
+fn sampling_times(setup: &Setup) -> (f64, f64) {
+    let limits = limits::sampling_time_s(setup.experiment.duration_s);
+    (limits.min, limits.max)
+}
+
+fn is_guarded(setup: &Setup) -> bool {
+    setup.controller.loops[0].anti_windup != AntiWindup::Off
+}
+
+/// Output of a loop in manual, and until when; zeros for one that is not.
+fn manual(setup: &Setup, index: usize) -> (f64, f64) {
+    match setup.controller.loops[index].mode {
+        LoopMode::Automatic => (0.0, 0.0),
+        LoopMode::Manual { output, until_s } => (output, until_s),
     }
 }
 
-/// Shows the suggestion, obeys the student.
-#[component]
-fn PairingSwitch() -> impl IntoView {
+/// Pairing, gains and the fine print of the two loops.
+pub fn controller_card() -> AnyView {
     let lab = use_lab();
+    let windup = lab.part(|s| s.controller.loops.iter().any(|l| l.anti_windup != AntiWindup::Off));
+    let about = Signal::derive(move || {
+        let windup = if windup.get() { tr!(lab, pi.windup_on) } else { tr!(lab, pi.windup_off) };
+        tr!(lab, pi.remark, windup = windup)
+    });
+    let stability = move || sentences::of_stability(lab);
+    let content = view! {
+        {pairing_switch(lab)}
+        {loop_controls(lab, 0)}
+        {loop_controls(lab, 1)}
+        <details class="more">
+            <summary data-testid="pi-more">{say!(lab, pi.more)}</summary>
+            {fine_print(lab)}
+        </details>
+        <p class=Signal::derive(move || if stability().1 { "sentence warm" } else { "sentence" }.to_owned()) role="status" data-testid="stability" inner_html=Signal::derive(move || rich(&stability().0))></p>
+    };
+    card("pi", say!(lab, pi.title), vec![remark(about)], vec![content.into_any()])
+}
+
+/// Shows the suggestion, obeys the student.
+fn pairing_switch(lab: Lab) -> AnyView {
     let swapped = lab.part(|s| s.controller.pairing == Pairing::Swapped);
+    let chosen = Signal::derive(move || usize::from(swapped.get()));
     let suggested = move || {
         lab.words
             .with_analysis(|a| match a.verdict {
-                PairingVerdict::Diagonal(_) => Some(Pairing::Diagonal),
-                PairingVerdict::Swapped(_) => Some(Pairing::Swapped),
+                PairingVerdict::Diagonal(_) => Some(0),
+                PairingVerdict::Swapped(_) => Some(1),
                 PairingVerdict::None(_) => None,
             })
             .flatten()
     };
-    let text = move |choice: Pairing| {
-        Signal::derive(move || {
-            let name = match choice {
-                Pairing::Diagonal => tr!(lab, pi.diagonal),
-                Pairing::Swapped => tr!(lab, pi.swapped),
-            };
-            if suggested() == Some(choice) { format!("{name} ✓") } else { name.to_owned() }
-        })
+    let choice = move |index: usize, id: &'static str| {
+        let text = Signal::derive(move || {
+            let name = if index == 0 { tr!(lab, pi.diagonal) } else { tr!(lab, pi.swapped) };
+            if suggested() == Some(index) { format!("{name} ✓") } else { name.to_owned() }
+        });
+        (index, id, text)
     };
-    let against = move || suggested().is_some_and(|s| (s == Pairing::Swapped) != swapped.get());
+    let fits = Signal::derive(move || suggested().is_none_or(|s| s == chosen.get()));
     view! {
         <Segmented
             label=say!(lab, pi.pairing)
-            choices=vec![
-                (false, "pairing-diagonal", text(Pairing::Diagonal)),
-                (true, "pairing-swapped", text(Pairing::Swapped)),
-            ]
-            value=swapped
-            on_choose=move |swapped| {
-                lab.edit(|s| s.controller.pairing = if swapped { Pairing::Swapped } else { Pairing::Diagonal });
-            }
+            choices=vec![choice(0, "pairing-diagonal"), choice(1, "pairing-swapped")]
+            value=chosen
+            on_choose=move |index: usize| lab.edit(|s| s.controller.pairing = PAIRINGS[index])
             disabled=lab.locks(Control::Pairing)
         />
-        <p class="remark warm" hidden=move || !against()>{say!(lab, pi.against)}</p>
+        <p class="remark warm" hidden=fits>{say!(lab, pi.against)}</p>
     }
+    .into_any()
 }
 
-#[component]
-fn LoopControls(index: usize) -> impl IntoView {
-    let lab = use_lab();
-    let class = if index == 0 { "loop1-row" } else { "loop2-row" };
-    let heading = move || {
+fn loop_controls(lab: Lab, index: usize) -> AnyView {
+    let heading = Signal::derive(move || {
         let pump = lab.scenario.with(|s| s.setup.controller.pairing.pump_of(index)) + 1;
-        tr!(lab, pi.heading, level = index + 1, pump = pump).to_string()
-    };
-    let gain = lab.part(move |s| s.controller.loops[index].gain);
-    let edit = move |change: &dyn Fn(&mut PiSettings)| lab.edit(|s| change(&mut s.controller.loops[index]));
-    let most = limits::GAIN_MAGNITUDE.max;
-    let locked = lab.locks(Control::Gains);
+        tr!(lab, pi.heading, level = index + 1, pump = pump)
+    });
     view! {
-        <h3 class=if index == 0 { "loop1" } else { "loop2" }>{Signal::derive(heading)}</h3>
-        <SliderField
-            id=GAIN_IDS[index]
-            label=format!("K{}", ["₁", "₂"][index])
-            name=say!(lab, pi.gain, level = index + 1)
-            value=gain
-            on_change=move |k| edit(&move |l| l.gain = k)
-            travel=GAIN_TRAVEL
-            limits=Signal::from((-most, most))
-            smallest=limits::GAIN_MAGNITUDE.min
-            scale=Scale::Logarithmic
-            digits=None
-            unit="V/V".to_owned()
-            class
-            disabled=locked
-        />
-        <SliderField
-            id=INTEGRAL_IDS[index]
-            label=format!("Ti{}", ["₁", "₂"][index])
-            name=say!(lab, pi.integral, level = index + 1)
-            value=lab.part(move |s| s.controller.loops[index].integral_time_s)
-            on_change=move |t| edit(&move |l| l.integral_time_s = t)
-            travel=INTEGRAL_TRAVEL_S
-            limits=Signal::from((limits::INTEGRAL_TIME_S.min, limits::INTEGRAL_TIME_S.max))
-            scale=Scale::Logarithmic
-            digits=None
-            unit="s".to_owned()
-            class
-            disabled=locked
-        />
+        <h3 class=["loop1", "loop2"][index]>{heading}</h3>
+        {knob(lab, &GAIN, index)}
+        {knob(lab, &INTEGRAL_TIME, index)}
     }
+    .into_any()
 }
 
 /// What most students leave alone: set-point weight, anti-windup, sampling time, sign and manual mode.
-#[component]
-fn FinePrint() -> impl IntoView {
-    let lab = use_lab();
-    let locked = lab.locks(Control::Sampling);
-    let both = move |change: &dyn Fn(&mut PiSettings)| lab.edit(|s| s.controller.loops.iter_mut().for_each(change));
-    let guarded = lab.part(|s| s.controller.loops[0].anti_windup != AntiWindup::Off);
-    let tracking = lab.part(|s| match s.controller.loops[0].anti_windup {
-        AntiWindup::BackCalculation { tracking_ratio } => tracking_ratio,
-        AntiWindup::Off => TRACKING_RATIO,
-    });
-    let switch_windup = move |event| {
-        let on = event_target_checked(&event);
+fn fine_print(lab: Lab) -> AnyView {
+    let switch_windup = move |on| {
         let choice = if on { AntiWindup::BackCalculation { tracking_ratio: TRACKING_RATIO } } else { AntiWindup::Off };
-        both(&move |l| l.anti_windup = choice);
+        lab.edit(|s| both(s, |l| l.anti_windup = choice));
     };
-    view! {
-        <SliderField
-            id=("weight", "weight-number")
-            label=say!(lab, pi.weight_label)
-            name=say!(lab, pi.weight)
-            value=lab.part(|s| s.controller.loops[0].set_point_weight)
-            on_change=move |b| both(&move |l| l.set_point_weight = b)
-            travel=(limits::SET_POINT_WEIGHT.min, limits::SET_POINT_WEIGHT.max)
-            scale=Scale::Linear(0.05)
-            digits=Some(2)
-            unit=String::new()
-            class="wide"
-            disabled=locked
-        />
-        <SliderField
-            id=("sampling", "sampling-number")
-            label=say!(lab, pi.sampling_label)
-            name=say!(lab, pi.sampling)
-            value=lab.part(|s| s.controller.sampling_time_s)
-            on_change=move |t| lab.edit(|s| s.controller.sampling_time_s = t)
-            travel=lab.part(|s| { let l = limits::sampling_time_s(s.experiment.duration_s); (l.min, l.max) })
-            scale=Scale::Logarithmic
-            digits=None
-            unit="s".to_owned()
-            class="wide"
-            disabled=locked
-        />
-        <label class="check">
-            <input
-                type="checkbox"
-                data-testid="antiwindup"
-                prop:checked=guarded
-                disabled=locked
-                on:change=handler(switch_windup)
-            />
-            {say!(lab, pi.antiwindup)}
-        </label>
-        <SliderField
-            id=("tracking", "tracking-number")
-            label=say!(lab, pi.tracking_label)
-            name=say!(lab, pi.tracking)
-            value=tracking
-            on_change=move |ratio| both(&move |l| l.anti_windup = AntiWindup::BackCalculation { tracking_ratio: ratio })
-            travel=(0.02, 20.0)
-            scale=Scale::Logarithmic
-            digits=None
-            unit=String::new()
-            class="wide"
-            disabled=Signal::derive(move || locked || !guarded.get())
-        />
-        <ManualMode index=0 />
-        <ManualMode index=1 />
-    }
+    let guarded = lab.part(is_guarded);
+    vec![
+        knob(lab, &WEIGHT, 0),
+        knob(lab, &SAMPLING, 0),
+        tick("antiwindup", say!(lab, pi.antiwindup), guarded, lab.locks(Control::Sampling), switch_windup),
+        knob(lab, &TRACKING, 0),
+        manual_mode(lab, 0),
+        manual_mode(lab, 1),
+    ]
+    .into_any()
 }
 
 /// A loop in manual until a time, then handed over without a bump; and the sign of its gain.
-#[component]
-fn ManualMode(index: usize) -> impl IntoView {
-    let lab = use_lab();
-    let locked = lab.locks(Control::Sampling);
-    let (check_id, until_id, output_id) = MANUAL_IDS[index];
-    let manual = move |s: &Setup| match s.controller.loops[index].mode {
-        LoopMode::Automatic => None,
-        LoopMode::Manual { output, until_s } => Some((output, until_s)),
-    };
-    let by_hand = lab.part(move |s| manual(s).is_some());
-    let output = lab.part(move |s| manual(s).map_or(0.0, |m| m.0));
-    let until_s = lab.part(move |s| manual(s).map_or(0.0, |m| m.1));
-    let set = move |mode: LoopMode| lab.edit(|s| s.controller.loops[index].mode = mode);
+fn manual_mode(lab: Lab, index: usize) -> AnyView {
+    let by_hand = lab.part(move |s| s.controller.loops[index].mode != LoopMode::Automatic);
     let rest = move || {
         let pump = lab.scenario.with(|s| s.setup.controller.pairing.pump_of(index));
         let power = lab.scenario.with(|s| s.setup.plant().power_gain);
         lab.words.with_analysis(|a| a.operating_point.pump_voltage[pump] / power).unwrap_or_default()
     };
-    let range = lab.part(move |s| s.plant().controller_limits()[s.controller.pairing.pump_of(index)]);
-    let switch = move |event| {
-        set(if event_target_checked(&event) {
-            LoopMode::Manual { output: untrack(rest), until_s: MANUAL_UNTIL_S }
-        } else {
-            LoopMode::Automatic
-        });
+    let switch = move |on| {
+        let mode =
+            if on { LoopMode::Manual { output: untrack(rest), until_s: MANUAL_UNTIL_S } } else { LoopMode::Automatic };
+        lab.edit(|s| s.controller.loops[index].mode = mode);
     };
+    let text = say!(lab, pi.manual, level = index + 1);
     view! {
         <div class="toolbar">
-            <label class="check">
-                <input type="checkbox" data-testid=check_id prop:checked=by_hand disabled=locked on:change=handler(switch) />
-                {say!(lab, pi.manual, level = index + 1)}
-            </label>
+            {tick(MANUAL_IDS[index], text, by_hand, lab.locks(Control::Sampling), switch)}
             <button
                 type="button"
                 class="button small"
@@ -255,38 +241,15 @@ fn ManualMode(index: usize) -> impl IntoView {
                 aria-label=say!(lab, pi.sign, level = index + 1)
                 on:click=handler(move |_| lab.edit(|s| s.controller.loops[index].gain *= -1.0))
             >
-                "±K"{["₁", "₂"][index]}
+                {["±K₁", "±K₂"][index]}
             </button>
         </div>
         {move || by_hand.get().then(|| view! {
             <div class="fields">
-                <div class="field-row">
-                    <NumberField
-                        id=until_id
-                        name=say!(lab, pi.manual_until, level = index + 1)
-                        value=until_s
-                        on_change=move |until_s| set(LoopMode::Manual { output: output.get_untracked(), until_s })
-                        limits=(limits::TIME_S.min, limits::TIME_S.max)
-                        scale=Scale::Linear(10.0)
-                        digits=Some(0)
-                        disabled=locked
-                    />
-                    <span class="unit">"s"</span>
-                </div>
-                <div class="field-row">
-                    <NumberField
-                        id=output_id
-                        name=say!(lab, pi.manual_output, level = index + 1)
-                        value=output
-                        on_change=move |output| set(LoopMode::Manual { output, until_s: until_s.get_untracked() })
-                        limits=range
-                        scale=Scale::Linear(0.1)
-                        digits=Some(2)
-                        disabled=locked
-                    />
-                    <span class="unit">"V"</span>
-                </div>
+                <div class="field-row">{number(lab, &MANUAL_UNTIL, index)}<span class="unit">"s"</span></div>
+                <div class="field-row">{number(lab, &MANUAL_OUTPUT, index)}<span class="unit">"V"</span></div>
             </div>
         }.into_any())}
     }
+    .into_any()
 }

@@ -1,16 +1,16 @@
 //! What is done to the loop: steps, a load, noise, how long, and the run played on the drawing.
 
-use crate::app::widgets::handler;
 use leptos::prelude::*;
 
 use super::cursor::PlayControls;
+use crate::app::controls::{Knob, knob, number};
 use crate::app::lab::{Lab, use_lab};
 use crate::app::shown::{CM3_PER_M3, MM2_PER_M2, to_metres, to_shown, unit_name};
 use crate::app::start::Control;
 use crate::app::texts::{say, tr};
 use crate::app::widgets::html::option;
-use crate::app::widgets::{NumberField, Scale, SliderField};
-use crate::scenario::limits;
+use crate::app::widgets::{Scale, card, handler, remark, tick};
+use crate::scenario::{Setup, limits};
 use crate::sim::{Experiment, Load, LoadStep, SetPointStep};
 
 /// Time of a step that the student adds (s).
@@ -24,67 +24,141 @@ const FIRST_LEAK_AREA: f64 = 1.5e-6;
 /// Travel of the reference sliders as a share of the lowest wall.
 const REFERENCE_TRAVEL: f64 = 0.25;
 
-const REFERENCE_IDS: [(&str, &str); 2] = [("step1", "step1-number"), ("step2", "step2-number")];
-const TIME_IDS: [&str; 2] = ["step1-time", "step2-time"];
+const REFERENCE: Knob<Setup> = Knob {
+    ids: [("step1", "step1-number"), ("step2", "step2-number")],
+    label: |_, k| ["r₁", "r₂"][k],
+    name: |lab, k| tr!(lab, experiment.reference, level = k + 1),
+    read: |s, k| to_shown(first_step(&s.experiment, k).size, s.display_unit()),
+    write: |s, k, size| {
+        let size = to_metres(size, s.display_unit());
+        first_step_mut(&mut s.experiment, k).size = size;
+    },
+    limits: |s, _| reach(s, 1.0),
+    travel: Some(|s| reach(s, REFERENCE_TRAVEL)),
+    unit: |s| unit_name(s.display_unit()),
+    class: ["loop1-row", "loop2-row"],
+    ..OF_EXPERIMENT
+};
+const REFERENCE_TIME: Knob<Setup> = Knob {
+    ids: [("", "step1-time"), ("", "step2-time")],
+    name: |lab, k| tr!(lab, experiment.reference_time, level = k + 1),
+    read: |s, k| first_step(&s.experiment, k).time_s,
+    write: |s, k, time_s| first_step_mut(&mut s.experiment, k).time_s = time_s,
+    ..TIME
+};
+const LOAD: Knob<Setup> = Knob {
+    ids: [("load-size", "load-size-number"); 2],
+    name: |lab, _| tr!(lab, experiment.load_size).to_owned(),
+    read: |s, _| match first_load(&s.experiment) {
+        Some(Load::PumpFlow { flow, .. }) => flow * CM3_PER_M3,
+        Some(Load::Leak { area, .. }) => area * MM2_PER_M2,
+        None => 0.0,
+    },
+    write: |s, _, size| match s.experiment.load_steps.first_mut().map(|step| &mut step.load) {
+        Some(Load::PumpFlow { flow, .. }) => *flow = size / CM3_PER_M3,
+        Some(Load::Leak { area, .. }) => *area = size / MM2_PER_M2,
+        None => {}
+    },
+    limits: |s, _| {
+        if is_leak(s) {
+            (0.0, limits::LEAK_AREA.max * MM2_PER_M2)
+        } else {
+            (limits::LOAD_FLOW.min * CM3_PER_M3, limits::LOAD_FLOW.max * CM3_PER_M3)
+        }
+    },
+    travel: Some(|s| if is_leak(s) { (0.0, 10.0) } else { (-5.0, 5.0) }),
+    scale: Scale::Linear(0.1),
+    unit: |s| if is_leak(s) { "mm²" } else { "cm³/s" },
+    class: [""; 2],
+    ..OF_EXPERIMENT
+};
+const LOAD_TIME: Knob<Setup> = Knob {
+    ids: [("", "load-time"); 2],
+    name: |lab, _| tr!(lab, experiment.load_time).to_owned(),
+    read: |s, _| s.experiment.load_steps.first().map_or(0.0, |step| step.time_s),
+    write: |s, _, time_s| s.experiment.load_steps.iter_mut().take(1).for_each(|step| step.time_s = time_s),
+    ..TIME
+};
+const NOISE: Knob<Setup> = Knob {
+    ids: [("noise", "noise-number"); 2],
+    label: |lab, _| tr!(lab, experiment.noise),
+    name: |lab, _| tr!(lab, experiment.noise_name).to_owned(),
+    read: |s, _| to_shown(s.experiment.measurement.noise_std, s.display_unit()),
+    write: |s, _, noise| s.experiment.measurement.noise_std = to_metres(noise, s.display_unit()),
+    limits: |s, _| noises(s),
+    travel: Some(noises),
+    unit: |s| unit_name(s.display_unit()),
+    ..OF_EXPERIMENT
+};
+const DURATION: Knob<Setup> = Knob {
+    ids: [("duration", "duration-number"); 2],
+    label: |lab, _| tr!(lab, experiment.duration),
+    name: |lab, _| tr!(lab, experiment.duration_name).to_owned(),
+    read: |s, _| s.experiment.duration_s,
+    write: |s, _, duration_s| s.experiment.duration_s = duration_s,
+    limits: |s, _| {
+        let limits = limits::duration_s(s.controller.sampling_time_s);
+        (limits.min, limits.max)
+    },
+    travel: Some(|_| (100.0, 20_000.0)),
+    scale: Scale::Logarithmic,
+    digits: Some(0),
+    unit: |_| "s",
+    ..OF_EXPERIMENT
+};
+const TIME: Knob<Setup> = Knob {
+    limits: |s, _| (limits::TIME_S.min, s.experiment.duration_s),
+    scale: Scale::Linear(10.0),
+    digits: Some(0),
+    ..OF_EXPERIMENT
+};
+const OF_EXPERIMENT: Knob<Setup> =
+    Knob { digits: Some(2), class: ["wide"; 2], lock: Control::Experiment, ..Knob::PLAIN };
 
-/// The experiment.
-#[component]
-pub fn ExperimentCard() -> impl IntoView {
-    let lab = use_lab();
-    let locked = lab.locks(Control::Experiment);
-    let unit = lab.unit;
-    let noise = lab.part(|s| s.experiment.measurement.noise_std);
-    let further = move || lab.scenario.with(|s| further_steps(&s.setup.experiment));
-    view! {
-        <section class="card experiment" aria-labelledby="experiment-title">
-            <header>
-                <h2 id="experiment-title">{say!(lab, experiment.title)}</h2>
-                <span class="remark">{say!(lab, experiment.remark)}</span>
-            </header>
-            <ReferenceStep level=0 />
-            <ReferenceStep level=1 />
-            <LoadControls />
-            <SliderField
-                id=("noise", "noise-number")
-                label=say!(lab, experiment.noise)
-                name=say!(lab, experiment.noise_name)
-                value=Signal::derive(move || to_shown(noise.get(), unit.get()))
-                on_change=move |v| { let m = to_metres(v, unit.get_untracked()); lab.edit(|s| s.experiment.measurement.noise_std = m) }
-                travel=Signal::derive(move || (0.0, to_shown(0.005, unit.get())))
-                scale=Scale::Linear(0.01)
-                digits=Some(2)
-                unit=Signal::derive(move || unit_name(unit.get()).to_owned())
-                class="wide"
-                disabled=locked
-            />
-            <SliderField
-                id=("duration", "duration-number")
-                label=say!(lab, experiment.duration)
-                name=say!(lab, experiment.duration_name)
-                value=lab.part(|s| s.experiment.duration_s)
-                on_change=move |t| lab.edit(|s| s.experiment.duration_s = t)
-                travel=(100.0, 20_000.0)
-                limits=lab.part(|s| { let l = limits::duration_s(s.controller.sampling_time_s); (l.min, l.max) })
-                scale=Scale::Logarithmic
-                digits=Some(0)
-                unit="s".to_owned()
-                class="wide"
-                disabled=locked
-            />
-            <label class="check">
-                <input
-                    type="checkbox"
-                    data-testid="quantised"
-                    prop:checked=lab.part(|s| s.experiment.measurement.quantised)
-                    disabled=locked
-                    on:change=handler(move |event| { let on = event_target_checked(&event); lab.edit(|s| s.experiment.measurement.quantised = on) })
-                />
-                {say!(lab, experiment.quantised)}
-            </label>
-            <p class="remark" hidden=move || further() == 0>{say!(lab, experiment.further, count = further())}</p>
-            <PlayControls />
-        </section>
-    }
+/// Levels that a reference can be moved by, in the shown unit: a share of the lowest wall of the lower tanks.
+fn reach(setup: &Setup, share: f64) -> (f64, f64) {
+    let [one, two, ..] = setup.plant().tanks;
+    let reach = to_shown(one.height.min(two.height), setup.display_unit()) * share;
+    (-reach, reach)
+}
+
+fn noises(setup: &Setup) -> (f64, f64) {
+    (0.0, to_shown(0.005, setup.display_unit()))
+}
+
+/// The first step of a reference, or what it would be.
+fn first_step(experiment: &Experiment, level: usize) -> SetPointStep {
+    let step = experiment.set_point_steps.iter().copied().find(|s| s.level == level);
+    step.unwrap_or(SetPointStep { level, time_s: FIRST_STEP_AT_S, size: 0.0 })
+}
+
+/// The first step of a reference, which is added where there is none.
+pub fn first_step_mut(experiment: &mut Experiment, level: usize) -> &mut SetPointStep {
+    let fresh = first_step(experiment, level);
+    let steps = &mut experiment.set_point_steps;
+    let place = steps.iter().position(|step| step.level == level).unwrap_or_else(|| {
+        steps.push(fresh);
+        steps.len() - 1
+    });
+    &mut steps[place]
+}
+
+/// Size of the first step of a reference (m).
+pub fn step_size(lab: Lab, level: usize) -> Signal<f64> {
+    lab.part(move |s| first_step(&s.experiment, level).size)
+}
+
+/// Time of the first step of a reference (s).
+pub fn step_time(lab: Lab, level: usize) -> Signal<f64> {
+    lab.part(move |s| first_step(&s.experiment, level).time_s)
+}
+
+fn first_load(experiment: &Experiment) -> Option<Load> {
+    experiment.load_steps.first().map(|step| step.load)
+}
+
+fn is_leak(setup: &Setup) -> bool {
+    matches!(first_load(&setup.experiment), Some(Load::Leak { .. }))
 }
 
 /// Steps beyond the first of each level and the first load: a file may hold them, the card does not show them.
@@ -93,121 +167,45 @@ fn further_steps(experiment: &Experiment) -> usize {
     experiment.set_point_steps.len() - shown_levels + experiment.load_steps.len().saturating_sub(1)
 }
 
-fn first_step(experiment: &Experiment, level: usize) -> Option<SetPointStep> {
-    experiment.set_point_steps.iter().copied().find(|s| s.level == level)
-}
-
-fn first_load(experiment: &Experiment) -> Option<Load> {
-    experiment.load_steps.first().map(|step| step.load)
-}
-
-/// Size of the first step of a reference (m).
-pub fn step_size(lab: Lab, level: usize) -> Signal<f64> {
-    lab.part(move |s| first_step(&s.experiment, level).map_or(0.0, |s| s.size))
-}
-
-/// Time of the first step of a reference (s).
-pub fn step_time(lab: Lab, level: usize) -> Signal<f64> {
-    lab.part(move |s| first_step(&s.experiment, level).map_or(FIRST_STEP_AT_S, |s| s.time_s))
-}
-
-/// Changes the first step of a reference, which is added where there is none.
-pub fn edit_step(lab: Lab, level: usize, change: impl Fn(&mut SetPointStep)) {
-    lab.edit(|s| {
-        let steps = &mut s.experiment.set_point_steps;
-        let place = steps.iter().position(|step| step.level == level).unwrap_or_else(|| {
-            steps.push(SetPointStep { level, time_s: FIRST_STEP_AT_S, size: 0.0 });
-            steps.len() - 1
-        });
-        change(&mut steps[place]);
-    });
-}
-
-/// Size and time of the first step of a reference.
-#[component]
-fn ReferenceStep(level: usize) -> impl IntoView {
+/// The experiment.
+pub fn experiment_card() -> AnyView {
     let lab = use_lab();
-    let unit = lab.unit;
-    let (size, time) = (step_size(lab, level), step_time(lab, level));
-    let reach = lab.part(|s| {
-        let plant = s.plant();
-        plant.tanks[0].height.min(plant.tanks[1].height)
-    });
-    let locked = lab.locks(Control::Experiment);
-    let travel = Signal::derive(move || {
-        let reach = to_shown(reach.get(), unit.get()) * REFERENCE_TRAVEL;
-        (-reach, reach)
-    });
-    let limits = Signal::derive(move || {
-        let reach = to_shown(reach.get(), unit.get());
-        (-reach, reach)
-    });
+    let quantised = lab.part(|s| s.experiment.measurement.quantised);
+    let quantise = move |on| lab.edit(|s| s.experiment.measurement.quantised = on);
+    let further = move || lab.scenario.with(|s| further_steps(&s.setup.experiment));
+    let nothing_further = Signal::derive(move || further() == 0);
+    let content = vec![
+        timed(lab, &REFERENCE, &REFERENCE_TIME, 0),
+        timed(lab, &REFERENCE, &REFERENCE_TIME, 1),
+        load_controls(lab),
+        knob(lab, &NOISE, 0),
+        knob(lab, &DURATION, 0),
+        tick("quantised", say!(lab, experiment.quantised), quantised, lab.locks(Control::Experiment), quantise),
+        view! { <p class="remark" hidden=nothing_further>{say!(lab, experiment.further, count = further())}</p> }
+            .into_any(),
+        view! { <PlayControls /> }.into_any(),
+    ];
+    card("experiment", say!(lab, experiment.title), vec![remark(say!(lab, experiment.remark))], content)
+}
+
+/// A slider, and "at … s".
+fn timed(lab: Lab, size: &'static Knob<Setup>, time: &'static Knob<Setup>, index: usize) -> AnyView {
     view! {
         <div class="timed">
-            <SliderField
-                id=REFERENCE_IDS[level]
-                label=format!("r{}", ["₁", "₂"][level])
-                name=say!(lab, experiment.reference, level = level + 1)
-                value=Signal::derive(move || to_shown(size.get(), unit.get()))
-                on_change=move |v| { let size = to_metres(v, unit.get_untracked()); edit_step(lab, level, move |s| s.size = size) }
-                travel
-                limits
-                scale=Scale::Linear(0.01)
-                digits=Some(2)
-                unit=Signal::derive(move || unit_name(unit.get()).to_owned())
-                class=if level == 0 { "loop1-row" } else { "loop2-row" }
-                disabled=locked
-            />
-            <TimeField
-                id=TIME_IDS[level]
-                name=say!(lab, experiment.reference_time, level = level + 1)
-                value=time
-                on_change=move |t| edit_step(lab, level, move |s| s.time_s = t)
-            />
+            {knob(lab, size, index)}
+            <div class="at">
+                <span class="unit">{say!(lab, experiment.at)}</span>
+                {number(lab, time, index)}
+                <span class="unit">"s"</span>
+            </div>
         </div>
     }
-}
-
-/// "at … s".
-#[component]
-fn TimeField(
-    id: &'static str,
-    #[prop(into)] name: Signal<String>,
-    #[prop(into)] value: Signal<f64>,
-    #[prop(into)] on_change: Callback<f64>,
-) -> impl IntoView {
-    let lab = use_lab();
-    view! {
-        <div class="at">
-            <span class="unit">{say!(lab, experiment.at)}</span>
-            <NumberField
-                id
-                name
-                value
-                on_change
-                limits=lab.part(|s| (limits::TIME_S.min, s.experiment.duration_s))
-                scale=Scale::Linear(10.0)
-                digits=Some(0)
-                disabled=lab.locks(Control::Experiment)
-            />
-            <span class="unit">"s"</span>
-        </div>
-    }
+    .into_any()
 }
 
 /// Kind, size and time of the first load.
-#[component]
-fn LoadControls() -> impl IntoView {
-    let lab = use_lab();
-    let locked = lab.locks(Control::Experiment);
+fn load_controls(lab: Lab) -> AnyView {
     let present = lab.part(|s| !s.experiment.load_steps.is_empty());
-    let time = lab.part(|s| s.experiment.load_steps.first().map_or(0.0, |step| step.time_s));
-    let is_leak = lab.part(|s| matches!(first_load(&s.experiment), Some(Load::Leak { .. })));
-    let size = lab.part(|s| match first_load(&s.experiment) {
-        Some(Load::PumpFlow { flow, .. }) => flow * CM3_PER_M3,
-        Some(Load::Leak { area, .. }) => area * MM2_PER_M2,
-        None => 0.0,
-    });
     let kind = lab.part(|s| match first_load(&s.experiment) {
         None => "none".to_owned(),
         Some(Load::PumpFlow { pump, .. }) => format!("pump{pump}"),
@@ -226,60 +224,26 @@ fn LoadControls() -> impl IntoView {
             }
         });
     };
-    let edit = move |change: &dyn Fn(&mut LoadStep)| {
-        lab.edit(|s| {
-            if let Some(step) = s.experiment.load_steps.first_mut() {
-                change(step);
-            }
-        });
-    };
-    let set_size = move |v: f64| {
-        edit(&move |s| match &mut s.load {
-            Load::PumpFlow { flow, .. } => *flow = v / CM3_PER_M3,
-            Load::Leak { area, .. } => *area = v / MM2_PER_M2,
-        });
-    };
     let options = Signal::derive(move || {
         let kind = kind.get();
-        let pump = |k: usize| (format!("pump{k}"), tr!(lab, experiment.load_pump, pump = k + 1));
-        let leak = |k: usize| (format!("leak{k}"), tr!(lab, experiment.load_leak, tank = k + 1));
-        std::iter::once(("none".to_owned(), tr!(lab, experiment.load_none).to_owned()))
-            .chain((0..2).map(pump))
-            .chain((0..4).map(leak))
-            .map(|(value, text)| option(&value, &text, value == kind))
-            .collect::<String>()
+        let one = |value: &str, text: &str| option(value, text, value == kind);
+        let mut options = one("none", tr!(lab, experiment.load_none));
+        for k in 0..2 {
+            options += &one(&format!("pump{k}"), &tr!(lab, experiment.load_pump, pump = k + 1));
+        }
+        for k in 0..4 {
+            options += &one(&format!("leak{k}"), &tr!(lab, experiment.load_leak, tank = k + 1));
+        }
+        options
     });
     view! {
         <div class="row load">
             <label for="load-kind">{say!(lab, experiment.load)}</label>
-            <select id="load-kind" data-testid="load-kind" disabled=locked on:change=handler(choose) inner_html=options></select>
+            <select id="load-kind" data-testid="load-kind" disabled=lab.locks(Control::Experiment) on:change=handler(choose) inner_html=options></select>
         </div>
-        {move || present.get().then(|| view! { <div class="timed">
-            <SliderField
-                id=("load-size", "load-size-number")
-                label=String::new()
-                name=say!(lab, experiment.load_size)
-                value=size
-                on_change=set_size
-                travel=Signal::derive(move || if is_leak.get() { (0.0, 10.0) } else { (-5.0, 5.0) })
-                limits=Signal::derive(move || if is_leak.get() {
-                    (0.0, limits::LEAK_AREA.max * MM2_PER_M2)
-                } else {
-                    (limits::LOAD_FLOW.min * CM3_PER_M3, limits::LOAD_FLOW.max * CM3_PER_M3)
-                })
-                scale=Scale::Linear(0.1)
-                digits=Some(2)
-                unit=Signal::derive(move || if is_leak.get() { "mm²" } else { "cm³/s" }.to_owned())
-                disabled=locked
-            />
-            <TimeField
-                id="load-time"
-                name=say!(lab, experiment.load_time)
-                value=time
-                on_change=move |t| edit(&move |s| s.time_s = t)
-            />
-        </div> }.into_any())}
+        {move || present.get().then(|| timed(lab, &LOAD, &LOAD_TIME, 0))}
     }
+    .into_any()
 }
 
 fn load_named(name: &str) -> Option<Load> {

@@ -2,9 +2,9 @@
 
 use leptos::prelude::*;
 
-use crate::app::lab::{Lab, use_lab};
+use crate::app::lab::Lab;
 use crate::app::shown::{length_digits, per_metre, to_shown, unit_name};
-use crate::app::texts::{say, tr};
+use crate::app::texts::tr;
 use crate::app::widgets::html::{cells, element, escape, headings};
 use crate::sim::{LoopMetrics, Settling};
 
@@ -16,17 +16,7 @@ struct Row {
 }
 
 /// Metrics of the nonlinear run and of the pinned ones.
-#[component]
-pub fn MetricsTable() -> impl IntoView {
-    let lab = use_lab();
-    view! {
-        <div class="scroll" tabindex="0" role="region" aria-label=say!(lab, responses.metrics)>
-            <table class="plain" data-testid="metrics" inner_html=Signal::derive(move || table(lab))></table>
-        </div>
-    }
-}
-
-fn table(lab: Lab) -> String {
+pub fn table(lab: Lab) -> String {
     let unit = unit_name(lab.unit.get());
     let columns = [
         tr!(lab, responses.run).to_owned(),

@@ -21,7 +21,9 @@ use leptos::prelude::*;
 
 use super::lab::use_lab;
 use super::start::{Bench, Panel};
+pub use moment::Moment;
 use moment::provide_moment;
+pub use rig::drawing;
 
 /// The home bench, or those of its cards that the start flags ask for.
 #[component]
@@ -33,17 +35,17 @@ pub fn QuadrupleTankBench() -> impl IntoView {
     view! {
         <main class=if chosen { "bench chosen" } else { "bench" } id=move || lab.id_of(Bench::QuadrupleTank)>
             <div class="side left">
-                {shows(Panel::Process).then(|| view! { <process::ProcessCard /> }.into_any())}
-                {shows(Panel::Why).then(|| view! { <why::WhyCard /> }.into_any())}
+                {shows(Panel::Process).then(process::process_card)}
+                {shows(Panel::Why).then(why::why_card)}
             </div>
-            {shows(Panel::Valves).then(|| view! { <valves::ValvePlaneCard /> }.into_any())}
-            {shows(Panel::Zeros).then(|| view! { <poles::PolesAndZerosCard /> }.into_any())}
-            {shows(Panel::Rga).then(|| view! { <rga::RelativeGainCard /> }.into_any())}
+            {shows(Panel::Valves).then(valves::valve_plane_card)}
+            {shows(Panel::Zeros).then(poles::poles_and_zeros_card)}
+            {shows(Panel::Rga).then(rga::relative_gain_card)}
             <div class="side right">
-                {shows(Panel::Controller).then(|| view! { <controller::ControllerCard /> }.into_any())}
-                {shows(Panel::Experiment).then(|| view! { <experiment::ExperimentCard /> }.into_any())}
+                {shows(Panel::Controller).then(controller::controller_card)}
+                {shows(Panel::Experiment).then(experiment::experiment_card)}
             </div>
-            {shows(Panel::Responses).then(|| view! { <responses::ResponsesCard /> }.into_any())}
+            {shows(Panel::Responses).then(responses::responses_card)}
         </main>
     }
 }

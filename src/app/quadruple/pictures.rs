@@ -74,7 +74,7 @@ pub fn pole_zero(lab: Lab) -> Picture {
 
 /// Levels and pump voltages; the level axis shows at least `held`.
 pub fn responses(lab: Lab, held: RwSignal<Option<(f64, f64)>>) -> Picture {
-    let window = Memo::new(move |_| lab.scenario.with(|s| s.view.zoom_s));
+    let window = Memo::new(move |_| lab.scenario.with(|s| s.view.zoom_s.map(<(f64, f64)>::from)));
     let hide_linear = Memo::new(move |_| lab.scenario.with(|s| s.view.hide_linear));
     let csv = move || lab.charts.run.with(|run| run.as_ref().as_ref().map(Run::to_csv).unwrap_or_default());
     let build = move |visit: &mut dyn FnMut(&[Chart])| {
@@ -98,7 +98,7 @@ pub fn responses(lab: Lab, held: RwSignal<Option<(f64, f64)>>) -> Picture {
             level_scale: per_metre(unit),
             walls: [plant.tanks[0].height, plant.tanks[1].height],
             voltage_limits: (pump_1.voltage_min.min(pump_2.voltage_min), pump_1.voltage_max.max(pump_2.voltage_max)),
-            window_s: window.get().map(Into::into),
+            window_s: window.get(),
             held_levels: held.get(),
             texts: ResponseTexts {
                 time: tr!(lab, chart.time),

@@ -2,36 +2,29 @@
 
 use leptos::prelude::*;
 
-use super::pictures;
-use super::sentences::{self};
+use super::{pictures, sentences};
 use crate::app::lab::{Lab, use_lab};
 use crate::app::texts::{say, tr};
-use crate::app::widgets::html::rich;
-use crate::app::widgets::{ChartCanvas, ChartMenu};
+use crate::app::widgets::{ChartCanvas, ChartMenu, card, remark, sentence};
 use crate::figure::Frame;
 use crate::linear::Complex;
 
 /// Open-loop poles, transmission zeros with their path, and closed-loop poles.
-#[component]
-pub fn PolesAndZerosCard() -> impl IntoView {
+pub fn poles_and_zeros_card() -> AnyView {
     let lab = use_lab();
     let frames = RwSignal::new(Vec::<Frame>::new());
     let picture = pictures::pole_zero(lab);
     let title = say!(lab, zeros.title);
     let summary = Signal::derive(move || summary(lab));
-    view! {
-        <section class="card zeros" aria-labelledby="zeros-title">
-            <header>
-                <h2 id="zeros-title">{title}</h2>
-                <span class="remark">{say!(lab, zeros.remark)}</span>
-                <ChartMenu picture=picture.clone() file="poles-and-zeros" title />
-            </header>
-            <div class="chart">
-                <ChartCanvas picture frames summary name="pole-zero" />
-            </div>
-            <p class="sentence" data-testid="zeros-sentence" inner_html=Signal::derive(move || rich(&sentences::of_direction(lab)))></p>
-        </section>
-    }
+    let beside = vec![
+        remark(say!(lab, zeros.remark)),
+        view! { <ChartMenu picture=picture.clone() file="poles-and-zeros" title /> }.into_any(),
+    ];
+    let content = vec![
+        view! { <div class="chart"><ChartCanvas picture frames summary name="pole-zero" /></div> }.into_any(),
+        sentence("zeros-sentence", Signal::derive(move || sentences::of_direction(lab))),
+    ];
+    card("zeros", title, beside, content)
 }
 
 fn summary(lab: Lab) -> String {

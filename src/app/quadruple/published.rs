@@ -2,10 +2,11 @@
 
 use leptos::prelude::*;
 
-use crate::app::lab::{Lab, use_lab};
+use crate::app::lab::Lab;
 use crate::app::preset::chosen;
 use crate::app::shown::{length_digits, to_shown, unit_name};
 use crate::app::texts::{say, tr};
+use crate::app::widgets::figures;
 use crate::app::widgets::html::{element, headings};
 use crate::plant::{Preset, PresetId};
 
@@ -13,9 +14,7 @@ use crate::plant::{Preset, PresetId};
 type Row = (String, String, Option<String>);
 
 /// The table of computed and printed figures of the rig.
-#[component]
-pub fn PublishedFigures() -> impl IntoView {
-    let lab = use_lab();
+pub fn published_figures(lab: Lab) -> AnyView {
     let rig = chosen(lab);
     let preset = move || rig.get().map(PresetId::preset);
     let table = Signal::derive(move || {
@@ -34,12 +33,8 @@ pub fn PublishedFigures() -> impl IntoView {
             lead + &rest
         })
     });
-    view! {
-        <div class="scroll" tabindex="0" role="region" aria-label=say!(lab, process.operating_point)>
-            <table class="plain" data-testid="published" inner_html=table></table>
-        </div>
-        <p class="remark">{note}</p>
-    }
+    let caption = say!(lab, process.operating_point);
+    vec![figures("published", caption, table), view! { <p class="remark">{note}</p> }.into_any()].into_any()
 }
 
 fn row_html((name, exact, printed): Row) -> String {

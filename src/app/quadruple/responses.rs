@@ -1,17 +1,17 @@
 //! The step responses: levels and pump voltages, with cursor, zoom, pinned runs, metrics and a data table.
 
-use crate::app::widgets::handler;
 use leptos::prelude::*;
 
-use super::metrics::MetricsTable;
 use super::moment::{Moment, use_moment};
-use super::pictures;
 use super::set_points::SetPoints;
+use super::{metrics, pictures};
 use crate::app::lab::{Lab, use_lab};
 use crate::app::shown::{length_digits, to_shown, unit_name};
 use crate::app::texts::{say, tr};
 use crate::app::widgets::html::rich;
-use crate::app::widgets::{ChartCanvas, ChartMenu, DataTable, TimeAxis, TimeSurface, ZoomButtons};
+use crate::app::widgets::{
+    ChartCanvas, ChartMenu, DataTable, TimeAxis, TimeSurface, ZoomButtons, card, figures, handler,
+};
 use crate::figure::Frame;
 use crate::scenario::Scenario;
 use crate::sim::{EventKind, LoopMetrics, Settling, Stability};
@@ -20,8 +20,7 @@ use crate::sim::{EventKind, LoopMetrics, Settling, Stability};
 const SHORTEST_S: f64 = 5.0;
 
 /// The step responses.
-#[component]
-pub fn ResponsesCard() -> impl IntoView {
+pub fn responses_card() -> AnyView {
     let lab = use_lab();
     let frames = RwSignal::new(Vec::<Frame>::new());
     let held = RwSignal::new(None);
@@ -34,32 +33,30 @@ pub fn ResponsesCard() -> impl IntoView {
     };
     let title = say!(lab, responses.title);
     let summary = say!(lab, responses.summary, sentence = sentence(lab).replace("**", ""));
-    view! {
-        <section class="card responses" aria-labelledby="responses-title">
-            <header>
-                <h2 id="responses-title">{title}</h2>
-                <Toolbar axis />
-                <ChartMenu picture=picture.clone() file="responses" title />
-            </header>
-            <div class="charts">
-                <div class="chart">
-                    <ChartCanvas picture frames summary name="responses" />
-                    <TimeSurface
-                        axis
-                        frames
-                        label=say!(lab, responses.cursor)
-                        spoken=at_cursor(spoken)
-                        readout=at_cursor(readout)
-                        id="responses-surface"
-                    />
-                    <SetPoints frames held />
-                </div>
+    let beside = view! {
+        <Toolbar axis />
+        <ChartMenu picture=picture.clone() file="responses" title />
+    };
+    let content = view! {
+        <div class="charts">
+            <div class="chart">
+                <ChartCanvas picture frames summary name="responses" />
+                <TimeSurface
+                    axis
+                    frames
+                    label=say!(lab, responses.cursor)
+                    spoken=at_cursor(spoken)
+                    readout=at_cursor(readout)
+                    id="responses-surface"
+                />
+                <SetPoints frames held />
             </div>
-            <p class="sentence" role="status" data-testid="responses-sentence" inner_html=Signal::derive(move || rich(&sentence(lab)))></p>
-            <MetricsTable />
-            <DataTable picture=table_picture id="data-table" />
-        </section>
-    }
+        </div>
+        <p class="sentence" role="status" data-testid="responses-sentence" inner_html=Signal::derive(move || rich(&sentence(lab)))></p>
+        {figures("metrics", say!(lab, responses.metrics), Signal::derive(move || metrics::table(lab)))}
+        <DataTable picture=table_picture id="data-table" />
+    };
+    card("responses", title, vec![beside.into_any()], vec![content.into_any()])
 }
 
 #[component]
@@ -82,7 +79,7 @@ fn Toolbar(axis: TimeAxis) -> impl IntoView {
                 type="button"
                 class="button small"
                 data-testid="unpin"
-                hidden=move || lab.words.pinned.with(|p| p.is_empty())
+                hidden=Signal::derive(move || lab.words.pinned.with(|p| p.is_empty()))
                 on:click=handler(move |_| lab.scenario.update(|s| s.pinned.clear()))
             >
                 {say!(lab, responses.unpin)}

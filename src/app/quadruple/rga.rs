@@ -5,32 +5,26 @@ use leptos::prelude::*;
 use crate::app::lab::{Lab, use_lab};
 use crate::app::texts::{say, tr};
 use crate::app::widgets::html::{element, escape, rich};
+use crate::app::widgets::{card, remark, verdict};
 use crate::interaction::{PairingReason, PairingVerdict};
 use crate::scenario::Analysis;
 
 /// The relative gain array.
-#[component]
-pub fn RelativeGainCard() -> impl IntoView {
+pub fn relative_gain_card() -> AnyView {
     let lab = use_lab();
-    let verdict = move || lab.words.with_analysis(|a| a.verdict);
+    let found = move || lab.words.with_analysis(|a| a.verdict);
     let text = Signal::derive(move || {
-        rich(&verdict().map_or_else(|| tr!(lab, process.no_equilibrium).to_owned(), |v| of_verdict(lab, v)))
+        let text = found().map_or_else(|| tr!(lab, process.no_equilibrium).to_owned(), |v| of_verdict(lab, v));
+        element("p", "", &rich(&text))
     });
-    let warm = move || matches!(verdict(), Some(PairingVerdict::None(_)) | None);
-    view! {
-        <section class="card rga" aria-labelledby="rga-title">
-            <header>
-                <h2 id="rga-title">{say!(lab, rga.title)}</h2>
-                <span class="remark">{say!(lab, rga.remark)}</span>
-            </header>
-            <table class="gains" inner_html=Signal::derive(move || gains(lab))></table>
-            <div class="formula" inner_html=Signal::derive(move || formula(lab))></div>
-            <div class=move || if warm() { "verdict warm" } else { "verdict" }.to_owned() role="status" data-testid="rga-verdict">
-                <p inner_html=text></p>
-            </div>
-            <p class="remark" data-testid="niederlinski">{Signal::derive(move || of_niederlinski(lab))}</p>
-        </section>
-    }
+    let warm = Signal::derive(move || matches!(found(), Some(PairingVerdict::None(_)) | None));
+    let content = view! {
+        <table class="gains" inner_html=Signal::derive(move || gains(lab))></table>
+        <div class="formula" inner_html=Signal::derive(move || formula(lab))></div>
+        {verdict("rga-verdict".to_owned(), warm, text)}
+        <p class="remark" data-testid="niederlinski">{Signal::derive(move || of_niederlinski(lab))}</p>
+    };
+    card("rga", say!(lab, rga.title), vec![remark(say!(lab, rga.remark))], vec![content.into_any()])
 }
 
 /// Λ as a table; rows and columns sum to 1, so one number makes it.

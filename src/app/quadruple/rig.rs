@@ -4,13 +4,13 @@ use leptos::prelude::*;
 
 use super::moment::{Moment, use_moment};
 use super::valves::{STEP, on_grid};
-use crate::app::lab::{Lab, use_lab};
+use crate::app::lab::Lab;
 use crate::app::shown::{length_digits, to_shown, unit_name};
 use crate::app::start::Control;
 use crate::app::texts::{say, tr};
 use crate::app::widgets::html::{element, escape};
 use crate::app::widgets::{Drag, Handle, Nudge};
-use crate::plant::{Disturbance, QuadrupleTank, Tank};
+use crate::plant::{DisplayUnit, Disturbance, QuadrupleTank, Tank};
 
 /// Where the tanks stand in the drawing (left, top), tank 1 first.
 const TANKS: [(f64, f64); 4] = [(62.0, 158.0), (150.0, 158.0), (62.0, 40.0), (150.0, 40.0)];
@@ -38,9 +38,7 @@ const VALVE_IDS: [&str; 2] = ["valve1", "valve2"];
 const VALVE_TRAVEL_PX: f64 = 120.0;
 
 /// The drawing with the state of the shown moment.
-#[component]
-pub fn Rig() -> impl IntoView {
-    let lab = use_lab();
+pub fn rig(lab: Lab) -> AnyView {
     let moment = use_moment();
     let summary = Signal::derive(move || {
         let unit = lab.unit.get();
@@ -64,31 +62,33 @@ pub fn Rig() -> impl IntoView {
             })
             .unwrap_or_default()
     });
-    let drawing = Signal::derive(move || drawing(lab, moment.get().as_ref()));
+    let drawing = Signal::derive(move || {
+        let plant = lab.words.setup.with(|s| s.plant());
+        drawing(lab, &plant, lab.unit.get(), moment.get().as_ref())
+    });
     view! {
         <svg class="rig" viewBox="0 0 276 296" role="group" aria-label=summary data-testid="rig">
             <g aria-hidden="true" inner_html=drawing></g>
-            <ValveView valve=0 />
-            <ValveView valve=1 />
+            {valve_view(lab, 0)}
+            {valve_view(lab, 1)}
         </svg>
     }
+    .into_any()
 }
 
 /// All that is only looked at, from the back to the front; without a moment nothing runs and the tanks are dry.
-fn drawing(lab: Lab, moment: Option<&Moment>) -> String {
-    let plant = lab.words.setup.with(|s| s.plant());
+pub fn drawing(lab: Lab, plant: &QuadrupleTank, unit: DisplayUnit, moment: Option<&Moment>) -> String {
     let levels = moment.map_or([0.0; 4], |m| m.levels);
-    let tanks: String = (0..4).map(|k| tank(lab, k, &plant.tanks[k], levels[k])).collect();
-    let streams = moment.map_or_else(String::new, |m| streams(&plant, m));
+    let tanks: String = (0..4).map(|k| tank(lab, k, &plant.tanks[k], (levels[k], unit))).collect();
+    let streams = moment.map_or_else(String::new, |m| streams(plant, m));
     let pumps: String = (0..2).map(|k| pump(lab, k, moment.map(|m| m.pump_voltage[k]))).collect();
-    let valves: String = (0..2).map(|k| valve_texts(lab, k)).collect();
+    let valves: String = (0..2).map(|k| valve_texts(lab, k, plant.valves[k])).collect();
     format!("{PIPES}{streams}{tanks}{BASIN}{pumps}{valves}")
 }
 
 /// One tank: walls, water, name, level, and a word where it overflows or is dry.
-fn tank(lab: Lab, index: usize, tank: &Tank, level: f64) -> String {
+fn tank(lab: Lab, index: usize, tank: &Tank, (level, unit): (f64, DisplayUnit)) -> String {
     let (left, top) = TANKS[index];
-    let unit = lab.unit.get();
     let dryness = 1.0 - share(tank, level);
     // How far the far wall leans outwards over the height of the tank, for a trapezoidal tank.
     let lean = TANK.0 * (1.0 - (tank.section.area(0.0) / tank.section.area(tank.height)).clamp(LEAST_BOTTOM, 1.0));
@@ -162,20 +162,18 @@ fn pump(lab: Lab, index: usize, voltage: Option<f64>) -> String {
 }
 
 /// Name and setting beside a valve. A text in a drawing is dear to lay out: it comes with the words.
-fn valve_texts(lab: Lab, index: usize) -> String {
+fn valve_texts(lab: Lab, index: usize, gamma: f64) -> String {
     let (anchor, x) = if index == 0 { ("end", 33) } else { ("start", 243) };
     let text = |y: f64, words: &str| {
         format!("<text class=\"value\" x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\">{words}</text>")
     };
-    let setting = lab.number_style().fixed(lab.words.setup.with(|s| s.valves[index]), 2);
+    let setting = lab.number_style().fixed(gamma, 2);
     let y = VALVES[index].1;
     text(y - 2.0, ["γ₁", "γ₂"][index]) + &text(y + 10.0, &setting)
 }
 
 /// A valve, which is opened and closed by dragging it up and down.
-#[component]
-fn ValveView(valve: usize) -> impl IntoView {
-    let lab = use_lab();
+fn valve_view(lab: Lab, valve: usize) -> AnyView {
     let gamma = lab.part(move |s| s.valves[valve]);
     let set = move |gamma: f64| lab.edit(|s| s.valves[valve] = on_grid(gamma));
     let grabbed = StoredValue::new(0.0);
@@ -195,4 +193,5 @@ fn ValveView(valve: usize) -> impl IntoView {
             look=VALVE_LOOKS[valve]
         />
     }
+    .into_any()
 }

@@ -2,7 +2,7 @@
 
 use leptos::prelude::*;
 
-use super::experiment::{edit_step, step_size, step_time};
+use super::experiment::{first_step_mut, step_size, step_time};
 use crate::app::lab::use_lab;
 use crate::app::shown::{length_digits, per_metre, to_metres, to_shown, unit_name};
 use crate::app::start::Control;
@@ -58,7 +58,10 @@ fn SetPoint(level: usize, frames: RwSignal<Vec<Frame>>, held: RwSignal<Option<(f
         let new_size = to_metres((to_shown(new_size.clamp(-reach, reach), unit) * grid).round() / grid, unit);
         let end = lab.scenario.with_untracked(|s| s.setup.experiment.duration_s);
         let new_time_s = new_time_s.round().clamp(limits::TIME_S.min, end);
-        edit_step(lab, level, move |step| (step.size, step.time_s) = (new_size, new_time_s));
+        lab.edit(|s| {
+            let step = first_step_mut(&mut s.experiment, level);
+            (step.size, step.time_s) = (new_size, new_time_s);
+        });
     };
     // The scale is that of the moment of grabbing, and the axis keeps it as long as the drag stays inside: a scale that
     // follows the drag would run away from the pointer.

@@ -1,6 +1,5 @@
 //! The valve plane: γ1 across, γ2 upwards, shaded by the right-most zero, with a point to drag.
 
-use crate::app::widgets::handler;
 use leptos::ev::KeyboardEvent;
 use leptos::prelude::*;
 
@@ -9,8 +8,8 @@ use crate::app::lab::{Lab, use_lab};
 use crate::app::preset::{chosen, load, name_of};
 use crate::app::start::Control;
 use crate::app::texts::{say, tr};
-use crate::app::widgets::html::{escape, rich};
-use crate::app::widgets::{ChartCanvas, ChartMenu, Nudge, PointHandle, first_frame};
+use crate::app::widgets::html::escape;
+use crate::app::widgets::{ChartCanvas, ChartMenu, Nudge, PointHandle, card, first_frame, handler, remark, sentence};
 use crate::figure::Frame;
 use crate::plant::PresetId;
 
@@ -20,31 +19,31 @@ const STEPS: f64 = 100.0;
 pub const STEP: f64 = 1.0 / STEPS;
 
 /// The valve plane.
-#[component]
-pub fn ValvePlaneCard() -> impl IntoView {
+pub fn valve_plane_card() -> AnyView {
     let lab = use_lab();
     let frames = RwSignal::new(Vec::<Frame>::new());
     let picture = pictures::valve_plane(lab);
     let title = say!(lab, valves.title);
-    let summary = move || {
+    let summary = Signal::derive(move || {
         let [g1, g2] = lab.words.setup.with(|s| s.valves);
         let style = lab.number_style();
-        tr!(lab, valves.summary, gamma1 = style.fixed(g1, 2), gamma2 = style.fixed(g2, 2)).to_string()
-    };
-    view! {
-        <section class="card plane" aria-labelledby="plane-title">
-            <header>
-                <h2 id="plane-title">{title}</h2>
-                <span class="remark">{say!(lab, valves.remark)}</span>
-                <ChartMenu picture=picture.clone() file="valve-plane" title />
-            </header>
+        tr!(lab, valves.summary, gamma1 = style.fixed(g1, 2), gamma2 = style.fixed(g2, 2))
+    });
+    let beside = vec![
+        remark(say!(lab, valves.remark)),
+        view! { <ChartMenu picture=picture.clone() file="valve-plane" title /> }.into_any(),
+    ];
+    let content = vec![
+        view! {
             <div class="chart square">
-                <ChartCanvas picture frames summary=Signal::derive(summary) name="valve-plane" />
+                <ChartCanvas picture frames summary name="valve-plane" />
                 <Overlay frames />
             </div>
-            <p class="sentence" data-testid="valves-sentence" inner_html=Signal::derive(move || rich(&sentences::of_rightmost(lab)))></p>
-        </section>
-    }
+        }
+        .into_any(),
+        sentence("valves-sentence", Signal::derive(move || sentences::of_rightmost(lab))),
+    ];
+    card("plane", title, beside, content)
 }
 
 /// What lies over the picture: guides, published points and the point to drag.

@@ -6,10 +6,10 @@ use super::sentences::{ZeroSituation, situation};
 use crate::app::lab::{Lab, use_lab};
 use crate::app::shown::{to_shown, unit_name};
 use crate::app::texts::{say, tr};
+use crate::app::widgets::{card, sentence};
 
 /// ∫ ηᵀe(t) e^(−zt) dt = ηᵀr/z for every stabilising controller.
-#[component]
-pub fn WhyCard() -> impl IntoView {
+pub fn why_card() -> AnyView {
     let lab = use_lab();
     let text = Signal::derive(move || match situation(lab) {
         Some(ZeroSituation::Right(z)) => tr!(lab, why.right, zero = lab.number_style().significant(z, 3)).to_string(),
@@ -19,13 +19,12 @@ pub fn WhyCard() -> impl IntoView {
         Some(ZeroSituation::NoFinite) | None => tr!(lab, why.none).to_string(),
     });
     let formula = Signal::derive(move || formula(lab).unwrap_or_default());
-    view! {
-        <section class="card why" aria-labelledby="why-title">
-            <header><h2 id="why-title">{say!(lab, why.title)}</h2></header>
-            <p class="sentence" data-testid="why">{text}</p>
-            <div class="formula" hidden=move || formula.with(String::is_empty) inner_html=formula></div>
-        </section>
-    }
+    let no_formula = Signal::derive(move || formula.with(String::is_empty));
+    let content = vec![
+        sentence("why", text),
+        view! { <div class="formula" hidden=no_formula inner_html=formula></div> }.into_any(),
+    ];
+    card("why", say!(lab, why.title), Vec::new(), content)
 }
 
 fn formula(lab: Lab) -> Option<String> {

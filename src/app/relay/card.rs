@@ -2,8 +2,8 @@
 
 use leptos::prelude::*;
 
-use crate::app::widgets::html::rich;
-use crate::app::widgets::{ChartCanvas, ChartMenu, Picture};
+use crate::app::widgets::html::{element, rich};
+use crate::app::widgets::{self, ChartCanvas, ChartMenu, Picture};
 use crate::figure::Frame;
 
 /// A step of the bench.
@@ -36,46 +36,24 @@ pub struct Step {
 pub fn card(step: Step) -> AnyView {
     let Step { name, number, title, toolbar, picture, frames, place, overlay, settings, verdict, below } = step;
     // Read in three places, worked out once.
-    let verdict = Memo::new(move |_| verdict.get());
-    let summary = Signal::derive(move || verdict.get().1.replace("**", ""));
-    let class = Signal::derive(move || if verdict.get().0 { "verdict" } else { "verdict warm" }.to_owned());
-    let text = Signal::derive(move || rich(&verdict.get().1));
-    let heading = format!("{name}-title");
-    let labelled_by = heading.clone();
-    view! {
-        <section class=format!("card {name}") aria-labelledby=labelled_by>
-            <header>
-                <h2 id=heading>{Signal::derive(move || format!("{number} · {}", title.get()))}</h2>
-                {toolbar}
-                <ChartMenu picture=picture.clone() file=name title />
-            </header>
-            <div class="step">
-                <div class=place>
-                    <ChartCanvas picture frames summary name />
-                    {overlay}
-                </div>
-                <div class="settings">{settings}</div>
+    let found = Memo::new(move |_| verdict.get());
+    let summary = Signal::derive(move || found.get().1.replace("**", ""));
+    let warm = Signal::derive(move || !found.get().0);
+    let text = Signal::derive(move || element("p", "", &rich(&found.get().1)));
+    let heading = Signal::derive(move || format!("{number} · {}", title.get()));
+    let menu = view! { <ChartMenu picture=picture.clone() file=name title /> }.into_any();
+    let content = view! {
+        <div class="step">
+            <div class=place>
+                <ChartCanvas picture frames summary name />
+                {overlay}
             </div>
-            <div class=class role="status" data-testid=format!("{name}-verdict")><p inner_html=text></p></div>
-            <div class="folded">{below}</div>
-        </section>
-    }
-    .into_any()
-}
-
-/// A table that may be wider than its place.
-pub fn figures(name: &'static str, caption: Signal<String>, content: Signal<String>) -> AnyView {
-    view! {
-        <div class="scroll" tabindex="0" role="region" aria-label=caption>
-            <table class="plain" data-testid=name inner_html=content></table>
+            <div class="settings">{settings}</div>
         </div>
-    }
-    .into_any()
-}
-
-/// A grey remark beside a title.
-pub fn remark(text: Signal<String>) -> AnyView {
-    view! { <span class="remark">{text}</span> }.into_any()
+        {widgets::verdict(format!("{name}-verdict"), warm, text)}
+        <div class="folded">{below}</div>
+    };
+    widgets::card(name, heading, vec![toolbar, menu], vec![content.into_any()])
 }
 
 /// Settings that are there only sometimes.

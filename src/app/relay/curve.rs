@@ -4,15 +4,16 @@ use leptos::ev::MouseEvent;
 use leptos::prelude::*;
 use leptos::wasm_bindgen::JsCast;
 
-use super::card::{Step, card, figures, remark};
-use super::controls::{Knob, knob};
+use super::card::{Step, card};
 use super::errors;
 use super::pictures;
 use super::session::{Session, time_unit, use_session};
+use crate::app::controls::{Knob, knob};
 use crate::app::start::Control;
 use crate::app::texts::{say, tr};
-use crate::app::widgets::{Nudge, PointHandle, Scale, first_frame, handler, html};
+use crate::app::widgets::{Nudge, PointHandle, Scale, figures, first_frame, handler, html, remark};
 use crate::figure::Frame;
+use crate::scalar::power;
 use crate::scenario::tuning::{CriticalSpec, TuningSetup};
 use crate::tuning::{GainLimit, importance_direction};
 
@@ -21,30 +22,29 @@ const IMPORTANCES: (f64, f64) = (0.001, 1000.0);
 /// Ratio of one step of the arrow keys.
 const STEP: f64 = 1.05;
 
+const IMPORTANCE: Knob<TuningSetup> = Knob {
+    ids: [("importance", "importance-number"); 2],
+    label: |_, _| "r₂",
+    name: |lab, _| tr!(lab, relay.importance).to_owned(),
+    read: |s, _| importance(s),
+    write: |s, _, r| s.design.critical = CriticalSpec::Importance(r),
+    limits: |_, _| IMPORTANCES,
+    travel: Some(|_| IMPORTANCES),
+    scale: Scale::Logarithmic,
+    lock: Control::Point,
+    ..Knob::PLAIN
+};
+
 /// The critical curve.
-#[component]
-pub fn CurveCard() -> impl IntoView {
+pub fn curve_card() -> AnyView {
     let session = use_session();
     let lab = session.lab;
     let frames = RwSignal::new(Vec::<Frame>::new());
     let chosen = Signal::from(Memo::new(move |_| pictures::chosen_point(session.charts)));
     let picture = pictures::curve(session, chosen);
-    let importance = Knob {
-        id: ("importance", "importance-number"),
-        label: "r₂",
-        name: say!(lab, relay.importance),
-        read: importance,
-        write: |s, r| s.design.critical = CriticalSpec::Importance(r),
-        limits: IMPORTANCES,
-        travel: Some(IMPORTANCES),
-        scale: Scale::Logarithmic,
-        is_time: false,
-        class: "",
-        lock: Control::Point,
-    };
     let table = Signal::derive(move || table(session));
     let settings = vec![
-        knob(session, &importance),
+        knob(session, &IMPORTANCE, 0),
         figures("critical-point", say!(lab, relay.curve_caption), table),
         remark(say!(lab, relay.importance_formula)),
     ];
@@ -109,7 +109,7 @@ fn CriticalHandle(frames: RwSignal<Vec<Frame>>, chosen: Signal<Option<(f64, f64)
             spoken=Signal::derive(move || format!("r₂ {}", lab.number_style().significant(value.get(), 3)))
             locked=lab.locks(Control::Point)
             on_move=move |place: (f64, f64)| choose(session, place)
-            on_nudge=move |by: Nudge| set_importance(session, value.get_untracked() * STEP.powf((by.up - by.right + by.page).clamp(-200.0, 200.0)))
+            on_nudge=move |by: Nudge| set_importance(session, value.get_untracked() * power(STEP, (by.up - by.right + by.page).clamp(-200.0, 200.0)))
             frames
         />
     }

@@ -29,11 +29,11 @@ pub fn RelayTuningBench() -> impl IntoView {
     let chosen = lab.flags.with_value(|f| !f.panels.is_empty());
     view! {
         <main class=if chosen { "bench relay chosen" } else { "bench relay" } id=move || lab.id_of(Bench::RelayTuning)>
-            {shows(Panel::Plant).then(|| view! { <plant::PlantCard /> }.into_any())}
-            {shows(Panel::Test).then(|| view! { <test::TestCard /> }.into_any())}
-            {shows(Panel::Curve).then(|| view! { <curve::CurveCard /> }.into_any())}
-            {shows(Panel::Placement).then(|| view! { <placement::PlacementCard /> }.into_any())}
-            {shows(Panel::Responses).then(|| view! { <response::ResponseCard /> }.into_any())}
+            {shows(Panel::Plant).then(plant::plant_card)}
+            {shows(Panel::Test).then(test::test_card)}
+            {shows(Panel::Curve).then(curve::curve_card)}
+            {shows(Panel::Placement).then(placement::placement_card)}
+            {shows(Panel::Responses).then(response::response_card)}
         </main>
     }
 }

@@ -2,17 +2,18 @@
 
 use leptos::prelude::*;
 
-use super::card::{Step, card, figures, hideable, remark};
-use super::controls::{Knob, choice, knob, segmented, symbol};
+use super::card::{Step, card, hideable};
+use super::controls::{choice, symbol};
 use super::details;
 use super::errors;
 use super::pictures::{self, short_name};
 use super::session::{Session, use_session};
+use crate::app::controls::{Knob, knob, segmented};
 use crate::app::lab::Lab;
 use crate::app::start::Control;
 use crate::app::texts::{say, tr};
 use crate::app::widgets::html::option;
-use crate::app::widgets::{Nudge, PointHandle, Scale, html};
+use crate::app::widgets::{Nudge, PointHandle, Scale, figures, html, remark};
 use crate::figure::Frame;
 use crate::linear::{Closure, Complex, LoopStability};
 use crate::scenario::tuning::{DesignRoot, TuningSetup, rule_targets};
@@ -23,9 +24,20 @@ const STEP: f64 = 0.01;
 /// Parts of the target that can be entered.
 const TARGETS: (f64, f64) = (-10.0, 10.0);
 
+const TARGET: Knob<TuningSetup> = Knob {
+    ids: [("", "target-re"), ("", "target-im")],
+    label: |_, k| ["Re λ", "Im λ"][k],
+    name: |lab, k| if k == 0 { tr!(lab, relay.target_re) } else { tr!(lab, relay.target_im) }.to_owned(),
+    read: |s, k| s.design.target[k],
+    write: |s, k, part| s.design.target[k] = part,
+    limits: |_, _| TARGETS,
+    scale: Scale::Linear(STEP),
+    lock: Control::Target,
+    ..Knob::PLAIN
+};
+
 /// The placement.
-#[component]
-pub fn PlacementCard() -> impl IntoView {
+pub fn placement_card() -> AnyView {
     let session = use_session();
     let lab = session.lab;
     let frames = RwSignal::new(Vec::<Frame>::new());
@@ -46,19 +58,6 @@ pub fn PlacementCard() -> impl IntoView {
 
 fn settings(session: Session) -> AnyView {
     let lab = session.lab;
-    let part = |id, label, name, read, write| Knob {
-        id,
-        label,
-        name,
-        read,
-        write,
-        limits: TARGETS,
-        travel: None,
-        scale: Scale::Linear(STEP),
-        is_time: false,
-        class: "",
-        lock: Control::Target,
-    };
     let methods = vec![("method-a", say!(lab, relay.method_a)), ("method-b", say!(lab, relay.method_b))];
     let roots = vec![("root1", say!(lab, relay.root, number = 1)), ("root2", say!(lab, relay.root, number = 2))];
     let actions = vec![("action-pi", symbol("PI")), ("action-pid", symbol("PID"))];
@@ -73,26 +72,8 @@ fn settings(session: Session) -> AnyView {
             lock,
         ),
         segmented(session, say!(lab, relay.roots), roots, |s| s.design.root - 1, |s, k| s.design.root = k + 1, lock),
-        knob(
-            session,
-            &part(
-                ("target-re", ""),
-                "Re λ",
-                say!(lab, relay.target_re),
-                |s| s.design.target[0],
-                |s, v| s.design.target[0] = v,
-            ),
-        ),
-        knob(
-            session,
-            &part(
-                ("target-im", ""),
-                "Im λ",
-                say!(lab, relay.target_im),
-                |s| s.design.target[1],
-                |s, v| s.design.target[1] = v,
-            ),
-        ),
+        knob(session, &TARGET, 0),
+        knob(session, &TARGET, 1),
     ];
     let choose = move |name: String| choose_rule(session, &name);
     let rule = choice("target-rule", say!(lab, relay.target_rule), rules(session), choose, lock);

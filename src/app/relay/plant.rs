@@ -2,14 +2,16 @@
 
 use leptos::prelude::*;
 
-use super::controls::{Knob, knob, segmented};
+use super::card::hideable;
+use super::controls::{TIME, choice};
 use super::printed::{PrintedFigures, name_of_case};
 use super::session::{Session, use_session};
+use crate::app::controls::{Knob, knob, segmented};
 use crate::app::preset::name_of;
 use crate::app::start::Control;
 use crate::app::texts::{say, tr};
 use crate::app::widgets::html::option;
-use crate::app::widgets::{Choice, Scale};
+use crate::app::widgets::{Scale, card};
 use crate::control::Pairing;
 use crate::plant::PresetId;
 use crate::scenario::tuning::{PublishedCase, TuningPlant, TuningSetup};
@@ -18,47 +20,53 @@ use crate::tuning::PublishedPlant;
 const WOOD_BERRY: &str = "wood-berry";
 const PROCESS_TWO: &str = "process-two";
 
+const VALVE: Knob<TuningSetup> = Knob {
+    ids: [("", "rig-gamma1"), ("", "rig-gamma2")],
+    label: |_, k| ["γ₁", "γ₂"][k],
+    name: |lab, k| tr!(lab, process.gamma, pump = k + 1),
+    read: |s, k| valves(s)[k],
+    write: set_valve,
+    ..Knob::PLAIN
+};
+const BEHIND: Knob<TuningSetup> = Knob {
+    ids: [("", "rig-dead-time"), ("", "rig-lag")],
+    label: |_, k| ["θ", "T"][k],
+    name: |lab, k| if k == 0 { tr!(lab, relay.dead_time) } else { tr!(lab, relay.lag) }.to_owned(),
+    read: |s, k| behind(s)[k],
+    write: set_behind,
+    limits: |_, _| (0.0, 1000.0),
+    scale: Scale::Linear(0.5),
+    ..TIME
+};
+
 /// The choice of the plant, the parameters of a rig, and the published cases with their figures.
-#[component]
-pub fn PlantCard() -> impl IntoView {
+pub fn plant_card() -> AnyView {
     let session = use_session();
     let lab = session.lab;
+    let lock = Control::Plant;
     let no_rig = session.flag(|s| !matches!(s.plant, TuningPlant::QuadrupleTank { .. }));
-    view! {
-        <section class="card plant" aria-labelledby="plant-title">
-            <header>
-                <h2 id="plant-title">{say!(lab, relay.plant)}</h2>
-                <Choice id="plant" name=say!(lab, relay.plant) options=plants(session) on_choose=move |name: String| choose_plant(session, &name) disabled=lab.locks(Control::Plant) />
-                <Choice id="case" name=say!(lab, relay.case) options=cases(session) on_choose=move |name: String| choose_case(session, &name) disabled=lab.locks(Control::Plant) />
-            </header>
-            <div class="strip" hidden=no_rig>
-                {knob(session, &Knob { id: ("rig-gamma1", ""), label: "γ₁", name: say!(lab, process.gamma, pump = 1), read: |s| valves(s)[0], write: |s, v| set_valve(s, 0, v), ..field(Scale::Linear(0.01), (0.0, 1.0)) })}
-                {knob(session, &Knob { id: ("rig-gamma2", ""), label: "γ₂", name: say!(lab, process.gamma, pump = 2), read: |s| valves(s)[1], write: |s, v| set_valve(s, 1, v), ..field(Scale::Linear(0.01), (0.0, 1.0)) })}
-                {knob(session, &Knob { id: ("rig-dead-time", ""), label: "θ", name: say!(lab, relay.dead_time), read: |s| behind(s)[0], write: |s, v| set_behind(s, 0, v), is_time: true, ..field(Scale::Linear(0.5), (0.0, 1000.0)) })}
-                {knob(session, &Knob { id: ("rig-lag", ""), label: "T", name: say!(lab, relay.lag), read: |s| behind(s)[1], write: |s, v| set_behind(s, 1, v), is_time: true, ..field(Scale::Linear(0.5), (0.0, 1000.0)) })}
-                {segmented(session, say!(lab, relay.pairing), vec![("rig-diagonal", say!(lab, relay.diagonal)), ("rig-swapped", say!(lab, relay.swapped))], |s| usize::from(rig(s).is_some_and(|(pairing, _)| pairing == Pairing::Swapped)), set_pairing, Control::Plant)}
-                {segmented(session, say!(lab, relay.motion), vec![("rig-linear", say!(lab, relay.linear)), ("rig-nonlinear", say!(lab, relay.nonlinear))], |s| usize::from(rig(s).is_some_and(|(_, nonlinear)| nonlinear)), set_nonlinear, Control::Plant)}
-            </div>
-            <PrintedFigures />
-            <p class="remark about" data-testid="plant-remark">{Signal::derive(move || remark(session))}</p>
-        </section>
-    }
-}
-
-fn field(scale: Scale, limits: (f64, f64)) -> Knob {
-    Knob {
-        id: ("", ""),
-        label: "",
-        name: Signal::stored(String::new()),
-        read: |_| 0.0,
-        write: |_, _| (),
-        limits,
-        travel: None,
-        scale,
-        is_time: false,
-        class: "",
-        lock: Control::Plant,
-    }
+    let pairings = vec![("rig-diagonal", say!(lab, relay.diagonal)), ("rig-swapped", say!(lab, relay.swapped))];
+    let motions = vec![("rig-linear", say!(lab, relay.linear)), ("rig-nonlinear", say!(lab, relay.nonlinear))];
+    let swapped = |s: &TuningSetup| usize::from(rig(s).is_some_and(|(pairing, _)| pairing == Pairing::Swapped));
+    let nonlinear = |s: &TuningSetup| usize::from(rig(s).is_some_and(|(_, nonlinear)| nonlinear));
+    let choices = vec![
+        choice("plant", say!(lab, relay.plant), plants(session), move |name| choose_plant(session, &name), lock),
+        choice("case", say!(lab, relay.case), cases(session), move |name| choose_case(session, &name), lock),
+    ];
+    let of_rig = vec![
+        knob(session, &VALVE, 0),
+        knob(session, &VALVE, 1),
+        knob(session, &BEHIND, 0),
+        knob(session, &BEHIND, 1),
+        segmented(session, say!(lab, relay.pairing), pairings, swapped, set_pairing, lock),
+        segmented(session, say!(lab, relay.motion), motions, nonlinear, set_nonlinear, lock),
+    ];
+    let content = view! {
+        {hideable("strip", no_rig, of_rig)}
+        <PrintedFigures />
+        <p class="remark about" data-testid="plant-remark">{Signal::derive(move || remark(session))}</p>
+    };
+    card("plant", say!(lab, relay.plant), choices, vec![content.into_any()])
 }
 
 /// Pairing of a rig, and whether it runs nonlinear.

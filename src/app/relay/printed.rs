@@ -2,10 +2,10 @@
 
 use leptos::prelude::*;
 
-use super::card::figures;
 use super::session::{Session, use_session};
 use crate::app::lab::Lab;
 use crate::app::texts::{say, tr};
+use crate::app::widgets::figures;
 use crate::app::widgets::html::{cells, element, escape};
 use crate::scenario::tuning::{PrintedFigure, PrintedRemark, PublishedCase};
 
@@ -20,7 +20,7 @@ pub fn PrintedFigures() -> impl IntoView {
         remarks.iter().map(|&remark| of_remark(lab, remark)).collect::<Vec<_>>().join(" ")
     });
     view! {
-        <div class="printed" hidden=move || session.case.get().is_none()>
+        <div class="printed" hidden=Signal::derive(move || session.case.get().is_none())>
             {figures("printed", say!(lab, relay.printed_caption), table)}
             <p class="remark" data-testid="printed-remark">{remarks}</p>
         </div>

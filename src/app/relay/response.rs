@@ -2,17 +2,18 @@
 
 use leptos::prelude::*;
 
-use super::card::{Step, card, figures};
-use super::controls::{choice, segmented, symbol};
+use super::card::{Step, card};
+use super::controls::{choice, symbol};
 use super::errors;
 use super::pictures;
 use super::readout::{readout, surface};
 use super::session::{Session, time_unit, use_session};
 use super::timeline::timeline;
+use crate::app::controls::segmented;
 use crate::app::start::Control;
 use crate::app::texts::{say, tr};
 use crate::app::widgets::html::option;
-use crate::app::widgets::{DataTable, ZoomButtons, handler, html};
+use crate::app::widgets::{DataTable, ZoomButtons, figures, handler, html};
 use crate::figure::Frame;
 use crate::linear::LoopStability;
 use crate::scenario::tuning::{CompareSpec, DecouplerSpec, StepResponse, TuningPlant, TuningScenario};
@@ -33,8 +34,7 @@ const COMPARISONS: [(&str, CompareSpec); 4] = [
 ];
 
 /// The response.
-#[component]
-pub fn ResponseCard() -> impl IntoView {
+pub fn response_card() -> AnyView {
     let session = use_session();
     let lab = session.lab;
     let frames = RwSignal::new(Vec::<Frame>::new());

@@ -6,27 +6,29 @@ use std::sync::Arc;
 use leptos::prelude::*;
 
 use crate::app::lab::{Lab, use_lab};
-use crate::app::results::share;
+use crate::app::results::Held;
 use crate::app::start::Control;
 use crate::scenario::tuning::{Designed, PublishedCase, Study, Tested, TuningPlant, TuningScenario, TuningSetup};
 use crate::tuning::{PublishedPlant, TuningError};
 
 /// A result that a panel may show, or why there is none.
-pub type Outcome<T> = Arc<Result<T, TuningError>>;
+pub type Outcome<T> = Arc<Computed<T>>;
+/// The same, not shared.
+type Computed<T> = Result<T, TuningError>;
 
 /// What was found, for the views that show it. A handle: copying it copies nothing.
 #[derive(Clone, Copy)]
 pub struct Found {
     /// The setup that the results are of.
-    pub setup: RwSignal<Arc<TuningSetup>>,
+    pub setup: Held<TuningSetup>,
     /// What follows from the plant.
-    pub study: RwSignal<Outcome<Study>>,
+    pub study: Held<Computed<Study>>,
     /// The relay test.
-    pub test: RwSignal<Outcome<Tested>>,
+    pub test: Held<Computed<Tested>>,
     /// The placement with its response.
-    pub design: RwSignal<Outcome<Option<Designed>>>,
+    pub design: Held<Computed<Option<Designed>>>,
     /// The pinned sessions, in the order of the document.
-    pub pinned: RwSignal<Arc<Vec<Outcome<Option<Designed>>>>>,
+    pub pinned: Held<Vec<Outcome<Option<Designed>>>>,
 }
 
 impl Found {
@@ -35,32 +37,32 @@ impl Found {
         let setup = &scenario.tuning;
         let study = Arc::new(Study::of(&setup.plant));
         Self {
-            test: RwSignal::new(tested(&study, setup)),
-            design: RwSignal::new(designed(&study, setup)),
-            study: RwSignal::new(study),
-            setup: RwSignal::new(Arc::new(setup.clone())),
-            pinned: RwSignal::new(design_all(&scenario.pinned)),
+            test: Held::new(tested(&study, setup)),
+            design: Held::new(designed(&study, setup)),
+            study: Held::new(study),
+            setup: Held::new(Arc::new(setup.clone())),
+            pinned: Held::new(design_all(&scenario.pinned)),
         }
     }
 
     /// Signals of their own that hold the same results.
     fn shared(self) -> Self {
         Self {
-            setup: RwSignal::new(self.setup.get_untracked()),
-            study: RwSignal::new(self.study.get_untracked()),
-            test: RwSignal::new(self.test.get_untracked()),
-            design: RwSignal::new(self.design.get_untracked()),
-            pinned: RwSignal::new(self.pinned.get_untracked()),
+            setup: Held::new(self.setup.get_untracked()),
+            study: Held::new(self.study.get_untracked()),
+            test: Held::new(self.test.get_untracked()),
+            design: Held::new(self.design.get_untracked()),
+            pinned: Held::new(self.pinned.get_untracked()),
         }
     }
 
     /// Takes over what is newer in `other`.
     fn follow(self, other: Self) {
-        share(self.setup, other.setup);
-        share(self.study, other.study);
-        share(self.test, other.test);
-        share(self.design, other.design);
-        share(self.pinned, other.pinned);
+        self.setup.follow(other.setup);
+        self.study.follow(other.study);
+        self.test.follow(other.test);
+        self.design.follow(other.design);
+        self.pinned.follow(other.pinned);
     }
 
     /// What `read` makes of the design, if there is one.
@@ -153,7 +155,7 @@ impl Session {
     /// Computes what changed; what it returns hands that to the panels.
     fn compute(self) -> Option<Box<dyn FnOnce()>> {
         let after = self.lab.tuning.try_get_untracked()?;
-        let before = self.charts.setup.try_get_untracked()?;
+        let before = self.charts.setup.get_untracked();
         let setup = &after.tuning;
         let study = (before.plant != setup.plant).then(|| Arc::new(Study::of(&setup.plant)));
         let known = study.clone().unwrap_or_else(|| self.charts.study.get_untracked());
@@ -174,7 +176,7 @@ impl Session {
     }
 }
 
-fn set_if_some<T: Send + Sync + 'static>(signal: RwSignal<Arc<T>>, value: Option<Arc<T>>) {
+fn set_if_some<T: Send + Sync + 'static>(signal: Held<T>, value: Option<Arc<T>>) {
     if let Some(value) = value {
         signal.set(value);
     }

@@ -2,18 +2,19 @@
 
 use leptos::prelude::*;
 
-use super::card::{Step, card, figures, hideable};
-use super::controls::{Knob, choice, knob, segmented};
+use super::card::{Step, card, hideable};
+use super::controls::{TIME, choice};
 use super::details;
 use super::errors;
 use super::pictures::{self, record_of, short_name};
 use super::readout::{readout, surface};
 use super::session::{Session, time_unit, use_session};
 use super::timeline::timeline;
+use crate::app::controls::{Knob, knob, segmented};
 use crate::app::start::Control;
 use crate::app::texts::{say, tr};
 use crate::app::widgets::html::{cells, element, escape, option};
-use crate::app::widgets::{DataTable, Scale, ZoomButtons, handler, html};
+use crate::app::widgets::{DataTable, Scale, ZoomButtons, figures, handler, html};
 use crate::control::IsaPid;
 use crate::figure::Frame;
 use crate::scenario::tuning::{Behind, CriticalSpec, TestKind, Tested, TuningSetup};
@@ -28,9 +29,90 @@ const FIRST_MODULUS: f64 = 0.2;
 const BEGINNING: f64 = 0.25;
 const SIZES: (f64, f64) = (1e-6, 1e6);
 
+const RATIO: Knob<TuningSetup> = Knob {
+    ids: [("ratio", "ratio-number"); 2],
+    label: |_, _| "d₂/d₁",
+    name: |lab, _| tr!(lab, relay.ratio).to_owned(),
+    read: |s, _| ratio_of(s),
+    write: |s, _, ratio| s.test.amplitudes[1] = ratio * s.test.amplitudes[0],
+    limits: |_, _| RATIOS,
+    travel: Some(|_| RATIOS),
+    scale: Scale::Logarithmic,
+    ..OF_TEST
+};
+/// Of relay 1, with the ratio kept; of relay 2 where that one is alone.
+const AMPLITUDE: Knob<TuningSetup> = Knob {
+    ids: [("", "test-amplitude"), ("", "test-amplitude2")],
+    label: |_, k| ["d₁", "d₂"][k],
+    name: |lab, k| tr!(lab, relay.amplitude, number = k + 1),
+    read: |s, k| s.test.amplitudes[k],
+    write: |s, k, d| s.test.amplitudes = if k == 0 { [d, d * ratio_of(s)] } else { [s.test.amplitudes[0], d] },
+    limits: |_, _| (0.001, 1e4),
+    ..OF_TEST
+};
+const DURATION: Knob<TuningSetup> = Knob {
+    ids: [("", "test-duration"); 2],
+    label: |_, _| "t",
+    name: |lab, _| tr!(lab, relay.duration).to_owned(),
+    read: |s, _| s.test.duration,
+    write: |s, _, duration| set_duration(s, duration),
+    limits: |_, _| (1.0, 1e5),
+    unit: TIME.unit,
+    ..OF_TEST
+};
+const MODULUS: Knob<TuningSetup> = Knob {
+    ids: [("", "test-modulus"); 2],
+    label: |_, _| "r",
+    name: |lab, _| tr!(lab, relay.modulus).to_owned(),
+    read: |s, _| if let Behind::Modulus(r) = s.test.behind { r } else { FIRST_MODULUS },
+    write: |s, _, r| s.test.behind = Behind::Modulus(r),
+    limits: |_, _| SIZES,
+    ..OF_TEST
+};
+const HYSTERESIS: Knob<TuningSetup> = Knob {
+    ids: [("", "test-hysteresis1"), ("", "test-hysteresis2")],
+    label: |_, k| ["ε₁", "ε₂"][k],
+    name: |lab, k| tr!(lab, relay.hysteresis, number = k + 1),
+    read: |s, k| s.test.hysteresis[k],
+    write: |s, k, hysteresis| s.test.hysteresis[k] = hysteresis,
+    limits: |_, _| (0.0, 1e6),
+    ..OF_LOOP
+};
+const BIAS: Knob<TuningSetup> = Knob {
+    ids: [("", "test-bias1"), ("", "test-bias2")],
+    label: |_, k| ["b₁", "b₂"][k],
+    name: |lab, k| tr!(lab, relay.bias, number = k + 1),
+    read: |s, k| s.test.bias[k],
+    write: |s, k, bias| s.test.bias[k] = bias,
+    limits: |_, _| (-1e6, 1e6),
+    ..OF_LOOP
+};
+/// The factors by which independent tests are made weaker.
+const DETUNING: Knob<TuningSetup> = Knob {
+    ids: [("", "test-detuning1"), ("", "test-detuning2")],
+    label: |_, k| ["f₁", "f₂"][k],
+    name: |lab, k| tr!(lab, relay.detuning, number = k + 1),
+    read: |s, k| s.test.detuning[k],
+    write: |s, k, factor| s.test.detuning[k] = factor,
+    limits: |_, _| (0.1, 100.0),
+    ..OF_LOOP
+};
+const PASSES: Knob<TuningSetup> = Knob {
+    ids: [("", "test-passes"); 2],
+    label: |_, _| "n",
+    name: |lab, _| tr!(lab, relay.passes).to_owned(),
+    read: |s, _| s.test.passes as f64,
+    write: |s, _, passes| set_passes(s, passes),
+    limits: |_, _| (1.0, 8.0),
+    scale: Scale::Linear(1.0),
+    digits: Some(0),
+    ..OF_TEST
+};
+const OF_TEST: Knob<TuningSetup> = Knob { scale: Scale::Linear(0.05), lock: Control::Test, ..Knob::PLAIN };
+const OF_LOOP: Knob<TuningSetup> = Knob { class: ["loop1", "loop2"], ..OF_TEST };
+
 /// The relay test.
-#[component]
-pub fn TestCard() -> impl IntoView {
+pub fn test_card() -> AnyView {
     let session = use_session();
     let lab = session.lab;
     let frames = RwSignal::new(Vec::<Frame>::new());
@@ -100,60 +182,27 @@ fn settings(session: Session) -> AnyView {
     ];
     let kind = |s: &TuningSetup| KINDS.iter().position(|&k| k == s.test.kind).unwrap_or(3);
     let table = Signal::derive(move || table(session));
+    let detuning = vec![knob(session, &DETUNING, 0), knob(session, &DETUNING, 1)];
     vec![
         segmented(session, say!(lab, relay.kind), kinds, kind, |s, k| s.test.kind = KINDS[k], Control::Test),
         hideable("", session.flag(|s| s.test.kind != TestKind::Single), single(session)),
-        hideable("", session.flag(|s| s.test.kind == TestKind::Single), vec![ratio(session)]),
+        hideable("", session.flag(|s| s.test.kind == TestKind::Single), vec![knob(session, &RATIO, 0)]),
         hideable("pairs", Signal::stored(false), sizes(session)),
         hideable("pairs four", session.flag(|s| is_tuned(s.test.kind)), relays(session)),
         hideable("", session.flag(|s| !is_tuned(s.test.kind)), vec![rule(session)]),
-        hideable("pairs", session.flag(|s| s.test.kind != TestKind::Independent), detuning(session)),
-        hideable("pairs", session.flag(|s| s.test.kind != TestKind::Sequential), passes(session)),
+        hideable("pairs", session.flag(|s| s.test.kind != TestKind::Independent), detuning),
+        hideable("pairs", session.flag(|s| s.test.kind != TestKind::Sequential), vec![knob(session, &PASSES, 0)]),
         figures("test-figures", say!(lab, relay.test_caption), table),
     ]
     .into_any()
 }
 
-/// A number field of the test.
-fn field(
-    id: &'static str,
-    label: &'static str,
-    name: Signal<String>,
-    read: fn(&TuningSetup) -> f64,
-    write: fn(&mut TuningSetup, f64),
-    limits: (f64, f64),
-) -> Knob {
-    let (travel, scale, is_time, class) = (None, Scale::Linear(0.05), false, "");
-    Knob { id: (id, ""), label, name, read, write, limits, travel, scale, is_time, class, lock: Control::Test }
-}
-
-fn ratio(session: Session) -> AnyView {
-    let lab = session.lab;
-    let set_ratio = |s: &mut TuningSetup, v: f64| s.test.amplitudes[1] = v * s.test.amplitudes[0];
-    let ratio = Knob {
-        id: ("ratio", "ratio-number"),
-        travel: Some(RATIOS),
-        scale: Scale::Logarithmic,
-        ..field("", "d₂/d₁", say!(lab, relay.ratio), ratio_of, set_ratio, RATIOS)
-    };
-    knob(session, &ratio)
-}
-
 /// Amplitude of relay 1, or of relay 2 where that one is alone, and duration.
 fn sizes(session: Session) -> Vec<AnyView> {
-    let lab = session.lab;
-    let amplitude = |id, label, number: usize, read, write| {
-        field(id, label, say!(lab, relay.amplitude, number = number), read, write, (0.001, 1e4))
-    };
-    let first = amplitude("test-amplitude", "d₁", 1, |s| s.test.amplitudes[0], set_amplitude);
-    let second = amplitude("test-amplitude2", "d₂", 2, |s| s.test.amplitudes[1], |s, v| s.test.amplitudes[1] = v);
-    let read = |s: &TuningSetup| s.test.duration;
-    let duration = field("test-duration", "t", say!(lab, relay.duration), read, set_duration, (1.0, 1e5));
-    let [first, second] = [first, second].map(|amplitude| vec![knob(session, &amplitude)]);
     vec![
-        hideable("", session.flag(|s| is_idle(s, 1)), first),
-        hideable("", session.flag(|s| !is_idle(s, 1)), second),
-        knob(session, &Knob { is_time: true, ..duration }),
+        hideable("", session.flag(|s| is_idle(s, 1)), vec![knob(session, &AMPLITUDE, 0)]),
+        hideable("", session.flag(|s| !is_idle(s, 1)), vec![knob(session, &AMPLITUDE, 1)]),
+        knob(session, &DURATION, 0),
     ]
 }
 
@@ -172,59 +221,23 @@ fn single(session: Session) -> Vec<AnyView> {
     let which = |s: &TuningSetup| s.test.number - 1;
     let set_which = |s: &mut TuningSetup, k: usize| s.test.number = k + 1;
     let choose = move |name: String| session.edit(|s| s.test.behind = behind_named(&name));
-    let modulus = |s: &TuningSetup| if let Behind::Modulus(r) = s.test.behind { r } else { FIRST_MODULUS };
-    let set_modulus = |s: &mut TuningSetup, v: f64| s.test.behind = Behind::Modulus(v);
-    let modulus = field("test-modulus", "r", say!(lab, relay.modulus), modulus, set_modulus, SIZES);
     vec![
         segmented(session, say!(lab, relay.which_loop), loops, which, set_which, Control::Test),
         choice("test-behind", say!(lab, relay.behind), behind_options(session), choose, Control::Test),
-        hideable("", session.flag(|s| behind_index(s) != 2), vec![knob(session, &modulus)]),
+        hideable("", session.flag(|s| behind_index(s) != 2), vec![knob(session, &MODULUS, 0)]),
     ]
 }
 
 /// Hysteresis and bias of both relays.
 fn relays(session: Session) -> Vec<AnyView> {
-    let lab = session.lab;
-    let hysteresis = |id, label, number: usize, read, write| {
-        field(id, label, say!(lab, relay.hysteresis, number = number), read, write, (0.0, 1e6))
-    };
-    let bias = |id, label, number: usize, read, write| {
-        field(id, label, say!(lab, relay.bias, number = number), read, write, (-1e6, 1e6))
-    };
-    let fields = [
-        hysteresis("test-hysteresis1", "ε₁", 1, |s| s.test.hysteresis[0], |s, v| s.test.hysteresis[0] = v),
-        hysteresis("test-hysteresis2", "ε₂", 2, |s| s.test.hysteresis[1], |s, v| s.test.hysteresis[1] = v),
-        bias("test-bias1", "b₁", 1, |s| s.test.bias[0], |s, v| s.test.bias[0] = v),
-        bias("test-bias2", "b₂", 2, |s| s.test.bias[1], |s, v| s.test.bias[1] = v),
-    ];
+    let one = |knob: AnyView, idle: Signal<bool>| hideable("", idle, vec![knob]);
     let idle = [session.flag(|s| is_idle(s, 1)), session.flag(|s| is_idle(s, 2))];
-    let of_loop = |(k, field): (usize, AnyView)| hideable("", idle[k % 2], vec![field]);
-    by_loop(session, fields).into_iter().enumerate().map(of_loop).collect()
-}
-
-/// The factors by which independent tests are made weaker.
-fn detuning(session: Session) -> Vec<AnyView> {
-    let lab = session.lab;
-    let factor = |id, label, number: usize, read, write| {
-        field(id, label, say!(lab, relay.detuning, number = number), read, write, (0.1, 100.0))
-    };
-    let fields = [
-        factor("test-detuning1", "f₁", 1, |s| s.test.detuning[0], |s, v| s.test.detuning[0] = v),
-        factor("test-detuning2", "f₂", 2, |s| s.test.detuning[1], |s, v| s.test.detuning[1] = v),
-    ];
-    by_loop(session, fields)
-}
-
-/// Fields of loop 1 and loop 2 in turn, in their colours.
-fn by_loop<const N: usize>(session: Session, fields: [Knob; N]) -> Vec<AnyView> {
-    let coloured = fields.into_iter().enumerate().map(|(k, field)| Knob { class: ["loop1", "loop2"][k % 2], ..field });
-    coloured.map(|field| knob(session, &field)).collect()
-}
-
-fn passes(session: Session) -> Vec<AnyView> {
-    let name = say!(session.lab, relay.passes);
-    let passes = field("test-passes", "n", name, |s| s.test.passes as f64, set_passes, (1.0, 8.0));
-    vec![knob(session, &Knob { scale: Scale::Linear(1.0), ..passes })]
+    vec![
+        one(knob(session, &HYSTERESIS, 0), idle[0]),
+        one(knob(session, &HYSTERESIS, 1), idle[1]),
+        one(knob(session, &BIAS, 0), idle[0]),
+        one(knob(session, &BIAS, 1), idle[1]),
+    ]
 }
 
 fn rule(session: Session) -> AnyView {
@@ -239,12 +252,6 @@ fn is_tuned(kind: TestKind) -> bool {
 
 fn ratio_of(setup: &TuningSetup) -> f64 {
     setup.test.amplitudes[1] / setup.test.amplitudes[0]
-}
-
-/// Both amplitudes, so that the ratio stays.
-fn set_amplitude(setup: &mut TuningSetup, d1: f64) {
-    let ratio = ratio_of(setup);
-    setup.test.amplitudes = [d1, d1 * ratio];
 }
 
 /// The record keeps its number of rows.

@@ -1,6 +1,6 @@
 use std::sync::Arc;
 
-use super::handler;
+use super::{effect, handler};
 use leptos::html::Canvas;
 use leptos::prelude::*;
 use web_sys::HtmlCanvasElement;
@@ -62,7 +62,7 @@ pub fn ChartCanvas(
     let moved = Trigger::new();
     let on_resize = window_event_listener(leptos::ev::resize, move |_| moved.notify());
     on_cleanup(move || on_resize.remove());
-    Effect::new(move || {
+    effect(move || {
         let size = size.get();
         moved.track();
         let ratio = window().device_pixel_ratio();

@@ -5,6 +5,7 @@ use leptos::prelude::*;
 use crate::app::format::NumberStyle;
 use crate::app::lab::use_lab;
 use crate::app::texts::tr;
+use crate::scalar::power;
 
 /// How the travel of a slider maps to values.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,7 +31,7 @@ impl Scale {
         match self {
             Self::Linear(_) => position,
             Self::Logarithmic => {
-                let magnitude = min * (max / min).powf(position / POSITIONS);
+                let magnitude = min * power(max / min, position / POSITIONS);
                 magnitude.copysign(previous)
             }
         }
@@ -70,6 +71,9 @@ pub fn NumberField(
     /// Smallest allowed magnitude, where the sign is free but zero is not allowed.
     #[prop(default = 0.0)]
     smallest: f64,
+    /// What the value has to be a multiple of; 0 for any value.
+    #[prop(default = Signal::stored(0.0))]
+    grid: Signal<f64>,
     /// Whether the field is locked.
     #[prop(into)]
     disabled: Signal<bool>,
@@ -88,7 +92,8 @@ pub fn NumberField(
     };
     let accept = move |v: f64| {
         let (min, max) = limits.get_untracked();
-        let fits = (min..=max).contains(&v) && v.abs() >= smallest;
+        let on_grid = is_multiple(v, grid.get_untracked());
+        let fits = (min..=max).contains(&v) && v.abs() >= smallest && on_grid;
         refused.set(!fits);
         if fits {
             on_change.run(v);
@@ -123,13 +128,18 @@ pub fn NumberField(
         let (min, max) = limits.get_untracked();
         draft.set(None);
         let floor = if scale == Scale::Logarithmic { min.max(max * 1e-5) } else { min };
+        let step = grid.get_untracked();
+        let scale = if step > 0.0 { Scale::Linear(step) } else { scale };
         accept(scale.nudge(value.get_untracked(), steps, floor, max).clamp(min, max));
     };
     let problem = move || {
         refused.get().then(|| {
             let (min, max) = told_limits.get();
             let lowest = if smallest > 0.0 { smallest } else { min };
-            let text = tr!(lab, field.allowed, min = show(lowest), max = show(max));
+            let mut text = tr!(lab, field.allowed, min = show(lowest), max = show(max));
+            if grid.get() > 0.0 {
+                text = format!("{text}, {}", tr!(lab, field.multiple, step = show(grid.get())));
+            }
             if smallest > 0.0 { format!("± {text}") } else { text }
         })
     };
@@ -154,6 +164,12 @@ pub fn NumberField(
                 .map(|text| view! { <span class="problem" role="alert" id=format!("{id}-problem")>{text}</span> }.into_any())
         }}
     }
+}
+
+/// Whether a value is a whole number of steps, up to rounding; anything is where there is no step.
+fn is_multiple(value: f64, step: f64) -> bool {
+    let steps = value / step;
+    step == 0.0 || (steps - steps.round()).abs() < 1e-6
 }
 
 /// A slider with a number field beside it.

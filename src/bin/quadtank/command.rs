@@ -7,11 +7,11 @@ use std::process::ExitCode;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Parser, Subcommand, ValueEnum};
 use quadtank::plant::PresetId;
-use quadtank::scenario::model_free::{ModelFreeScenario, ModelFreeSetup, model_free_from_json, published_model_free};
-use quadtank::scenario::tuning::{PublishedCase, TuningScenario, TuningSetup};
+use quadtank::scenario::model_free::{ModelFreeScenario, ModelFreeSetup, published_model_free};
+use quadtank::scenario::tuning::{PublishedCase, TuningSetup};
 use quadtank::scenario::{
-    AnalysisReport, DOCUMENT_LIMIT, Document, Scenario, ScenarioError, Setup, analyse, document_from_json, run,
-    setup_of, to_json, tuning_to_json,
+    AnalysisReport, DOCUMENT_LIMIT, Document, Scenario, ScenarioError, Setup, analyse, document_from_json,
+    model_free_to_json, run, schema_of, setup_of, to_json, tuning_to_json,
 };
 use quadtank::tuning::TuningError;
 use serde::Serialize;
@@ -205,21 +205,14 @@ fn execute(command: Command) -> Result<(), Failure> {
         ),
         Command::Cases { name: None } => print(&list_of_cases()),
         Command::Cases { name: Some(Case::Tuning(case)) } => {
-            let text = tuning_to_json(&case.scenario());
-            print(&(text.map_err(|error| Failure::Scenario { file: case.name(), error })? + "\n"))
+            print_document(&case.name(), tuning_to_json(&case.scenario()))
         }
-        Command::Cases { name: Some(Case::ModelFree(setup)) } => print_json(&ModelFreeScenario::from(*setup)),
+        Command::Cases { name: Some(Case::ModelFree(setup)) } => {
+            print_document("this case", model_free_to_json(&ModelFreeScenario::from(*setup)))
+        }
         Command::Presets { name: None } => print(&list_of_presets()),
-        Command::Presets { name: Some(id) } => {
-            let scenario = Scenario::from(setup_of(id));
-            let text = to_json(&scenario).map_err(|error| Failure::Scenario { file: id.name().to_owned(), error })?;
-            print(&(text + "\n"))
-        }
-        Command::Schema { version: Scenario::VERSION } => print_json(&schemars::schema_for!(Scenario)),
-        Command::Schema { version: ModelFreeScenario::VERSION } => {
-            print_json(&schemars::schema_for!(ModelFreeScenario))
-        }
-        Command::Schema { .. } => print_json(&schemars::schema_for!(TuningScenario)),
+        Command::Presets { name: Some(id) } => print_document(id.name(), to_json(&Scenario::from(setup_of(id)))),
+        Command::Schema { version } => print_json(&schema_of(version)),
     }
 }
 
@@ -230,15 +223,10 @@ fn answer(
     of_session: impl Fn(&TuningSetup) -> Result<(), Failure>,
     of_model_free: impl Fn(&ModelFreeSetup) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
-    let text = read(file)?;
-    match document_from_json(&text) {
-        Ok(Document::Quadruple(scenario)) => of_run(&scenario.setup),
-        Ok(Document::Tuning(scenario)) => of_session(&scenario.tuning),
-        // What the page does not read yet.
-        Err(ScenarioError::UnknownVersion { .. }) => {
-            of_model_free(&told(file, model_free_from_json(&text))?.model_free)
-        }
-        Err(error) => told(file, Err(error)),
+    match told(file, document_from_json(&read(file)?))? {
+        Document::Quadruple(scenario) => of_run(&scenario.setup),
+        Document::Tuning(scenario) => of_session(&scenario.tuning),
+        Document::ModelFree(scenario) => of_model_free(&scenario.model_free),
     }
 }
 
@@ -291,6 +279,10 @@ fn file_name(file: &Path) -> String {
 fn print_json<T: Serialize>(value: &T) -> Result<(), Failure> {
     let text = serde_json::to_string_pretty(value).map_err(|error| cannot_print(error.into()))?;
     print(&(text + "\n"))
+}
+
+fn print_document(name: &str, text: Result<String, ScenarioError>) -> Result<(), Failure> {
+    print(&(told(Path::new(name), text)? + "\n"))
 }
 
 fn list_of_presets() -> String {

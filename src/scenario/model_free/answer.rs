@@ -16,6 +16,8 @@ use super::{ModelFreeSetup, StartSpec};
 pub struct Moment {
     /// Valve fractions γ1, γ2.
     pub valves: [f64; 2],
+    /// Poles (1/s), those of the tanks that hold water.
+    pub poles: Vec<f64>,
     /// Transmission zeros (1/s).
     pub zeros: Result<Vec<Complex>, LinearError>,
     /// Relative gain λ11; `None` where G(0) is singular.
@@ -36,6 +38,7 @@ impl Moment {
         let gain = model.and_then(|model| model.dc_gain());
         Self {
             valves: plant.valves,
+            poles: plant.time_constants_s(point).into_iter().flatten().map(|time| -time.recip()).collect(),
             zeros,
             rga_11: gain.as_ref().ok().and_then(|gain| Some(relative_gain_array(gain).ok()?[(0, 0)])),
             // On the singular line its sign is rounding.

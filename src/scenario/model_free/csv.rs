@@ -3,6 +3,21 @@ use std::fmt::Write as _;
 use super::{ModelFreeAnswer, ModelFreeSetup, Moment};
 use crate::plant::OperatingPoint;
 
+impl Moment {
+    /// Poles and zeros of the moment (1/s).
+    pub fn to_csv(&self) -> String {
+        let mut text = "kind,real_per_s,imaginary_per_s\n".to_owned();
+        // Writing to a String cannot fail.
+        for pole in &self.poles {
+            let _ = writeln!(text, "pole,{pole},0");
+        }
+        for zero in self.zeros.iter().flatten() {
+            let _ = writeln!(text, "zero,{},{}", zero.re, zero.im);
+        }
+        text
+    }
+}
+
 impl ModelFreeAnswer {
     /// The run, one row per sample, with the unit of each column in its name. φ̂ is what the law used at the sample, φ what it
     /// really is from there on; the zero is that of the moment, empty where there is none.

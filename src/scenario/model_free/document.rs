@@ -1,14 +1,12 @@
-use serde::{Deserialize, Serialize};
-
 use crate::control::{DecentralisedPi, ModelFree};
-use crate::plant::{OperatingPoint, QuadrupleTank, ValveSchedule};
-use crate::scenario::{PlantSpec, ScenarioError};
-use crate::sim::Experiment;
+use crate::plant::{OperatingPoint, PresetId, QuadrupleTank, ValveSchedule};
+use crate::scenario::{PlantSpec, ScenarioError, fields, setup_of};
+use crate::sim::{Experiment, SetPointStep};
+
+use super::{PublishedExperiment, PublishedValves, published_model_free};
 
 /// Where a run begins.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum StartSpec {
     /// At rest with these levels of tanks 1 and 2 (m), as the valves stand at the start.
     Rest([f64; 2]),
@@ -17,9 +15,7 @@ pub enum StartSpec {
 }
 
 /// Everything that a run under the model-free law depends on.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct ModelFreeSetup {
     /// The plant; its valves are those of the schedules.
     pub plant: PlantSpec,
@@ -30,7 +26,6 @@ pub struct ModelFreeSetup {
     /// The law.
     pub controller: ModelFree,
     /// Two PI loops to compare it with in the same experiment.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub compare: Option<DecentralisedPi>,
     /// What is done to the loops. Steps of the references count from the levels of the start.
     pub experiment: Experiment,
@@ -52,6 +47,31 @@ impl ModelFreeSetup {
         breaks.filter(|&time| time <= self.experiment.duration_s).fold(0.0, f64::max)
     }
 
+    /// By how much the reference of a level (index) steps in all (m).
+    pub fn set_point_step(&self, level: usize) -> f64 {
+        self.experiment.reference_after(level, 0.0, f64::INFINITY)
+    }
+
+    /// Makes the last step of the reference of a level (index) such that it steps by `size` (m) in all; a level that has no step
+    /// gets one when the other one steps.
+    pub fn set_set_point_step(&mut self, level: usize, size: f64) {
+        let by = size - self.set_point_step(level);
+        let steps = &mut self.experiment.set_point_steps;
+        if let Some(step) = steps.iter_mut().rev().find(|step| step.level == level) {
+            step.size += by;
+        } else {
+            let time_s = steps.first().map_or(0.0, |step| step.time_s);
+            steps.push(SetPointStep { level, time_s, size: by });
+        }
+    }
+
+    /// Two PI loops to compare with. The source has none: these are ours for its rig, diagonal where most water goes straight
+    /// down, swapped where it does not.
+    pub fn usual_pi(&self) -> DecentralisedPi {
+        let straight: f64 = self.valves.iter().map(ValveSchedule::middle).sum();
+        setup_of(if straight >= 1.0 { PresetId::JunqueiraA } else { PresetId::JunqueiraB }).controller
+    }
+
     /// Levels and voltages that the run begins with.
     ///
     /// # Errors
@@ -65,23 +85,39 @@ impl ModelFreeSetup {
 }
 
 /// A run under the model-free law.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(not(target_arch = "wasm32"), derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct ModelFreeScenario {
     /// Version of the document: 3. It is checked before anything else is read.
     pub version: u32,
     /// The run.
     pub model_free: ModelFreeSetup,
+    /// Time at which the cursor stands (s); `None` at the end.
+    pub cursor_s: Option<f64>,
 }
 
 impl ModelFreeScenario {
     /// The version of these documents.
     pub const VERSION: u32 = 3;
+
+    /// Checks every number and the lengths of all lists.
+    ///
+    /// # Errors
+    /// [`ScenarioError::OutOfRange`], [`ScenarioError::Law`] or [`ScenarioError::TooMany`] for the first field that is
+    /// not allowed.
+    pub fn validate(&self) -> Result<(), ScenarioError> {
+        fields::check(&mut self.clone())
+    }
+}
+
+/// Case a, both set-points stepping: what the paper begins with.
+impl Default for ModelFreeScenario {
+    fn default() -> Self {
+        Self::from(published_model_free(PublishedValves::A, PublishedExperiment::S2))
+    }
 }
 
 impl From<ModelFreeSetup> for ModelFreeScenario {
     fn from(model_free: ModelFreeSetup) -> Self {
-        Self { version: Self::VERSION, model_free }
+        Self { version: Self::VERSION, model_free, cursor_s: None }
     }
 }

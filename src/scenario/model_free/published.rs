@@ -1,5 +1,3 @@
-use serde::{Deserialize, Serialize};
-
 use crate::control::ModelFree;
 use crate::plant::{PresetId, ValveSchedule};
 use crate::scenario::PlantSpec;
@@ -8,8 +6,7 @@ use crate::sim::{Experiment, Measurement, SetPointStep};
 use super::{ModelFreeSetup, StartSpec};
 
 /// The valves of the published cases (Junqueira, Neves and Angelico).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PublishedValves {
     /// γ = 0.6: minimum phase.
     A,
@@ -20,8 +17,7 @@ pub enum PublishedValves {
 }
 
 /// Experiments for these cases. The paper prints neither set-points nor initial levels: these are ours.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PublishedExperiment {
     /// Empty tanks, both set-points at 10 cm, 300 s.
     S1,

@@ -5,6 +5,7 @@ mod csv;
 mod designed;
 mod details;
 mod document;
+mod fields;
 mod plant;
 mod printed;
 mod published;

@@ -1,0 +1,272 @@
+// The model-free bench: the cases of Junqueira, Neves and Angelico, what their outputs hide, and moving valves.
+import { expect, test } from './lab.mjs';
+
+const BENCH = 'bench=model-free';
+
+async function press(lab, ...names) {
+  for (const name of names) await lab.id(name).click();
+  await lab.settle();
+}
+
+/** Presses Tab until an element has the focus, as somebody without a mouse does. */
+async function tabTo(page, name) {
+  for (let k = 0; k < 80; k += 1) {
+    if ((await page.evaluate(() => document.activeElement?.dataset?.testid)) === name) return;
+    await page.keyboard.press('Tab');
+  }
+  throw new Error(`Tab does not reach ${name}`);
+}
+
+/** The table of figures: numbers by rows, null where there is none. */
+async function figures(lab) {
+  const rows = await lab.id('free-figures').locator('tbody tr').allInnerTexts();
+  const number = (text) => (text.trim() === '–' ? null : Number.parseFloat(text.replace('−', '-')));
+  return rows.map((row) => row.split('\t').slice(1).map(number));
+}
+
+/** Levels 1 to 4 on the drawing (cm). */
+async function levels(lab) {
+  const texts = [1, 2, 3, 4].map((k) => lab.id('free-rig').getByTestId(`rig-level-${k}`).textContent());
+  return (await Promise.all(texts)).map((text) => Number.parseFloat(text));
+}
+
+test('case a is reproduced: from empty tanks, and its course at the times that are known', async ({ lab }) => {
+  await lab.open(BENCH);
+  // S2, computed by a second program: t, h1…h4 (cm).
+  for (const [time, ...known] of [
+    [40, 15.896, 15.8868, 9.2203, 9.2196], [100, 15.197, 15.1938, 7.9787, 7.9807], [320, 15.0008, 15.0008, 7.8249, 7.8253],
+  ]) {
+    await lab.type('free-time-number', String(time));
+    const shown = await levels(lab);
+    known.forEach((level, k) => expect(Math.abs(shown[k] - level), `h${k + 1} at ${time} s`).toBeLessThanOrEqual(0.0051));
+  }
+  await press(lab, 'free-s1');
+  // IAE, ISE, overshoot, settling, total variation, time at a limit (8.3 % of 300 s); nothing is lost.
+  expect(await figures(lab)).toEqual([
+    [190.3, 732.4, 22.8, 122, 16.8, 25, null], [189.2, 727.6, 22.4, 121, 15.6, 25, null],
+  ]);
+  expect(await lab.text('free-verdict')).toContain('All settles: the levels after 122 and 121 s');
+  expect(await lab.text('free-stability')).toContain('stable');
+  await lab.clean();
+});
+
+test('the loss that case b hides is found by keyboard alone', async ({ lab, page }) => {
+  await lab.open(BENCH);
+  await tabTo(page, 'free-b');
+  await page.keyboard.press('Enter');
+  await lab.settle();
+  // Over 320 s the outputs look as good as those of case a.
+  const [first, second] = await figures(lab);
+  expect([first[0], first[6], second[6]]).toEqual([111.6, null, null]);
+  expect(await lab.text('free-verdict')).toContain('The outputs look settled, the states are leaving.');
+  expect(await lab.text('free-verdict')).toContain('At about 1018 s tank 3 will run over.');
+  expect(await lab.text('free-stability')).toContain('unstable');
+  await tabTo(page, 'free-long');
+  await page.keyboard.press('Space');
+  await lab.settle();
+  expect(await lab.text('free-verdict')).toContain('Level 2 is lost at 1175 s');
+  expect(await lab.text('free-verdict')).toContain('Tank 3 has run over since 1020 s.');
+  // The cursor goes back to where nobody sees it yet in the outputs.
+  await tabTo(page, 'free-time');
+  await page.keyboard.press('Home');
+  for (let k = 0; k < 4; k += 1) await page.keyboard.press('PageUp');
+  await lab.settle();
+  const [h1, h2, h3, h4] = await levels(lab);
+  expect(Math.abs(h1 - 15)).toBeLessThan(0.05);
+  expect(Math.abs(h2 - 15)).toBeLessThan(0.05);
+  expect(Math.abs(h3 - h4)).toBeGreaterThan(4);
+  await lab.clean();
+});
+
+test('a step of one level of case b is lost within two minutes, with a larger α̂ too, and PI with the other pairing holds it', async ({ lab }) => {
+  await lab.open(BENCH);
+  await press(lab, 'free-b', 'free-s3', 'free-pi');
+  expect(await lab.text('free-verdict')).toMatch(/Level 1 is lost at 135 s.*Pump 1 stands at its limit/);
+  const [law, , pi] = await figures(lab);
+  expect([law[6], pi[6]]).toEqual([135, null]);
+  expect(await lab.text('free-moment')).toContain('λ₁₁ = −0.800');
+  await lab.type('free-alpha-number', '0.3');
+  expect(await lab.text('free-verdict')).toContain('is lost at');
+});
+
+test('case c plays: the point moves, the zero crosses the axis, the water follows, and it stops at the end', async ({ lab, page }) => {
+  await lab.open(BENCH);
+  await press(lab, 'free-c');
+  expect(await lab.text('free-verdict')).toContain('Both levels follow with a ripple');
+  await lab.id('free-speed').selectOption('200');
+  const way = await lab.id('free-way').innerHTML();
+  const zeros = await lab.picture('free-pole-zero');
+  await lab.id('free-play').click();
+  const sides = new Set();
+  const times = new Set();
+  const drawings = new Set();
+  await expect
+    .poll(async () => {
+      const text = await lab.text('free-moment');
+      sides.add(/in the (left|right) half-plane/.exec(text)?.[1]);
+      times.add(await lab.value('free-time-number'));
+      drawings.add((await levels(lab)).join());
+      return (await lab.id('free-play').getAttribute('aria-pressed')) === 'false' && times.size > 3;
+    }, { intervals: [20], timeout: 15_000 })
+    .toBe(true);
+  expect([...sides].filter(Boolean).sort()).toEqual(['left', 'right']);
+  expect(drawings.size).toBeGreaterThan(3);
+  expect(await lab.value('free-time-number')).toBe(320);
+  await lab.type('free-time-number', '110');
+  expect(await lab.id('free-way').innerHTML()).not.toBe(way);
+  expect((await lab.picture('free-pole-zero')).hash).not.toBe(zeros.hash);
+  // A page that nobody sees does not run.
+  await page.evaluate(() => Object.defineProperty(document, 'hidden', { value: true }));
+  await lab.id('free-play').click();
+  await page.waitForTimeout(300);
+  expect(await lab.value('free-time-number')).toBe(110);
+  await lab.clean();
+});
+
+test('every setting changes the run, and what cannot be is explained with nothing lost', async ({ lab }) => {
+  await lab.open(BENCH);
+  const all = async () => (await lab.picture('free-course')).hash;
+  let last = await all();
+  const changes = async (name, change) => {
+    await change();
+    await lab.settle();
+    const now = await all();
+    expect(now, name).not.toBe(last);
+    last = now;
+  };
+  for (const name of ['free-sliding', 'free-trapezoidal', 'free-conditional', 'free-back', 'free-off', 'free-block', 'free-swapped', 'free-diagonal', 'free-windup', 'free-commanded', 'free-c', 'free-a', 'free-s3', 'free-s1', 'free-s2', 'free-pi']) {
+    await changes(name, () => lab.id(name).click());
+  }
+  for (const [name, value] of [['free-alpha-number', '0.2'], ['free-kp-number', '1'], ['free-ki-number', '0.1'], ['free-window', '20'], ['free-sampling', '0.5'], ['free-noise', '0.05'], ['free-gamma1', '0.55'], ['free-step2', '3'], ['free-end', '500']]) {
+    await changes(name, () => lab.type(name, value));
+  }
+  const refused = async (name, value, reason) => {
+    const before = await lab.id(name).inputValue();
+    await lab.id(name).fill(value);
+    await lab.settle();
+    await expect(lab.page.locator('.problem')).toContainText(reason);
+    expect(await all(), name).toBe(last);
+    await lab.id(name).press('Escape');
+    expect(await lab.id(name).inputValue()).toBe(before);
+  };
+  // T < 2 Ts; T no multiple of Ts; α̂ ≤ 0; γ(t) leaving [0, 1].
+  await refused('free-window', '0.5', '1.00 to');
+  await refused('free-window', '7.3', 'a multiple of 0.500');
+  await refused('free-alpha-number', '0', '0.000100 to 100');
+  await refused('free-alpha-number', '-0.1', '0.000100 to 100');
+  await lab.id('free-c').click();
+  await lab.settle();
+  last = await all();
+  await refused('free-gamma1', '0.95', '0.10 to 0.90');
+  await lab.clean();
+});
+
+test('a file whose valve leaves [0, 1] or whose window does not fit is refused with the reason, and the bench stays', async ({ lab, page }) => {
+  await lab.open(BENCH);
+  await page.locator('[data-testid=file-menu] > summary').click();
+  const [download] = await Promise.all([page.waitForEvent('download'), lab.id('save').click()]);
+  const chunks = [];
+  for await (const chunk of await download.createReadStream()) chunks.push(chunk);
+  const text = Buffer.concat(chunks).toString();
+  const verdict = await lab.text('free-verdict');
+  const open = async (change) => {
+    const document = JSON.parse(text);
+    change(document.model_free);
+    const buffer = Buffer.from(JSON.stringify(document));
+    await lab.id('open-input').setInputFiles({ name: 'run.json', mimeType: 'application/json', buffer });
+  };
+  await open((run) => (run.valves[0] = { sine: { mean: 0.95, amplitude: 0.1, frequency: 0.2, phase: 0 } }));
+  await expect(lab.id('notice')).toContainText('model_free.valves[0]');
+  await open((run) => (run.controller.estimator.window_s = 7.5));
+  await expect(lab.id('notice')).toContainText('model_free.controller');
+  await open((run) => (run.controller.loops[0].model_gain = 0));
+  await expect(lab.id('notice')).toContainText('model_gain');
+  expect(await lab.text('free-verdict')).toBe(verdict);
+  // A ramp through the line, as the file says it.
+  await open((run) => (run.valves = [0, 1].map(() => ({ ramp: { from: 0.6, to: 0.4, begin_s: 100, end_s: 200 } }))));
+  await expect(lab.id('free-moment')).toContainText('γ₁ + γ₂ = 0.80');
+  await lab.clean();
+});
+
+test('a link restores the run, its settings and the cursor in a new page', async ({ lab, context, page }) => {
+  await lab.open(BENCH);
+  await press(lab, 'free-b', 'free-sliding', 'free-pi');
+  await lab.type('free-alpha-number', '0.15');
+  await lab.type('free-time-number', '77');
+  await context.grantPermissions(['clipboard-read', 'clipboard-write']);
+  await lab.id('share').click();
+  await expect(lab.id('notice')).toBeVisible();
+  const address = page.url();
+  expect(address).toMatch(/#lab=q3\.[\w-]+$/);
+  expect(address.length).toBeLessThan(2000);
+  const other = await context.newPage();
+  lab.watch(other);
+  await other.goto(address);
+  await lab.ready(other);
+  expect(await other.getByTestId('free-alpha-number').inputValue()).toBe('0.150');
+  expect(await other.getByTestId('free-time-number').inputValue()).toBe('77');
+  await expect(other.getByTestId('free-sliding')).toHaveAttribute('aria-pressed', 'true');
+  expect(await other.getByTestId('free-figures').innerText()).toBe(await lab.id('free-figures').innerText());
+});
+
+test('the claims of the paper have the verdicts that the numbers give them, and each shows its case', async ({ lab }) => {
+  await lab.open(BENCH);
+  const claim = async (name) => lab.text(`claim-${name}`);
+  expect(await claim('a')).toMatch(/reproduced.*IAE 190 cm s, overshoot 23 %.*8 % of the time.*122 s/);
+  expect(await claim('b')).toMatch(/only for equal set-points and a limited time.*112 cm s, against 78.*1018 s.*1175 s/);
+  expect(await claim('zero')).toMatch(/not reproduced.*115 s later.*−0.80.*−1.25/);
+  expect(await claim('c')).toMatch(/only for equal set-points.*0.13 cm/);
+  expect(await claim('alpha')).toMatch(/large enough.*0.0633.*0.0629/);
+  for (const [name, verdict] of [['a', 'All settles'], ['b', 'Level 2 is lost at 1175 s'], ['zero', 'Level 1 is lost at 135 s'], ['c', 'ripple'], ['alpha', 'All settles']]) {
+    await press(lab, `claim-${name}-show`);
+    expect(await lab.text('free-verdict'), name).toContain(verdict);
+  }
+});
+
+test('the course is exported, zoomed and read by keyboard', async ({ lab, page }) => {
+  await lab.open(BENCH);
+  await page.locator('[data-testid=model-free-menu] > summary').click();
+  const [download] = await Promise.all([page.waitForEvent('download'), lab.id('model-free-csv').click()]);
+  const chunks = [];
+  for await (const chunk of await download.createReadStream()) chunks.push(chunk);
+  const lines = Buffer.concat(chunks).toString().trim().split('\n');
+  expect(lines[0]).toContain('phi_estimate_1_m_per_s');
+  expect(lines.length).toBe(322);
+  await page.keyboard.press('Escape');
+  await tabTo(page, 'free-surface');
+  const whole = await lab.picture('free-course');
+  await page.keyboard.press('+');
+  await page.keyboard.press('ArrowRight');
+  await lab.settle();
+  expect((await lab.picture('free-course')).hash).not.toBe(whole.hash);
+  await expect(lab.id('free-surface')).toHaveAttribute('aria-valuetext', /t = \d+ s.*h₃/);
+  await page.keyboard.press('0');
+  await page.keyboard.press('Escape');
+  await lab.settle();
+  expect((await lab.picture('free-course')).hash).toBe(whole.hash);
+});
+
+for (const theme of ['light', 'dark']) {
+  for (const language of ['en', 'pt-BR']) {
+    test(`${theme}, ${language}: axe finds nothing, and nothing is cut off at any width`, async ({ lab, page }) => {
+      await lab.open(`${BENCH}&theme=${theme}&lang=${language}`);
+      for (const width of [1440, 1024, 390]) {
+        await page.setViewportSize({ width, height: width === 390 ? 844 : 900 });
+        for (const name of ['free-a', 'free-b', 'free-c']) {
+          await press(lab, name);
+          expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(width);
+        }
+        await lab.axe();
+      }
+      await lab.clean();
+    });
+  }
+}
+
+test('one card, locked, in a course page', async ({ lab, page }) => {
+  await lab.open(`${BENCH}&embed=1&panels=responses,experiment&lock=valves`);
+  await expect(lab.id('free-a')).toBeDisabled();
+  await expect(lab.id('free-s3')).toBeEnabled();
+  await expect(page.locator('.card')).toHaveCount(2);
+  await lab.axe();
+});
