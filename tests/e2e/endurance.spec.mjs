@@ -25,7 +25,7 @@ const batch = (page, dice) =>
     const KEYS = ['ArrowLeft', 'ArrowRight', 'ArrowUp', 'ArrowDown', 'PageUp', 'PageDown', 'Home', 'End', '+', '-', '0', 'Escape'];
     const TEXTS = ['0', '1', '-3', '1e9', '0.001', '', 'x', '12,5', '400', '−0.4', '0.5', '19000'];
     // What hands over files, opens dialogues or runs by the clock has tests of its own.
-    const AVOID = /^(share|save|open|single-file|open-input|play|.*-(csv|svg|png))$/;
+    const AVOID = /^(share|save|open|single-file|open-input|(free-)?play|.*-(csv|svg|png))$/;
     const fire = (element, event) => element.dispatchEvent(event);
     const drag = (element, u, v) => {
       const box = (element.closest('svg') ?? element).getBoundingClientRect();
@@ -136,27 +136,46 @@ test('2,000 random events leave no error, no NaN and a flat heap', async ({ lab,
   expect(await lab.text('stability')).toContain('Closed loop stable');
 });
 
-test('600 random events on the relay-tuning bench leave no error and no NaN, and 100 changes of the bench no memory', async ({ lab, page }) => {
+// How each of the other benches is brought back, and what it then says.
+const BACK = {
+  'relay-tuning': async (lab) => {
+    await lab.id('plant').selectOption('wood-berry');
+    await lab.settle();
+    expect(await lab.text('placement-verdict')).toContain('Stable');
+  },
+  'model-free': async (lab) => {
+    await lab.id('claim-a-show').click();
+    await lab.settle();
+    expect(await lab.text('free-verdict')).toContain('All settles: the levels after 122 and 121 s');
+  },
+};
+
+for (const [bench, back] of Object.entries(BACK)) {
+  test(`600 random events on the ${bench} bench leave no error and no NaN`, async ({ lab, page }) => {
+    test.setTimeout(300_000);
+    await lab.open(`bench=${bench}`);
+    const next = random(20261122);
+    for (let k = 0; k < 600; k += BATCH) {
+      await batch(page, Array.from({ length: BATCH }, () => [next(), next(), next(), next()]));
+      await lab.clean();
+      expect(lab.complaints).toEqual([]);
+    }
+    await lab.id('language').selectOption('en');
+    await back(lab);
+  });
+}
+
+test('60 changes of the bench leave no memory behind', async ({ lab, page }) => {
   test.setTimeout(300_000);
-  await lab.open('bench=relay-tuning');
-  const next = random(20261122);
-  for (let k = 0; k < 600; k += BATCH) {
-    await batch(page, Array.from({ length: BATCH }, () => [next(), next(), next(), next()]));
-    await lab.clean();
-    expect(lab.complaints).toEqual([]);
-  }
-  await lab.id('language').selectOption('en');
-  await lab.id('plant').selectOption('wood-berry');
-  await lab.settle();
-  expect(await lab.text('placement-verdict')).toContain('Stable');
+  await lab.open();
   const client = await page.context().newCDPSession(page);
   await client.send('Performance.enable');
   const change = async (times) => {
     for (let k = 0; k < times; k += 1) {
-      await lab.id('bench-quadruple-tank').click();
-      await lab.ready();
-      await lab.id('bench-relay-tuning').click();
-      await lab.ready();
+      for (const bench of [...Object.keys(BACK), 'quadruple-tank']) {
+        await lab.id(`bench-${bench}`).click();
+        await lab.ready();
+      }
     }
     return memory(page, client);
   };
