@@ -3,15 +3,13 @@
 //! A control edits [`Lab::scenario`]; the [pace](super::pace) takes the change up.
 
 use std::ops::Deref;
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 use leptos::prelude::*;
 
 use super::canvas;
 use super::format::NumberStyle;
-use super::model_free;
 use super::pace::Pace;
-use super::relay::Session;
 use super::results::{Results, run_all};
 use super::start::{Bench, Control, StartFlags};
 use super::texts::Language;
@@ -69,12 +67,8 @@ pub struct State {
     pub bench: RwSignal<Bench>,
     /// The document of the relay-tuning bench.
     pub tuning: RwSignal<TuningScenario>,
-    /// The relay-tuning bench, from the first time it is shown.
-    session: OnceLock<Session>,
     /// The document of the model-free bench.
     pub model_free: RwSignal<ModelFreeScenario>,
-    /// The model-free bench, from the first time it is shown.
-    model_free_session: OnceLock<model_free::Session>,
     /// Owns what stays when benches change.
     owner: Owner,
     /// The setups of the pinned runs that are computed.
@@ -104,9 +98,7 @@ impl Lab {
             bench: RwSignal::new(flags.bench),
             tuning: RwSignal::new(TuningScenario::default()),
             flags: StoredValue::new(flags),
-            session: OnceLock::new(),
             model_free: RwSignal::new(ModelFreeScenario::default()),
-            model_free_session: OnceLock::new(),
             owner: Owner::current().unwrap_or_default(),
             pinned: StoredValue::new(pinned),
         })));
@@ -150,14 +142,15 @@ impl Lab {
         self.language.track();
     }
 
-    /// The relay-tuning bench. It is computed when it is shown for the first time and stays.
-    pub fn session(self) -> Session {
-        *self.session.get_or_init(|| self.owner.with(|| Session::start(self)))
-    }
-
-    /// The model-free bench. It is computed when it is shown for the first time and stays.
-    pub fn model_free_session(self) -> model_free::Session {
-        *self.model_free_session.get_or_init(|| self.owner.with(|| model_free::Session::start(self)))
+    /// The state of a bench. It is made when the bench is shown for the first time and stays.
+    pub fn kept<S: Clone + Send + Sync + 'static>(self, start: fn(Self) -> S) -> S {
+        self.owner.with(|| {
+            use_context().unwrap_or_else(|| {
+                let state = start(self);
+                provide_context(state.clone());
+                state
+            })
+        })
     }
 
     /// The id of a bench: that of the page while it is shown.

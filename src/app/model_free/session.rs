@@ -7,7 +7,7 @@ use leptos::prelude::*;
 
 use super::moment::Shown;
 use crate::app::controls::Document;
-use crate::app::lab::Lab;
+use crate::app::lab::{Lab, use_lab};
 use crate::app::results::{Computed, Held};
 use crate::scenario::model_free::{
     ModelFreeAnalysis, ModelFreeAnswer, ModelFreeScenario, ModelFreeSetup, analyse_model_free, run_model_free,
@@ -93,9 +93,14 @@ impl Document for Session {
     }
 }
 
+/// The session of this page.
+pub fn use_session() -> Session {
+    use_lab().kept(Session::start)
+}
+
 impl Session {
     /// The session of the document, computed at once.
-    pub fn start(lab: Lab) -> Self {
+    fn start(lab: Lab) -> Self {
         let charts = lab.model_free.with_untracked(|s| Found::of(&s.model_free));
         let words = charts.shared();
         let inside = |s: &ModelFreeScenario| s.cursor_s.filter(|time| *time <= s.model_free.experiment.duration_s);

@@ -111,12 +111,12 @@ pub struct State {
 
 /// The session of this page.
 pub fn use_session() -> Session {
-    use_lab().session()
+    use_lab().kept(Session::start)
 }
 
 impl Session {
     /// The session of the document, computed at once.
-    pub fn start(lab: Lab) -> Self {
+    fn start(lab: Lab) -> Self {
         let (charts, pinned) = lab.tuning.with_untracked(|s| (Found::of(s), s.pinned.clone()));
         let case = RwSignal::new(lab.tuning.with_untracked(|s| case_of(&s.tuning)));
         let state = State { lab, charts, words: charts.shared(), case, pinned: StoredValue::new(pinned) };
