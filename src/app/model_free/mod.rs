@@ -15,13 +15,13 @@ use leptos::prelude::*;
 
 use super::lab::use_lab;
 use super::start::{Bench, Panel};
-pub use session::Session;
+use session::use_session;
 
 /// The bench, or those of its cards that the start flags ask for.
 #[component]
 pub fn ModelFreeBench() -> impl IntoView {
     let lab = use_lab();
-    let session = lab.model_free_session();
+    let session = use_session();
     let shows = move |panel| lab.flags.with_value(|f| f.shows(panel));
     let chosen = lab.flags.with_value(|f| !f.panels.is_empty());
     view! {

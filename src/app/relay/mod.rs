@@ -19,7 +19,6 @@ use leptos::prelude::*;
 
 use super::lab::use_lab;
 use super::start::{Bench, Panel};
-pub use session::Session;
 
 /// The bench, or those of its cards that the start flags ask for.
 #[component]
