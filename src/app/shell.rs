@@ -5,6 +5,7 @@ use leptos::html::Input;
 use leptos::prelude::*;
 use leptos::wasm_bindgen::JsCast;
 
+use super::errors::of_error;
 use super::lab::{Lab, Notice, use_lab};
 use super::model_free::ModelFreeBench;
 use super::quadruple::QuadrupleTankBench;
@@ -14,7 +15,7 @@ use super::start::{Bench, StartFlags};
 use super::storage::{LANGUAGE, THEME};
 use super::texts::{Language, say, tr};
 use super::widgets::{effect, handler};
-use crate::scenario::{Document, Scenario, ScenarioError, setup_of};
+use crate::scenario::{Document, Scenario, setup_of};
 
 /// The element of the page that the laboratory fills; it holds the static outline until then.
 const ROOT: &str = "app";
@@ -271,7 +272,7 @@ fn Notices() -> impl IntoView {
     let lab = use_lab();
     let content = move |notice: Notice| {
         match notice {
-        Notice::Refused(error) => view! { <div>{tr!(lab, refused.lead)} " " {of_error(lab, &error)}</div> }.into_any(),
+        Notice::Refused(error) => view! { <div>{tr!(lab, refused.lead)} " " {of_error(lab, lab.unit.get(), &error)}</div> }.into_any(),
         Notice::Copied => view! { <div>{tr!(lab, app.copied)}</div> }.into_any(),
         Notice::CopyByHand(link) => view! {
             <div>
@@ -295,36 +296,6 @@ fn Notices() -> impl IntoView {
                 .into_any()
             })}
         </div>
-    }
-}
-
-/// Why a link or file was refused, in the language of the reader; a field keeps its name from the document.
-fn of_error(lab: Lab, error: &ScenarioError) -> String {
-    let number = |v: f64| lab.number_style().significant(v, 4);
-    match error {
-        ScenarioError::Malformed { path, reason } => {
-            tr!(lab, refused.malformed, path = path.clone(), reason = reason.clone()).to_string()
-        }
-        ScenarioError::OutOfRange { field, value, min, max } => tr!(
-            lab,
-            refused.range,
-            field = field.clone(),
-            value = number(*value),
-            min = number(*min),
-            max = number(*max)
-        )
-        .to_string(),
-        ScenarioError::TooMany { field, count, max } => {
-            tr!(lab, refused.many, field = field.clone(), count = *count, max = *max).to_string()
-        }
-        ScenarioError::UnknownVersion { found, newest } => {
-            tr!(lab, refused.version, found = *found, newest = *newest).to_string()
-        }
-        ScenarioError::TooLong { length, max } => tr!(lab, refused.long, length = *length, max = *max).to_string(),
-        ScenarioError::DamagedLink => tr!(lab, refused.damaged).to_string(),
-        ScenarioError::Plant(error) | ScenarioError::Start(error) => error.to_string(),
-        ScenarioError::Law { field, error } => format!("{field}: {error}"),
-        ScenarioError::Linear(error) => error.to_string(),
     }
 }
 

@@ -179,6 +179,10 @@ test('a file whose valve leaves [0, 1] or whose window does not fit is refused w
   await expect(lab.id('notice')).toContainText('model_free.valves[0]');
   await open((run) => (run.controller.estimator.window_s = 7.5));
   await expect(lab.id('notice')).toContainText('model_free.controller');
+  await expect(lab.id('notice')).toContainText('a window of 7.5 s has to be a multiple of 1 s, of 2 to 1000 samples');
+  await lab.id('language').selectOption('pt-BR');
+  await expect(lab.id('notice')).toContainText('uma janela de 7,5 s precisa ser um múltiplo de 1 s');
+  await lab.id('language').selectOption('en');
   await open((run) => (run.controller.loops[0].model_gain = 0));
   await expect(lab.id('notice')).toContainText('model_gain');
   expect(await lab.text('free-verdict')).toBe(verdict);

@@ -103,7 +103,7 @@ pub fn way(session: Session) -> Vec<[f64; 2]> {
     })
 }
 
-/// Poles and zeros as they are at the shown moment, with the poles of the loop at its last references.
+/// Poles and zeros as they are at the shown moment.
 pub fn zeros(session: Session) -> Picture {
     let lab = session.lab;
     let csv = move || session.shown().map(|shown| shown.theory.to_csv()).unwrap_or_default();

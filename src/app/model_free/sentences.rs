@@ -1,6 +1,7 @@
 //! What the bench says of a run, in the language of the reader. What is said is decided by the core.
 
 use super::session::Session;
+use crate::app::errors::of_error;
 use crate::app::shown::{to_metres, to_shown};
 use crate::app::texts::tr;
 use crate::plant::DisplayUnit;
@@ -27,7 +28,10 @@ pub fn of_run(session: Session) -> (bool, String) {
     let answer = session.words.answer.get();
     let answer = match answer.as_ref() {
         Ok(answer) => answer,
-        Err(error) => return (false, tr!(lab, free.no_run, reason = error).to_string()),
+        Err(error) => {
+            let reason = of_error(lab, DisplayUnit::Cm, error);
+            return (false, tr!(lab, free.no_run, reason = reason).to_string());
+        }
     };
     let verdict = session.words.analysis.with(|analysis| ModelFreeVerdict::of(&setup, answer, analysis));
     let text = match verdict {

@@ -2,8 +2,8 @@
 
 use leptos::prelude::*;
 
+use crate::app::errors::of_plant_error;
 use crate::app::lab::Lab;
-use crate::app::shown::{length_digits, to_shown, unit_name};
 use crate::app::texts::tr;
 use crate::linear::{Complex, LinearError};
 use crate::plant::PlantError;
@@ -84,47 +84,16 @@ pub fn of_zero(lab: Lab) -> (String, bool) {
 /// What walls and pumps do not allow at the operating point.
 pub fn of_equilibrium(lab: Lab) -> Vec<String> {
     lab.words.analysis.with(|outcome| match outcome.as_ref() {
-        Ok(analysis) => analysis.out_of_range.iter().map(|e| of_plant_error(lab, e)).collect(),
+        Ok(analysis) => analysis.out_of_range.iter().map(|e| of_limit(lab, e)).collect(),
         Err(ScenarioError::Plant(PlantError::SingularPlant { .. })) => Vec::new(),
-        Err(ScenarioError::Plant(error)) => vec![of_plant_error(lab, error)],
+        Err(ScenarioError::Plant(error)) => vec![of_limit(lab, error)],
         Err(_) => Vec::new(),
     })
 }
 
-fn of_plant_error(lab: Lab, error: &PlantError) -> String {
-    let style = lab.number_style();
-    let unit = lab.unit.get();
-    let length = |m: f64| style.fixed(to_shown(m, unit), length_digits(unit) - 1);
-    match *error {
-        PlantError::SingularPlant { .. } => tr!(lab, process.no_equilibrium).to_string(),
-        PlantError::LevelOutOfRange { tank, value, max } => tr!(
-            lab,
-            process.overflow,
-            tank = tank + 1,
-            level = length(value),
-            height = length(max),
-            unit = unit_name(unit)
-        )
-        .to_string(),
-        PlantError::VoltageOutOfRange { pump, value, min, max } => tr!(
-            lab,
-            process.voltage_limit,
-            pump = pump + 1,
-            voltage = style.fixed(value, 2),
-            min = style.fixed(min, 1),
-            max = style.fixed(max, 1)
-        )
-        .to_string(),
-        PlantError::OutOfRange { field, value, min, max } => tr!(
-            lab,
-            refused.range,
-            field = field,
-            value = style.significant(value, 3),
-            min = style.significant(min, 3),
-            max = style.significant(max, 3)
-        )
-        .to_string(),
-    }
+fn of_limit(lab: Lab, error: &PlantError) -> String {
+    let sentence = of_plant_error(lab, lab.unit.get(), error);
+    if matches!(error, PlantError::LevelOutOfRange { .. }) { sentence + tr!(lab, process.overflow) } else { sentence }
 }
 
 /// How long the right-most zero takes, for the valve plane.
