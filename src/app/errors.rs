@@ -1,7 +1,5 @@
 //! Why a document was refused or has no result, in the language of the reader.
 
-use leptos::prelude::*;
-
 use super::lab::Lab;
 use super::shown::{length_digits, to_shown, unit_name};
 use super::texts::tr;
