@@ -345,9 +345,10 @@ fn case_c_tracks_with_a_ripple() {
 mod seen {
     //! What the bench says of each case, computed from the run and from theory.
 
+    use quadtank::plant::OperatingPoint;
     use quadtank::scenario::ScenarioError;
     use quadtank::scenario::model_free::{
-        Claim, LossBy, ModelFreeVerdict, PublishedExperiment, PublishedValves, Standing, analyse_model_free,
+        Claim, LossBy, ModelFreeVerdict, Moment, PublishedExperiment, PublishedValves, Standing, analyse_model_free,
         check_claims, published_model_free, run_model_free,
     };
 
@@ -410,6 +411,24 @@ mod seen {
         let other = verdict(PublishedValves::C, PublishedExperiment::S3, 320.0)?;
         assert!(matches!(other, ModelFreeVerdict::Unsettled(_)), "{other:?}");
         Ok(())
+    }
+
+    #[test]
+    fn on_the_line_the_zero_is_at_the_origin_and_beside_it_on_its_side() {
+        let moment = |valves: [f64; 2]| {
+            let plant = super::plant().with_valves(valves);
+            // In the middle of a run, not at rest.
+            let point = OperatingPoint { levels: [0.16, 0.11, 0.07, 0.12], pump_voltage: [7.0, 5.0] };
+            Moment::of(&plant, &point)
+        };
+        for gamma_1 in [0.5, 0.3, 0.85] {
+            let on_the_line = moment([gamma_1, 1.0 - gamma_1]);
+            assert_eq!((on_the_line.rightmost_zero(), on_the_line.rga_11), (Some(0.0), None), "γ1 = {gamma_1}");
+            let beside =
+                [1e-6, -1e-6].map(|by| moment([gamma_1, 1.0 - gamma_1 + by]).rightmost_zero().map(f64::signum));
+            assert_eq!(beside, [Some(-1.0), Some(1.0)], "γ1 = {gamma_1}");
+        }
+        assert_eq!(moment([1.0, 1.0]).rightmost_zero(), None);
     }
 
     #[test]

@@ -66,6 +66,7 @@ test('the loss that case b hides is found by keyboard alone', async ({ lab, page
   await lab.settle();
   expect(await lab.text('free-verdict')).toContain('Level 2 is lost at 1175 s');
   expect(await lab.text('free-verdict')).toContain('Tank 3 has run over since 1020 s.');
+  await expect(lab.id('free-rig')).toContainText('overflows');
   // The cursor goes back to where nobody sees it yet in the outputs.
   await tabTo(page, 'free-time');
   await page.keyboard.press('Home');
@@ -179,9 +180,9 @@ test('a file whose valve leaves [0, 1] or whose window does not fit is refused w
   await expect(lab.id('notice')).toContainText('model_free.valves[0]');
   await open((run) => (run.controller.estimator.window_s = 7.5));
   await expect(lab.id('notice')).toContainText('model_free.controller');
-  await expect(lab.id('notice')).toContainText('a window of 7.5 s has to be a multiple of 1 s, of 2 to 1000 samples');
+  await expect(lab.id('notice')).toContainText('a window of 7.500 s has to be a multiple of 1.000 s, of 2 to 1000 samples');
   await lab.id('language').selectOption('pt-BR');
-  await expect(lab.id('notice')).toContainText('uma janela de 7,5 s precisa ser um múltiplo de 1 s');
+  await expect(lab.id('notice')).toContainText('uma janela de 7,500 s precisa ser um múltiplo de 1,000 s');
   await lab.id('language').selectOption('en');
   await open((run) => (run.controller.loops[0].model_gain = 0));
   await expect(lab.id('notice')).toContainText('model_gain');
@@ -189,6 +190,24 @@ test('a file whose valve leaves [0, 1] or whose window does not fit is refused w
   // A ramp through the line, as the file says it.
   await open((run) => (run.valves = [0, 1].map(() => ({ ramp: { from: 0.6, to: 0.4, begin_s: 100, end_s: 200 } }))));
   await expect(lab.id('free-moment')).toContainText('γ₁ + γ₂ = 0.80');
+  await lab.clean();
+});
+
+test('valves where no run begins, no zero is finite or the zero is at the origin: the page says so', async ({ lab }) => {
+  await lab.open(BENCH);
+  const valves = async (one, two) => {
+    await lab.type('free-gamma1', one);
+    await lab.type('free-gamma2', two);
+  };
+  await valves('0', '0');
+  expect(await lab.text('free-verdict')).toMatch(/^No run: it cannot begin at rest\. Tank 3 would need 32\.6 cm, its wall ends at 30\.0 cm\.$/);
+  await valves('0.2', '0.85');
+  expect(await lab.text('free-verdict')).toContain('Pump 1 would need 85.52 V, outside 0.0 to 12.0 V.');
+  await valves('0.5', '0.5');
+  expect(await lab.text('free-moment')).toContain('right-most zero 0, on the boundary, λ₁₁ = –');
+  expect(await lab.text('free-stability')).toContain('at the limit of stability');
+  await valves('1', '1');
+  expect(await lab.text('free-moment')).toContain('no finite zero');
   await lab.clean();
 });
 

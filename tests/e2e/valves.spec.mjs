@@ -165,6 +165,6 @@ test('where a wall is too low, the page says so and goes on', async ({ lab }) =>
   await lab.open();
   await lab.type('gamma1-number', '1');
   await lab.type('gamma2-number', '0.2');
-  expect(await lab.text('process-sentence')).toMatch(/Tank 1 would need \d+\.\d cm.*it overflows/);
+  expect(await lab.text('process-sentence')).toMatch(/Tank 1 would need \d+\.\d cm.*It overflows/);
   await lab.clean();
 });

@@ -85,19 +85,18 @@ pub fn of_moment(session: Session) -> String {
     let number = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |value| style.significant(value, 3));
     let theory = &shown.theory;
     let [diagonal, swapped] = theory.niederlinski.map(number);
-    let zero = theory.rightmost_zero();
-    let side = match zero {
-        Some(zero) if zero > 0.0 => tr!(lab, free.zero_right),
-        Some(_) => tr!(lab, free.zero_left),
-        None => "",
+    let zero = match theory.rightmost_zero() {
+        Some(zero) if zero > 0.0 => tr!(lab, free.zero_right, zero = style.significant(zero, 3)).to_string(),
+        Some(zero) if zero < 0.0 => tr!(lab, free.zero_left, zero = style.significant(zero, 3)).to_string(),
+        Some(_) => tr!(lab, free.zero_origin).to_owned(),
+        None => tr!(lab, free.no_zero).to_owned(),
     };
     tr!(
         lab,
         free.moment,
         time = style.fixed(shown.time_s, 0),
         sum = style.fixed(shown.plant.valves.iter().sum(), 2),
-        zero = number(zero),
-        side = side,
+        zero = zero,
         rga = number(theory.rga_11),
         diagonal = diagonal,
         swapped = swapped
@@ -115,10 +114,14 @@ pub fn of_loop(session: Session) -> (bool, String) {
     session.words.analysis.with(|analysis| {
         let Some(Ok(poles)) = &analysis.poles else { return (true, String::new()) };
         let slowest = poles.poles_s.first().map_or_else(String::new, |pole| style.significant(pole.re, 3));
-        if poles.stability != Stability::Stable {
-            return (false, tr!(lab, free.loop_unstable, pole = slowest).to_string());
+        match poles.stability {
+            Stability::Unstable => (false, tr!(lab, free.loop_unstable, pole = slowest).to_string()),
+            Stability::Marginal => (false, tr!(lab, free.loop_marginal).to_string()),
+            Stability::Stable => {
+                let smallest = analysis.smallest_model_gain.map(|gain| style.significant(in_cm(gain), 3));
+                let smallest = smallest.unwrap_or_else(|| "–".to_owned());
+                (true, tr!(lab, free.loop_stable, pole = slowest, smallest = smallest).to_string())
+            }
         }
-        let smallest = analysis.smallest_model_gain.map_or_else(|| "–".to_owned(), |a| style.significant(in_cm(a), 3));
-        (true, tr!(lab, free.loop_stable, pole = slowest, smallest = smallest).to_string())
     })
 }

@@ -99,7 +99,7 @@ fn tank(lab: Lab, index: usize, tank: &Tank, (level, unit): (f64, DisplayUnit)) 
     let (middle, below) = (left + TANK.0 / 2.0, bottom - above_bottom);
     let number_at = middle - lean / 2.0 * (1.0 - above_bottom / TANK.1);
     let number = lab.number_style().fixed(to_shown(level, unit), length_digits(unit));
-    let alarm = if level >= tank.height {
+    let alarm = if share(tank, level) >= BRIM {
         tr!(lab, process.full)
     } else if level <= 0.0 {
         tr!(lab, process.dry)
@@ -120,6 +120,9 @@ fn tank(lab: Lab, index: usize, tank: &Tank, (level, unit): (f64, DisplayUnit)) 
          <path class=\"wall\" d=\"M{left} {top} V{bottom} H{foot} L{right} {top}\"/>{name}{value}{alarm}"
     )
 }
+
+/// Share of the height from which a tank is full: a level at the wall is the square of a root, a rounding below it.
+const BRIM: f64 = 1.0 - 1e-9;
 
 fn share(tank: &Tank, level: f64) -> f64 {
     (level / tank.height).clamp(0.0, 1.0)

@@ -18,7 +18,7 @@ pub struct Moment {
     pub valves: [f64; 2],
     /// Poles (1/s), those of the tanks that hold water.
     pub poles: Vec<f64>,
-    /// Transmission zeros (1/s).
+    /// Transmission zeros (1/s); one that is zero to rounding is zero.
     pub zeros: Result<Vec<Complex>, LinearError>,
     /// Relative gain λ11; `None` where G(0) is singular.
     pub rga_11: Option<f64>,
@@ -26,19 +26,25 @@ pub struct Moment {
     pub niederlinski: [Option<f64>; 2],
 }
 
+/// A zero this close to the origin, as a share of the fastest pole, is there: its sign is rounding.
+const ORIGIN: f64 = 1e-12;
+
 impl Moment {
     /// The moment at which the plant has these levels (m) and voltages (V). It need not be at rest.
     pub fn of(plant: &QuadrupleTank, point: &OperatingPoint) -> Self {
         let (a, b, c) = plant.linearise(point).reduced();
         let model = StateSpace::strictly_proper(a, b, c);
+        let poles: Vec<f64> = plant.time_constants_s(point).into_iter().flatten().map(|time| -time.recip()).collect();
+        let origin = ORIGIN * poles.iter().fold(0.0, |fastest, pole| pole.abs().max(fastest));
+        let at_origin = |zero: Complex| if zero.norm() > origin { zero } else { Complex::ZERO };
         let zeros = model
             .as_ref()
             .map_err(|&error| error)
-            .and_then(|model| Ok(transmission_zeros(model)?.into_iter().map(|zero| zero.value).collect()));
+            .and_then(|model| Ok(transmission_zeros(model)?.into_iter().map(|zero| at_origin(zero.value)).collect()));
         let gain = model.and_then(|model| model.dc_gain());
         Self {
             valves: plant.valves,
-            poles: plant.time_constants_s(point).into_iter().flatten().map(|time| -time.recip()).collect(),
+            poles,
             zeros,
             rga_11: gain.as_ref().ok().and_then(|gain| Some(relative_gain_array(gain).ok()?[(0, 0)])),
             // On the singular line its sign is rounding.
