@@ -110,6 +110,8 @@ test('case c plays: the point moves, the zero crosses the axis, the water follow
       return (await lab.id('free-play').getAttribute('aria-pressed')) === 'false' && times.size > 3;
     }, { intervals: [20], timeout: 15_000 })
     .toBe(true);
+  // The words follow the charts.
+  await lab.settle();
   expect([...sides].filter(Boolean).sort()).toEqual(['left', 'right']);
   expect(drawings.size).toBeGreaterThan(3);
   expect(await lab.value('free-time-number')).toBe(320);
