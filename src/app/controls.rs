@@ -106,9 +106,10 @@ pub fn knob<D: Document>(document: D, knob: &'static Knob<D::Setup>, index: usiz
     let label = Signal::derive(move || (knob.label)(lab, index).to_owned());
     let unit = lab.told(Signal::derive(move || document.read(knob.unit).to_owned()));
     let Some(travel) = knob.travel else {
+        let name = Signal::derive(move || (knob.name)(lab, index));
         return view! {
             <div class=format!("field-row {class}")>
-                <span>{label}</span>
+                <span title=name>{label}</span>
                 {number(document, knob, index)}
                 <span class="unit">{unit}</span>
             </div>

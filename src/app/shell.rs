@@ -47,6 +47,13 @@ pub fn Laboratory() -> impl IntoView {
         }
     });
     let on_press = window_event_listener(ev::pointerdown, |event| close_menus(event.target()));
+    // What a menu offers is done, and the menu not needed any more.
+    let on_click = window_event_listener(ev::click, |event| {
+        let target = event.target().and_then(|target| target.dyn_into::<web_sys::Element>().ok());
+        if target.is_some_and(|target| target.matches(".menu > div > *").unwrap_or(false)) {
+            close_menus(None);
+        }
+    });
     let on_key = window_event_listener(ev::keydown, |event| {
         if event.key() == "Escape" {
             close_menus(None);
@@ -55,6 +62,7 @@ pub fn Laboratory() -> impl IntoView {
     on_cleanup(move || {
         on_hash.remove();
         on_press.remove();
+        on_click.remove();
         on_key.remove();
     });
     let embed = lab.flags.with_value(|f| f.embed);

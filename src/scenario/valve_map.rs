@@ -21,9 +21,10 @@ impl ValveMap {
         Ok(Self { plant: setup.plant(), pump_voltage: setup.operating_point()?.pump_voltage })
     }
 
-    /// The map of a rig at these pump voltages (V).
-    pub const fn at(plant: QuadrupleTank, pump_voltage: [f64; 2]) -> Self {
-        Self { plant, pump_voltage }
+    /// The map of a rig at these pump voltages (V), or in the middle of what its pumps can do.
+    pub fn at(plant: QuadrupleTank, pump_voltage: Option<[f64; 2]>) -> Self {
+        let middle = plant.pumps.each_ref().map(|pump| f64::midpoint(pump.voltage_min, pump.voltage_max));
+        Self { plant, pump_voltage: pump_voltage.unwrap_or(middle) }
     }
 
     /// The same map without a present setting: equal for any two settings of one rig at the same voltages, so that what

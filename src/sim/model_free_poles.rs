@@ -139,6 +139,8 @@ struct LinearLoop<'a> {
     input: [Vector4<f64>; 2],
     /// Tanks that hold water.
     wet: Vec<usize>,
+    /// Loops with integral action: the integral of another one is no part of the loop.
+    integrating: Vec<usize>,
     /// The estimators with their weights, where there are any.
     estimator: Option<(EstimatorSettings, [Vec<[f64; 2]>; 2])>,
 }
@@ -169,6 +171,7 @@ impl<'a> LinearLoop<'a> {
             hold,
             input: from_fn(|i| by_pump.column(law.pairing.pump_of(i)).into_owned()),
             wet: (0..4).filter(|&tank| !jacobian.dry[tank]).collect(),
+            integrating: (0..2).filter(|&i| law.loops[i].integral != 0.0).collect(),
             estimator: law.estimator.map(weights).transpose()?,
         })
     }
@@ -193,7 +196,8 @@ impl<'a> LinearLoop<'a> {
             Some((_, weights)) => (4 * (weights[0].len() - 1), 1),
         };
         let wet = self.wet.len();
-        let order = wet + 2 + memory;
+        let before = wet + self.integrating.len();
+        let order = before + memory;
         let mut map = DMatrix::zeros(order, order);
         for column in 0..order {
             let unit = |k: usize| if k == column { 1.0 } else { 0.0 };
@@ -201,14 +205,18 @@ impl<'a> LinearLoop<'a> {
             for (k, &tank) in self.wet.iter().enumerate() {
                 levels[tank] = unit(k);
             }
-            let integrals = [unit(wet), unit(wet + 1)];
-            let mut state = State { levels, integrals, memory: (0..memory).map(|k| unit(wet + 2 + k)).collect() };
+            let mut integrals = [0.0; 2];
+            for (k, &i) in self.integrating.iter().enumerate() {
+                integrals[i] = unit(wet + k);
+            }
+            let mut state = State { levels, integrals, memory: (0..memory).map(|k| unit(before + k)).collect() };
             match &self.estimator {
                 None => drop(self.sample(&mut state, [0.0; 2])),
                 Some((settings, weights)) if settings.window == Window::Block => self.block(&mut state, weights),
                 Some((_, weights)) => self.slide(&mut state, weights),
             }
-            let after = self.wet.iter().map(|&tank| state.levels[tank]).chain(state.integrals).chain(state.memory);
+            let integrals = self.integrating.iter().map(|&i| state.integrals[i]);
+            let after = self.wet.iter().map(|&tank| state.levels[tank]).chain(integrals).chain(state.memory);
             for (row, value) in after.enumerate() {
                 map[(row, column)] = value;
             }

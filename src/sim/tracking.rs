@@ -10,6 +10,12 @@ const SETTLED: f64 = 0.02;
 /// Band that counts as tracked, as a share of the reference.
 const TRACKED: f64 = 0.05;
 
+/// What lasts for less than this share of the time since the step shows nothing yet: a swing is outside the band and back
+/// inside again and again, and noise leaves it now and then.
+const SHOWN: f64 = 0.1;
+/// Samples in a row inside the band that show that a level was there, not only passed.
+const HELD: usize = 20;
+
 /// Smallest difference that counts as a step of the start (m): rounding leaves less, and no sensor sees it.
 const LEAST_STEP: f64 = 1e-9;
 
@@ -23,14 +29,23 @@ pub struct TrackingFigures {
     pub ise: f64,
     /// Furthest beyond the reference, as a share of the step; `None` when it never steps.
     pub overshoot: Option<f64>,
-    /// From the step to the last time outside 2 % of it (s); `None` when it never steps, or is outside at the end.
+    /// From the step to the last time outside 2 % of it (s); `None` when it never steps, or is outside at the end or in the last
+    /// tenth of the time.
     pub settling_s: Option<f64>,
     /// Σ |Δu| of the loop (V).
     pub total_variation: f64,
     /// How long the output of the loop was at a limit (s).
     pub saturated_s: f64,
-    /// When the level left 5 % of its reference for good, after it had been there (s); `None` when it did not.
+    /// When the level left 5 % of its reference for good (s), after it had been there for 20 samples; `None` when it did not, or
+    /// only in the last tenth of the time since the step.
     pub lost_at_s: Option<f64>,
+}
+
+impl TrackingFigures {
+    /// Whether the level is where it should be, as far as a plot of it shows; so is one that was never asked to move.
+    pub fn looks_settled(&self) -> bool {
+        self.lost_at_s.is_none() && (self.overshoot.is_none() || self.settling_s.is_some())
+    }
 }
 
 /// The figures of both loops of a run whose samples are every `rows_per_sample` rows. A level that starts away from its first
@@ -75,8 +90,9 @@ impl Samples {
             overshoot: step.map(|(first, size)| (first..self.time.len()).map(|k| -error(k) / size).fold(0.0, f64::max)),
             settling_s: step.and_then(|(first, size)| {
                 let outside = |k: &usize| error(*k).abs() > SETTLED * f64::abs(size);
-                let last = (first..self.time.len()).rev().find(outside).map_or(first, |k| k + 1);
-                Some(self.time.get(last)? - self.time[first])
+                let settled = (first..self.time.len()).rev().find(outside).map_or(first, |k| k + 1);
+                let stays = self.time.len() - settled;
+                (stays >= self.shown(first)).then(|| self.time[settled] - self.time[first])
             }),
             total_variation: self.output.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum(),
             saturated_s: sampling_time * sum(&|k| f64::from(limited(k))),
@@ -97,6 +113,14 @@ impl Samples {
     fn lost_at(&self, first: usize) -> Option<f64> {
         let tracked = |k: &usize| (self.reference[*k] - self.level[*k]).abs() <= TRACKED * self.reference[*k].abs();
         let last = (first..self.time.len()).rev().find(tracked)?;
-        self.time.get(last + 1).copied()
+        let held = (first..=last).rev().take_while(tracked).count();
+        let away = self.time.len() - 1 - last;
+        (held >= HELD && away >= self.shown(first)).then(|| self.time[last + 1])
+    }
+
+    /// How many samples it takes to show something in a response that begins at sample `first`.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a tenth of a count")]
+    fn shown(&self, first: usize) -> usize {
+        ((SHOWN * (self.time.len() - first) as f64) as usize).max(1)
     }
 }

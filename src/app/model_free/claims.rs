@@ -31,10 +31,17 @@ fn item(session: Session, claim: CheckedClaim, id: &'static str) -> AnyView {
         format!("<b>{}</b> <span class=\"badge {class}\">{}</span><br>{}", rich(said), rich(standing), rich(&found))
     });
     let disabled = lab.locks(Control::Experiment);
+    let show = move |_| {
+        session.load(claim.setup());
+        // The list stands below what it shows.
+        if let Ok(Some(course)) = document().query_selector(".bench.free .course") {
+            course.scroll_into_view();
+        }
+    };
     view! {
         <li>
             <span data-testid=id inner_html=content></span>
-            <button type="button" class="button small" data-testid=format!("{id}-show") disabled=disabled on:click=handler(move |_| session.load(claim.setup()))>{say!(lab, free.show)}</button>
+            <button type="button" class="button small" data-testid=format!("{id}-show") disabled=disabled on:click=handler(show)>{say!(lab, free.show)}</button>
         </li>
     }
     .into_any()
@@ -76,7 +83,8 @@ fn texts(session: Session, claim: &CheckedClaim) -> (&'static str, String) {
             (tr!(lab, free.claim_zero), found)
         }
         Claim::CaseC => {
-            let found = tr!(lab, free.found_c, equal = number(in_cm(one), 2), unequal = number(in_cm(two), 2));
+            let (equal, apart) = (number(in_cm(one), 2), number(in_cm(two), 1));
+            let found = tr!(lab, free.found_c, equal = equal, apart = apart, unequal = number(in_cm(three), 2));
             (tr!(lab, free.claim_c), found)
         }
         Claim::ModelGain => {

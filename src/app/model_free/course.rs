@@ -8,7 +8,7 @@ use super::session::Session;
 use crate::app::texts::{say, tr};
 use crate::app::widgets::html::{element, escape, headings, rich, row};
 use crate::app::widgets::{
-    ChartCanvas, ChartMenu, DataTable, TimeAxis, TimeSurface, ZoomButtons, card as card_of, figures, verdict,
+    ChartCanvas, ChartMenu, DataTable, TimeAxis, TimeSurface, ZoomButtons, card as card_of, figures, sentence, verdict,
 };
 use crate::figure::Frame;
 use crate::sim::TrackingFigures;
@@ -44,6 +44,7 @@ pub fn card(session: Session) -> AnyView {
         verdict("free-verdict".to_owned(), Signal::derive(move || !seen.get().0), html),
         charts.into_any(),
         figures("free-figures", say!(lab, responses.metrics), Signal::derive(move || table(session))),
+        sentence("free-comparison", Signal::derive(move || sentences::of_comparison(session))),
         view! { <DataTable picture id="free-table" /> }.into_any(),
     ];
     card_of("course", title, vec![beside.into_any()], content)

@@ -31,7 +31,10 @@ const STEP: Knob<ModelFreeSetup> = Knob {
     name: |lab, k| tr!(lab, free.step, level = k + 1),
     read: |s, k| in_cm(s.set_point_step(k)),
     write: |s, k, size| s.set_set_point_step(k, in_m(size)),
-    limits: |_, _| (-30.0, 30.0),
+    limits: |s, k| {
+        let (least, most) = s.set_point_steps(k);
+        (in_cm(least), in_cm(most))
+    },
     scale: Scale::Linear(0.1),
     digits: Some(2),
     unit: |_| "cm",
@@ -55,7 +58,7 @@ const DURATION: Knob<ModelFreeSetup> = Knob {
     write: |s, _, duration_s| s.experiment.duration_s = duration_s,
     limits: |s, _| {
         let limits = limits::duration_s(s.controller.sampling_time_s);
-        (limits.min, limits.max)
+        (limits.min.max(s.shortest_s()), limits.max)
     },
     scale: Scale::Linear(10.0),
     digits: Some(0),

@@ -62,7 +62,7 @@ const WINDOW: Knob<ModelFreeSetup> = Knob {
     ids: [("", "free-window"); 2],
     label: |_, _| "T",
     name: |lab, _| tr!(lab, free.window).to_owned(),
-    read: |s, _| estimator(s).map_or(0.0, |e| e.window_s),
+    read: |s, _| estimator(s).map_or(USUAL_SAMPLES * s.controller.sampling_time_s, |e| e.window_s),
     write: |s, _, window_s| with_estimator(s, |e| e.window_s = window_s),
     limits: |s, _| (2.0 * s.controller.sampling_time_s, MOST_SAMPLES * s.controller.sampling_time_s),
     grid: |s| s.controller.sampling_time_s,

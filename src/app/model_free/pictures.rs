@@ -24,7 +24,7 @@ pub fn course(session: Session, window: Signal<(f64, f64)>) -> Picture {
     let lab = session.lab;
     let build = move |show: &mut dyn FnMut(&[Chart])| {
         let answer = session.charts.answer.get();
-        let Ok(answer) = answer.as_ref() else { return };
+        let Ok(answer) = answer.as_ref() else { return show(&[]) };
         let (run, phi) = (&answer.run.trajectory, &answer.run);
         let sample_time_s: Vec<f64> = run.time_s.iter().copied().step_by(phi.rows_per_sample).collect();
         let comparison =
@@ -61,20 +61,21 @@ pub fn course(session: Session, window: Signal<(f64, f64)>) -> Picture {
     Picture::new(build, csv)
 }
 
-/// The map under the valve plane: at the voltages that hold the last references, or those of the middle of the run.
-fn map(session: Session) -> Option<ValveMap> {
-    let setup = session.charts.setup.get();
+/// The map under the valve plane: at the voltages that hold the last references or, where there are none, in the middle of
+/// what the pumps can do.
+fn map(session: Session) -> ValveMap {
+    let plant = session.charts.setup.get().plant_at(0.0);
     let voltage = session.charts.analysis.with(|a| a.rest.as_ref().ok().map(|rest| rest.pump_voltage));
-    Some(ValveMap::at(setup.plant_at(0.0), voltage?).without_setting())
+    ValveMap::at(plant, voltage).without_setting()
 }
 
 /// The plane of the valves; `whole` with the way that they go and where they stand, for files.
 pub fn plane(session: Session, whole: bool) -> Picture {
     let lab = session.lab;
     let map = Memo::new(move |_| map(session));
-    let csv = move || map.get().map(|map| map.to_csv(CSV_STEPS)).unwrap_or_default();
+    let csv = move || map.with(|map| map.to_csv(CSV_STEPS));
     let build = move |show: &mut dyn FnMut(&[Chart])| {
-        let Some(map) = map.get() else { return };
+        let map = map.get();
         let plane = figure::valve_plane(&ValvePlane {
             right_most_zero: &|valves| map.rightmost_zero(valves),
             halfway_zero: map.rightmost_zero(TYPICAL_SETTING).unwrap_or(1.0),
@@ -108,7 +109,7 @@ pub fn zeros(session: Session) -> Picture {
     let lab = session.lab;
     let csv = move || session.shown().map(|shown| shown.theory.to_csv()).unwrap_or_default();
     let build = move |show: &mut dyn FnMut(&[Chart])| {
-        let Some(shown) = session.shown() else { return };
+        let Some(shown) = session.shown() else { return show(&[]) };
         let poles: Vec<Complex> = shown.theory.poles.iter().map(|&pole| Complex::new(pole, 0.0)).collect();
         let zeros = shown.theory.zeros.unwrap_or_default();
         show(&[figure::pole_zero(&PoleZero {

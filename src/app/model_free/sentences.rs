@@ -1,12 +1,13 @@
 //! What the bench says of a run, in the language of the reader. What is said is decided by the core.
 
 use super::session::Session;
-use crate::app::errors::of_error;
+use crate::app::errors::{of_error, of_plant_error};
 use crate::app::shown::{to_metres, to_shown};
 use crate::app::texts::tr;
+use crate::control::Pairing;
 use crate::plant::DisplayUnit;
 use crate::scenario::model_free::{LossBy, ModelFreeVerdict};
-use crate::sim::{HoldingEnds, Stability};
+use crate::sim::{HoldingEnds, Stability, TrackingFigures};
 
 /// A length (m), or what is proportional to one, with centimetres for metres as the source has it.
 pub fn in_cm(metres: f64) -> f64 {
@@ -33,33 +34,37 @@ pub fn of_run(session: Session) -> (bool, String) {
             return (false, tr!(lab, free.no_run, reason = reason).to_string());
         }
     };
+    let end = |by: HoldingEnds, ends_s: f64| match by {
+        HoldingEnds::Overflow { tank, .. } => {
+            tr!(lab, free.end_overflow, tank = tank + 1, time = seconds(ends_s)).to_string()
+        }
+        HoldingEnds::Pump { pump, .. } => tr!(lab, free.end_pump, pump = pump + 1, time = seconds(ends_s)).to_string(),
+    };
+    let cause = |by: LossBy| match by {
+        LossBy::Overflow { tank, time_s } => {
+            tr!(lab, free.by_overflow, tank = tank + 1, time = seconds(time_s)).to_string()
+        }
+        LossBy::Pump(pump) => tr!(lab, free.by_pump, pump = pump + 1).to_string(),
+        LossBy::Other => String::new(),
+    };
     let verdict = session.words.analysis.with(|analysis| ModelFreeVerdict::of(&setup, answer, analysis));
     let text = match verdict {
-        ModelFreeVerdict::Lost { level, at_s, by, foretold_s } => {
-            let mut text = tr!(lab, free.is_lost, level = level + 1, time = seconds(at_s)).to_string();
-            match by {
-                LossBy::Overflow { tank, time_s } => {
-                    text += &tr!(lab, free.by_overflow, tank = tank + 1, time = seconds(time_s)).to_string();
-                }
-                LossBy::Pump(pump) => text += &tr!(lab, free.by_pump, pump = pump + 1).to_string(),
-                LossBy::Other => {}
-            }
-            text + &foretold_s
-                .map_or_else(String::new, |time| tr!(lab, free.foretold, time = seconds(time)).to_string())
+        ModelFreeVerdict::Lost { level, at_s, by, foretold } => {
+            let lost = tr!(lab, free.is_lost, level = level + 1, time = seconds(at_s)).to_string();
+            let foretold = foretold.map(|(by, ends_s)| tr!(lab, free.foretold, end = end(by, ends_s)).to_string());
+            lost + &cause(by) + &foretold.unwrap_or_default()
         }
         ModelFreeVerdict::Leaving { ends_s, by, e_folding_s } => {
-            let time = seconds(ends_s);
-            let end = match by {
-                HoldingEnds::Overflow { tank, .. } => {
-                    tr!(lab, free.ends_by_overflow, tank = tank + 1, time = time).to_string()
-                }
-                HoldingEnds::Pump { pump, .. } => tr!(lab, free.ends_by_pump, pump = pump + 1, time = time).to_string(),
-            };
-            let pace =
-                e_folding_s.map_or_else(String::new, |time| tr!(lab, free.e_folding, time = seconds(time)).to_string());
-            format!("{}{pace}{end}", tr!(lab, free.is_leaving))
+            let pace = e_folding_s.map(|time| tr!(lab, free.e_folding, time = seconds(time)).to_string());
+            let (leaving, goes_on) = (tr!(lab, free.is_leaving), tr!(lab, free.goes_on));
+            format!("{leaving}{}: {}{goes_on}", pace.unwrap_or_default(), end(by, ends_s))
         }
-        ModelFreeVerdict::Rippling([one, two]) => tr!(lab, free.is_rippling, one = cm(one), two = cm(two)).to_string(),
+        ModelFreeVerdict::Rippling { error: [one, two], apart: None } => {
+            tr!(lab, free.is_rippling, one = cm(one), two = cm(two)).to_string()
+        }
+        ModelFreeVerdict::Rippling { error: [one, two], apart: Some(apart) } => {
+            tr!(lab, free.is_drifting, one = cm(one), two = cm(two), apart = cm(apart)).to_string()
+        }
         ModelFreeVerdict::Settled([Some(one), Some(two)]) => {
             tr!(lab, free.is_settled, one = seconds(one), two = seconds(two)).to_string()
         }
@@ -70,11 +75,25 @@ pub fn of_run(session: Session) -> (bool, String) {
             }
             None => tr!(lab, free.still).to_string(),
         },
-        ModelFreeVerdict::Unsettled([one, two]) => {
-            tr!(lab, free.is_unsettled, one = cm(one), two = cm(two)).to_string()
+        ModelFreeVerdict::Unsettled { error: [one, two], by } => {
+            tr!(lab, free.is_unsettled, one = cm(one), two = cm(two)).to_string() + &cause(by)
         }
     };
-    (matches!(verdict, ModelFreeVerdict::Settled(_) | ModelFreeVerdict::Rippling(_)), text)
+    (matches!(verdict, ModelFreeVerdict::Settled(_) | ModelFreeVerdict::Rippling { apart: None, .. }), text)
+}
+
+/// What the PI loops are that a run is compared with; nothing where it is not.
+pub fn of_comparison(session: Session) -> String {
+    let lab = session.lab;
+    let Some(pi) = session.words.setup.with(|s| s.compare) else { return String::new() };
+    let number = |value: f64| lab.number_style().significant(value, 2);
+    let pairing = match pi.pairing {
+        Pairing::Diagonal => tr!(lab, pi.diagonal),
+        Pairing::Swapped => tr!(lab, pi.swapped),
+    };
+    let settings = &pi.loops[0];
+    let (gain, time) = (number(settings.gain), number(settings.integral_time_s));
+    tr!(lab, free.pi_settings, pairing = pairing, gain = gain, time = time).to_string()
 }
 
 /// Zero, relative gain and Niederlinski index of the shown moment.
@@ -104,18 +123,32 @@ pub fn of_moment(session: Session) -> String {
     .to_string()
 }
 
-/// What linear theory says of the loop at its last references; nothing while valves move.
+/// What linear theory says of the loop at its last references.
 pub fn of_loop(session: Session) -> (bool, String) {
     let lab = session.lab;
     let style = lab.number_style();
     if session.words.setup.with(|s| s.valves.iter().any(|valve| !valve.is_constant())) {
         return (true, tr!(lab, free.loop_moves).to_string());
     }
+    let looks_good =
+        session.words.with_answer(|answer| answer.figures.iter().all(TrackingFigures::looks_settled)) == Some(true);
     session.words.analysis.with(|analysis| {
+        if let Err(error) = &analysis.rest {
+            let reason = of_plant_error(lab, DisplayUnit::Cm, error);
+            return (false, tr!(lab, free.not_held, reason = reason).to_string());
+        }
         let Some(Ok(poles)) = &analysis.poles else { return (true, String::new()) };
-        let slowest = poles.poles_s.first().map_or_else(String::new, |pole| style.significant(pole.re, 3));
+        let first = poles.poles_s.first();
+        let slowest = first.map_or_else(String::new, |pole| style.significant(pole.re, 3));
         match poles.stability {
-            Stability::Unstable => (false, tr!(lab, free.loop_unstable, pole = slowest).to_string()),
+            Stability::Unstable => {
+                let how = match first {
+                    Some(pole) if pole.im != 0.0 => tr!(lab, free.it_swings),
+                    _ if looks_good => tr!(lab, free.however_good),
+                    _ => "",
+                };
+                (false, tr!(lab, free.loop_unstable, pole = slowest, how = how).to_string())
+            }
             Stability::Marginal => (false, tr!(lab, free.loop_marginal).to_string()),
             Stability::Stable => {
                 let smallest = analysis.smallest_model_gain.map(|gain| style.significant(in_cm(gain), 3));

@@ -39,5 +39,5 @@ where
             .into_any()
         })
         .collect::<Vec<_>>();
-    view! { <div class="segmented" role="group" aria-label=label>{buttons}</div> }
+    view! { <div class="segmented" role="group" aria-label=label title=label>{buttons}</div> }
 }

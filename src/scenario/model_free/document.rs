@@ -65,6 +65,21 @@ impl ModelFreeSetup {
         }
     }
 
+    /// What the reference of a level (index) may step by in all, from the bottom of its tank to the brim (m).
+    pub fn set_point_steps(&self, level: usize) -> (f64, f64) {
+        let start = match self.start {
+            StartSpec::Rest(levels) => levels[level],
+            StartSpec::Empty => 0.0,
+        };
+        (-start, self.plant_at(0.0).tanks[level].height - start)
+    }
+
+    /// The shortest run in which each reference has stepped for ten samples (s).
+    pub fn shortest_s(&self) -> f64 {
+        let last = self.experiment.set_point_steps.iter().map(|step| step.time_s).fold(0.0, f64::max);
+        last + 10.0 * self.controller.sampling_time_s
+    }
+
     /// Two PI loops to compare with. The source has none: these are ours for its rig, diagonal where most water goes straight
     /// down, swapped where it does not.
     pub fn usual_pi(&self) -> DecentralisedPi {

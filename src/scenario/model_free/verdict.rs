@@ -9,6 +9,9 @@ const SETTLED: f64 = 0.02;
 const FOLLOWED: f64 = 0.05;
 /// The last part of a run, in which it shows how it goes on.
 const LATE: f64 = 0.75;
+/// How much further apart the upper tanks are in the last quarter of a run than in the one before to count as drifting, as a
+/// share of their mean level: less may be a part of a swing.
+const DRIFTING: f64 = 0.03;
 const ROUNDING: f64 = 1e-9;
 
 /// What took a level away from its reference.
@@ -38,8 +41,8 @@ pub enum ModelFreeVerdict {
         at_s: f64,
         /// By what.
         by: LossBy,
-        /// When the zero dynamics had said it would end (s).
-        foretold_s: Option<f64>,
+        /// What the zero dynamics had said would end it, and when (s).
+        foretold: Option<(HoldingEnds, f64)>,
     },
     /// Both levels are where they should be, and the upper tanks are leaving: it cannot go on.
     Leaving {
@@ -50,43 +53,50 @@ pub enum ModelFreeVerdict {
         /// The time in which the upper tanks part by another factor e (s), by the right-most zero.
         e_folding_s: Option<f64>,
     },
-    /// Valves move, and the levels stay within so much of their references (m) in the last quarter of the run.
-    Rippling([f64; 2]),
+    /// Valves move, and the levels follow.
+    Rippling {
+        /// How far from their references they are in the last quarter of the run (m).
+        error: [f64; 2],
+        /// By how much the upper tanks are further apart in it than in the quarter before (m), where they drift.
+        apart: Option<f64>,
+    },
     /// Both levels settle, after so long (s); `None` for one whose reference never steps.
     Settled([Option<f64>; 2]),
-    /// In the last quarter of the run they are as far from their references as this (m).
-    Unsettled([f64; 2]),
+    /// A level is neither settled nor lost.
+    Unsettled {
+        /// How far from their references they are in the last quarter of the run (m).
+        error: [f64; 2],
+        /// What may keep them from settling.
+        by: LossBy,
+    },
 }
 
 impl ModelFreeVerdict {
     /// The verdict on a run with what theory says of its setup.
     pub fn of(setup: &ModelFreeSetup, answer: &ModelFreeAnswer, analysis: &ModelFreeAnalysis) -> Self {
         let run = &answer.run.trajectory;
-        let foretold = answer.predicted.and_then(|predicted| Some((predicted.ends?, predicted.from_s)));
-        let foretold_s = foretold.map(|(ends, from_s)| from_s + after_s(ends));
+        let predicted = answer.predicted.and_then(|predicted| Some((predicted.ends?, predicted.from_s)));
+        let foretold = predicted.map(|(ends, from_s)| (ends, from_s + after_s(ends)));
         let losses = answer.figures.iter().enumerate().filter_map(|(level, f)| Some((level, f.lost_at_s?)));
         if let Some((level, at_s)) = losses.min_by(|a, b| a.1.total_cmp(&b.1)) {
-            return Self::Lost { level, at_s, by: loss_by(&setup.plant_at(at_s), run, at_s), foretold_s };
+            return Self::Lost { level, at_s, by: loss_by(&setup.plant_at(at_s), run, at_s), foretold };
         }
         let late = [0, 1].map(|level| late_error(run, level));
         let within = |share: f64| late.iter().all(|&(error, reference)| error <= share * reference);
-        if let Some((by, from_s)) = foretold.filter(|_| within(SETTLED)) {
+        if let Some((by, ends_s)) = foretold.filter(|_| within(SETTLED)) {
             let zero = analysis.moment.as_ref().and_then(super::Moment::rightmost_zero).filter(|&zero| zero > 0.0);
-            return Self::Leaving { ends_s: from_s + after_s(by), by, e_folding_s: zero.map(f64::recip) };
+            return Self::Leaving { ends_s, by, e_folding_s: zero.map(f64::recip) };
         }
-        let most = late.map(|(error, _)| error);
+        let error = late.map(|(error, _)| error);
         if !setup.valves.iter().all(ValveSchedule::is_constant) && within(FOLLOWED) {
-            Self::Rippling(most)
-        } else if within(SETTLED) && answer.figures.iter().all(has_settled) {
+            Self::Rippling { error, apart: drift(run) }
+        } else if within(SETTLED) && answer.figures.iter().all(TrackingFigures::looks_settled) {
             Self::Settled(answer.figures.map(|figures| figures.settling_s))
         } else {
-            Self::Unsettled(most)
+            let end_s = run.time_s.last().copied().unwrap_or(0.0);
+            Self::Unsettled { error, by: loss_by(&setup.plant_at(end_s), run, end_s) }
         }
     }
-}
-
-fn has_settled(figures: &TrackingFigures) -> bool {
-    figures.overshoot.is_none() || figures.settling_s.is_some()
 }
 
 /// Time from the prediction on (s).
@@ -103,6 +113,19 @@ fn late_error(run: &Trajectory, level: usize) -> (f64, f64) {
     let (levels, references) = (&run.levels[level][first..], &run.references[level][first..]);
     let error = levels.iter().zip(references).map(|(level, reference)| (level - reference).abs()).fold(0.0, f64::max);
     (error, references.iter().copied().fold(0.0, f64::max))
+}
+
+/// By how much the upper tanks are further apart in the last quarter than in the one before, on the average (m), if it is
+/// enough to count.
+fn drift(run: &Trajectory) -> Option<f64> {
+    let rows = run.time_s.len();
+    let mean = |tank: usize, quarter: usize| {
+        let part = &run.levels[tank][quarter * rows / 4..(quarter + 1) * rows / 4];
+        part.iter().sum::<f64>() / part.len() as f64
+    };
+    let apart = |quarter: usize| (mean(2, quarter) - mean(3, quarter)).abs();
+    let more = apart(3) - apart(2);
+    (more > DRIFTING * f64::midpoint(mean(2, 3), mean(3, 3))).then_some(more)
 }
 
 fn loss_by(plant: &QuadrupleTank, run: &Trajectory, at_s: f64) -> LossBy {
