@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use std::ops::Range;
 
 use super::{Anchor, Axis, Chart, Course, Entry, Field, Label, Layer, Marker, Pen, Role, Sample, Series, Shape};
-use crate::scalar::{larger, smaller};
+use crate::scalar::{larger, sine_cosine, smaller};
 
 /// Steps of the shading along each axis, and its depth.
 const STEPS: usize = 60;
@@ -143,7 +143,7 @@ pub fn characteristic_loci<'a>(spec: &LociChart<'a>) -> Chart<'a> {
     chart.layers.push(Layer::Level { y: 0.0, role: Role::Muted, pen: Pen::Hair });
     chart.layers.push(Layer::Upright { x: 0.0, role: Role::Muted, pen: Pen::Hair });
     let angles = (0..=CIRCLE).map(|k| TAU * k as f64 / CIRCLE as f64);
-    let (x, y): (Vec<f64>, Vec<f64>) = angles.map(|angle| (angle.cos(), angle.sin())).unzip();
+    let (y, x): (Vec<f64>, Vec<f64>) = angles.map(sine_cosine).unzip();
     chart.layers.push(line("", Role::Muted, Pen::Hair, x, y));
     for [x, y] in spec.before {
         chart.layers.push(line("", Role::Muted, Pen::Faded, x, y));

@@ -6,14 +6,14 @@ use std::f64::consts::{PI, TAU};
 
 use nalgebra::Matrix2;
 
-use super::Complex;
+use super::{Complex, square_root};
 use crate::scalar::{golden_section, root};
 
 /// Values λ1, λ2 of both loci: the eigenvalues of the return ratio (Campestrini 2006, eqs. 68, 69 and 100).
 pub fn locus_values(ratio: &Matrix2<Complex>) -> [Complex; 2] {
     let mean = (ratio[(0, 0)] + ratio[(1, 1)]) * 0.5;
     let half_difference = (ratio[(0, 0)] - ratio[(1, 1)]) * 0.5;
-    let root = (half_difference * half_difference + ratio[(0, 1)] * ratio[(1, 0)]).sqrt();
+    let root = square_root(half_difference * half_difference + ratio[(0, 1)] * ratio[(1, 0)]);
     [mean + root, mean - root]
 }
 

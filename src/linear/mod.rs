@@ -17,6 +17,7 @@ mod scaling;
 mod singular_values;
 mod state_space;
 mod transfer;
+mod turn;
 mod zeros;
 
 pub use delayed::{DelayedPlant, Path};
@@ -29,6 +30,7 @@ pub use loci::{Closure, Crossing, Loci, Margins, locus_values};
 pub use singular_values::singular_values;
 pub use state_space::StateSpace;
 pub use transfer::{TransferFunction, TransferMatrix};
+pub use turn::{exponential, square_root, turn};
 pub use zeros::{TransmissionZero, transmission_zeros};
 
 /// Complex number of the linear room: poles, zeros (1/s) and gains.

@@ -1,3 +1,5 @@
+use crate::scalar::sine_cosine;
+
 /// How a valve fraction γ moves in time (γ without unit, time in s).
 ///
 /// The schedules of Junqueira, Neves and Angelico (cases a, b and c) are constants and sines; steps and ramps are ours.
@@ -63,7 +65,9 @@ impl ValveSchedule {
                     from + (to - from) * (time_s - begin_s) / (end_s - begin_s)
                 }
             }
-            Self::Sine { mean, amplitude, frequency, phase } => mean + amplitude * (frequency * time_s + phase).sin(),
+            Self::Sine { mean, amplitude, frequency, phase } => {
+                mean + amplitude * sine_cosine(frequency * time_s + phase).0
+            }
         }
     }
 

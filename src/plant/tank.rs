@@ -1,4 +1,4 @@
-use crate::scalar::larger;
+use crate::scalar::{larger, sine_cosine};
 
 /// Horizontal cross-section of a tank as a function of level, `A(h) = area_at_empty + area_slope h` (m²).
 ///
@@ -20,10 +20,8 @@ impl CrossSection {
     /// A tank of breadth `b` (m) whose bottom has the length `c` (m) and one of whose end walls leans outwards by the
     /// angle `θ` (rad) from the vertical: `A(h) = b (c + h tan θ)` (Cocota 2009, eq. 2.28).
     pub fn trapezoidal(breadth: f64, bottom_length: f64, wall_angle_rad: f64) -> Self {
-        Self {
-            area_at_empty: breadth * bottom_length,
-            area_slope: breadth * wall_angle_rad.sin() / wall_angle_rad.cos(),
-        }
+        let (sine, cosine) = sine_cosine(wall_angle_rad);
+        Self { area_at_empty: breadth * bottom_length, area_slope: breadth * sine / cosine }
     }
 
     /// Area of the water surface at `level` (m²); below the bottom the tank goes on as it is at the bottom.

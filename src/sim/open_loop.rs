@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, Matrix2, Matrix4, Matrix4x2};
 
 use crate::control::{DecentralisedPi, PiSettings};
-use crate::linear::Complex;
+use crate::linear::{Complex, turn};
 use crate::plant::Jacobian;
 use crate::scalar::{larger, power};
 
@@ -62,7 +62,7 @@ impl<'a> OpenLoop<'a> {
 
     /// Largest singular value of the sensitivity `S = (I + L)⁻¹` at the frequency `w` (rad/s).
     fn sensitivity(&self, w: f64) -> f64 {
-        let z = Complex::cis(w * self.controller.sampling_time_s);
+        let z = turn(w * self.controller.sampling_time_s);
         largest_singular_value_of_inverse(&(Matrix2::identity() + self.loop_gain(z)))
     }
 

@@ -2,7 +2,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::Matrix2;
 
-use crate::linear::{Complex, LinearError, TransferMatrix};
+use crate::linear::{Complex, LinearError, TransferMatrix, square_root};
 use crate::scalar::{golden_section, root, sort_few};
 
 /// Points of the frequency grid for each decade.
@@ -156,7 +156,7 @@ impl Sample {
     /// its digits where D is nearly real. Negative where that locus is positive.
     fn factor(&self, direction: [f64; 2]) -> f64 {
         let (t, d) = self.trace_and_determinant(direction);
-        let root = (t * t - d * 4.0).sqrt();
+        let root = square_root(t * t - d * 4.0);
         let [one, two] = [t + root, t - root].map(|double| double * 0.5);
         // With one loop open one locus is zero.
         let slant = |locus: Complex| {

@@ -2,6 +2,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::critical::{CriticalPoint, CriticalSearch, GainLimit};
 use crate::linear::TransferMatrix;
+use crate::scalar::sine_cosine;
 
 /// Ratio of the frequencies of neighbours on the curve beyond which there is a corner between them.
 const JUMP: f64 = 1.25;
@@ -40,7 +41,10 @@ impl CriticalCurve {
     /// plant must not be zero.
     pub fn of(plant: &TransferMatrix, search: &CriticalSearch, directions: usize) -> Self {
         let gain = plant.dc_gain();
-        let direction = |angle: f64| [angle.cos() / gain[(0, 0)], angle.sin() / gain[(1, 1)]];
+        let direction = |angle: f64| {
+            let (sine, cosine) = sine_cosine(angle);
+            [cosine / gain[(0, 0)], sine / gain[(1, 1)]]
+        };
         let last = directions.max(2) - 1;
         let points: Vec<CurvePoint> = (0..=last)
             .map(|k| {
@@ -91,6 +95,7 @@ fn corner(
     }
     // A steep but smooth change of frequency ends in one point, not in two.
     let last = last.filter(|last| jumps(&first, last))?;
+    let (sine, cosine) = sine_cosine(low);
     let points = if first.frequency < last.frequency { [first, last] } else { [last, first] };
-    Some(Corner { importance: low.sin() / low.cos(), points })
+    Some(Corner { importance: sine / cosine, points })
 }

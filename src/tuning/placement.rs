@@ -1,7 +1,7 @@
 use nalgebra::Matrix2;
 
 use crate::control::ParallelPid;
-use crate::linear::Complex;
+use crate::linear::{Complex, square_root};
 
 /// What the two controllers have to be at the frequency of the critical point: p1 and p2.
 pub type ControllerPair = [Complex; 2];
@@ -15,7 +15,7 @@ pub type ControllerPair = [Complex; 2];
 pub fn place_one_locus(g: &Matrix2<Complex>, target: Complex, ratio: f64) -> [ControllerPair; 2] {
     let a = (g[(0, 1)] * g[(1, 0)] - g[(0, 0)] * g[(1, 1)]) * ratio;
     let b = target * (g[(0, 0)] + g[(1, 1)] * ratio);
-    let root = (b * b + a * target * target * 4.0).sqrt();
+    let root = square_root(b * b + a * target * target * 4.0);
     larger_first([root, -root].map(|root| {
         let p1 = (root - b) / (a * 2.0);
         [p1, p1 * ratio]
@@ -30,7 +30,7 @@ pub fn place_one_locus(g: &Matrix2<Complex>, target: Complex, ratio: f64) -> [Co
 pub fn place_both_loci(g: &Matrix2<Complex>, target: Complex) -> [ControllerPair; 2] {
     let product = g[(0, 0)] * g[(1, 1)];
     let relative_gain = product / (product - g[(0, 1)] * g[(1, 0)]);
-    let root = (Complex::ONE - relative_gain).sqrt();
+    let root = square_root(Complex::ONE - relative_gain);
     larger_first([root, -root].map(|root| [target / g[(0, 0)] * (root + 1.0), target / g[(1, 1)] * (-root + 1.0)]))
 }
 

@@ -23,9 +23,8 @@ pub fn card(session: Session) -> AnyView {
     let axis = time_axis(session);
     let picture = pictures::course(session, axis.window);
     let title = say!(lab, free.course);
-    let seen = Memo::new(move |_| sentences::of_run(session));
-    let summary = Signal::derive(move || seen.get().1.replace("**", ""));
-    let html = Signal::derive(move || rich(&seen.get().1));
+    let summary = Signal::derive(move || sentences::of_run(session).1.replace("**", ""));
+    let html = Signal::derive(move || rich(&sentences::of_run(session).1));
     let readout = Signal::derive(move || if session.cursor.get().is_some() { readout(session) } else { String::new() });
     let spoken = Signal::derive(move || plain(&readout.get()));
     let beside = view! {
@@ -41,7 +40,7 @@ pub fn card(session: Session) -> AnyView {
         </div>
     };
     let content = vec![
-        verdict("free-verdict".to_owned(), Signal::derive(move || !seen.get().0), html),
+        verdict("free-verdict".to_owned(), Signal::derive(move || !sentences::of_run(session).0), html),
         charts.into_any(),
         figures("free-figures", say!(lab, responses.metrics), Signal::derive(move || table(session))),
         sentence("free-comparison", Signal::derive(move || sentences::of_comparison(session))),

@@ -125,9 +125,9 @@ pub fn card(session: Session) -> AnyView {
 
 /// What theory says of the loop.
 fn stability(session: Session) -> AnyView {
-    let sentence = Signal::derive(move || sentences::of_loop(session));
-    let class = Signal::derive(move || if sentence.get().0 { "sentence" } else { "sentence warm" }.to_owned());
-    let text = Signal::derive(move || rich(&sentence.get().1));
+    let class =
+        Signal::derive(move || if sentences::of_loop(session).0 { "sentence" } else { "sentence warm" }.to_owned());
+    let text = Signal::derive(move || rich(&sentences::of_loop(session).1));
     view! { <p class=class role="status" data-testid="free-stability" inner_html=text></p> }.into_any()
 }
 
