@@ -237,7 +237,7 @@ pub fn SliderField(
         format!("{number} {}", unit.get())
     };
     view! {
-        <div class=format!("row {class}")>
+        <div class=format!("row travel {class}")>
             <label for=id.0 title=name>{label}</label>
             <input
                 type="range"
