@@ -100,6 +100,12 @@ fn width(pen: Pen) -> f64 {
     }
 }
 
+/// Width of a line that turns so often that a wider one would hide its own swings (CSS px). Renderers have a quicker way for one
+/// pixel, too: 2000 s with moving valves are painted in half the time.
+const FINE_WIDTH: f64 = 1.0;
+/// Corners for each px of the plot from which on a line is that fine.
+const DENSE: f64 = 0.8;
+
 /// Lengths drawn and left out (CSS px).
 fn dash(pen: Pen) -> Option<(f64, f64)> {
     match pen {
@@ -179,11 +185,13 @@ impl Brush<'_> {
     }
 
     fn line(&self, run: &[Px], color: Rgb, pen: Pen) {
+        let is_dense = run.len() as f64 > DENSE * self.frame.plot.width;
+        let width = if is_dense { FINE_WIDTH } else { width(pen) };
         match dash(pen) {
-            None => self.path(run, color, width(pen)),
+            None => self.path(run, color, width),
             Some((on, off)) => {
                 for dash in trace::dashes(run, on, off) {
-                    self.path(&dash, color, width(pen));
+                    self.path(&dash, color, width);
                 }
             }
         }
