@@ -8,8 +8,9 @@ pub(super) type Px = (f64, f64);
 
 /// Pixels beyond this are all equally far outside.
 const FAR: f64 = 1e6;
-/// How far a simplified curve may be from the full one (CSS px): half of the finest pixel that is painted.
-const TOLERANCE: f64 = 0.06;
+/// How far a simplified curve may be from the full one (CSS px): as little as nobody sees. What a curve costs goes with its corners, and
+/// these with the root of it.
+const TOLERANCE: f64 = 0.15;
 
 /// The visible pieces of a series. Each has at least two points, all inside the plot rectangle or on its edge.
 ///
