@@ -41,6 +41,6 @@ pub fn simulate(
     controller: &DecentralisedPi,
     experiment: &Experiment,
 ) -> Trajectory {
-    let rig = Rig { plant, water: Hydraulics::new(plant, &op.levels) };
-    course::run_pi(rig, plant, op, controller, experiment)
+    let mut rig = Rig { plant, water: Hydraulics::new(plant, &op.levels) };
+    course::run_pi(&mut rig, plant, op, controller, experiment)
 }

@@ -158,7 +158,7 @@ impl Law for RunningPi {
 
 /// Runs an experiment with two PI loops that rest at the operating point.
 pub(super) fn run_pi(
-    process: impl Process,
+    process: &mut dyn Process,
     plant: &QuadrupleTank,
     op: &OperatingPoint,
     controller: &DecentralisedPi,
@@ -176,15 +176,15 @@ pub(super) fn output_at_rest(plant: &QuadrupleTank, op: &OperatingPoint) -> [f64
 }
 
 /// A law with the limits of the pumps that its loops drive.
-struct Loops<'a, L> {
+struct Loops<'a> {
     pairing: Pairing,
-    law: &'a mut L,
+    law: &'a mut dyn Law,
     limits: [(f64, f64); 2],
     power_gain: f64,
 }
 
-impl<'a, L: Law> Loops<'a, L> {
-    fn new(plant: &QuadrupleTank, pairing: Pairing, law: &'a mut L) -> Self {
+impl<'a> Loops<'a> {
+    fn new(plant: &QuadrupleTank, pairing: Pairing, law: &'a mut dyn Law) -> Self {
         let limits = pairing.by_loop(plant.controller_limits());
         Self { pairing, law, limits, power_gain: plant.power_gain }
     }
@@ -207,18 +207,18 @@ impl<'a, L: Law> Loops<'a, L> {
 }
 
 /// A law with the pumps that its loops drive and its sampling time Ts (s).
-pub(super) struct Sampled<'a, L> {
-    pub(super) law: &'a mut L,
+pub(super) struct Sampled<'a> {
+    pub(super) law: &'a mut dyn Law,
     pub(super) pairing: Pairing,
     pub(super) sampling_time_s: f64,
 }
 
 /// Runs an experiment from the operating point on; see [`super::simulate`] for what happens when.
 pub(super) fn run(
-    mut process: impl Process,
+    process: &mut dyn Process,
     plant: &QuadrupleTank,
     op: &OperatingPoint,
-    sampled: Sampled<impl Law>,
+    sampled: Sampled,
     experiment: &Experiment,
 ) -> Trajectory {
     let Sampled { law, pairing, sampling_time_s } = sampled;

@@ -98,8 +98,8 @@ pub fn simulate_linear(
     experiment: &Experiment,
 ) -> Trajectory {
     let row_spacing = course::row_spacing(experiment, controller.sampling_time_s);
-    let model = LinearModel::new(plant, op, jacobian, row_spacing);
-    let mut trajectory = course::run_pi(model, plant, op, controller, experiment);
+    let mut model = LinearModel::new(plant, op, jacobian, row_spacing);
+    let mut trajectory = course::run_pi(&mut model, plant, op, controller, experiment);
     trajectory.events.clear();
     trajectory
 }

@@ -112,7 +112,7 @@ pub fn simulate_model_free(
     let running = law.start(plant.controller_limits(), output, [start.levels[0], start.levels[1]])?;
     let mut recorded = Recorded { law: running, sensor_gain: plant.sensor.gain, estimates: Default::default() };
     let sampled = Sampled { law: &mut recorded, pairing, sampling_time_s };
-    let trajectory = course::run(MovingRig::new(plant, valves, start), plant, start, sampled, experiment);
+    let trajectory = course::run(&mut MovingRig::new(plant, valves, start), plant, start, sampled, experiment);
     let rows_per_sample = course::rows_per_sample(experiment, sampling_time_s);
     let true_values = true_values(plant, valves, law, experiment, &trajectory, rows_per_sample);
     Ok(ModelFreeRun { trajectory, rows_per_sample, estimates: recorded.estimates, true_values })
@@ -127,7 +127,7 @@ pub fn simulate_with_valves(
     controller: &DecentralisedPi,
     experiment: &Experiment,
 ) -> (Trajectory, usize) {
-    let run = course::run_pi(MovingRig::new(plant, valves, start), plant, start, controller, experiment);
+    let run = course::run_pi(&mut MovingRig::new(plant, valves, start), plant, start, controller, experiment);
     (run, course::rows_per_sample(experiment, controller.sampling_time_s))
 }
 
