@@ -158,6 +158,27 @@ fn s2_of_case_b_is_slower_and_the_windup_is_its_overshoot() {
 }
 
 #[test]
+fn phi_at_a_time_is_that_of_the_sample_in_force() {
+    let run = from_rest('a', &ModelFree::PUBLISHED, 300.0, &[(0, 100.0, 1.0)]);
+    assert!(run.rows_per_sample > 1);
+    let [estimates, values] = run.phi_at(5.5).unwrap();
+    for loop_index in 0..2 {
+        // In the first window all is at rest: φ = dh/dt − α̂ u is −α̂ u, and that is where φ̂ begins.
+        let output = run.trajectory.controller_output[loop_index][0];
+        let expected = -ModelFree::PUBLISHED.loops[loop_index].model_gain * output;
+        assert!((values[loop_index] / expected - 1.0).abs() < 1e-9);
+        assert!((estimates[loop_index] / expected - 1.0).abs() < 1e-9);
+        for time_s in [120.0, 120.9] {
+            let [estimates, values] = run.phi_at(time_s).unwrap();
+            assert_eq!(estimates[loop_index], run.estimates[loop_index][120]);
+            assert_eq!(values[loop_index], run.true_values[loop_index][120]);
+        }
+    }
+    assert_ne!(run.phi_at(120.0), run.phi_at(121.0));
+    assert_eq!(run.phi_at(1e9), run.phi_at(300.0));
+}
+
+#[test]
 fn other_windows_and_inputs_do_what_the_reading_says() {
     let estimator = ModelFree::PUBLISHED.estimator.unwrap();
     let with = |estimator| ModelFree { estimator: Some(estimator), ..ModelFree::PUBLISHED };

@@ -74,6 +74,15 @@ pub struct ModelFreeRun {
     pub true_values: [Vec<f64>; 2],
 }
 
+impl ModelFreeRun {
+    /// φ̂ of loops 1 and 2, and φ itself, as of the sample in force at a time (s), in m/s; `None` for a run without rows.
+    pub fn phi_at(&self, time_s: f64) -> Option<[[f64; 2]; 2]> {
+        let sample = self.trajectory.row_at(time_s)? / self.rows_per_sample;
+        let at_sample = |[first, second]: &[Vec<f64>; 2]| Some([*first.get(sample)?, *second.get(sample)?]);
+        Some([at_sample(&self.estimates)?, at_sample(&self.true_values)?])
+    }
+}
+
 /// The law with the estimates that it used.
 struct Recorded {
     law: RunningModelFree,

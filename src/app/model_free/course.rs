@@ -79,10 +79,19 @@ fn readout(session: Session) -> String {
     let head = element("div", "", &format!("t = {} s", style.fixed(shown.time_s, 0)));
     let pumps = shown.state.pump_voltage.map(|v| format!("{} V", style.fixed(v, 2)));
     let valves = shown.plant.valves.map(|gamma| style.fixed(gamma, 2));
+    let phi = session.words.with_answer(|answer| answer.run.phi_at(shown.time_s)).flatten().map(|phi| {
+        // The unit once: the row has to fit on a phone.
+        let in_row = |[first, second]: [f64; 2]| {
+            [style.fixed(in_cm(first), 3), format!("{} cm/s", style.fixed(in_cm(second), 3))]
+        };
+        let [estimates, true_values] = phi.map(in_row);
+        pair(["φ̂₁", "φ̂₂"], estimates) + &pair(["φ₁", "φ₂"], true_values)
+    });
     head + &pair(["h₁", "h₂"], [h1, h2])
         + &pair(["h₃", "h₄"], [h3, h4])
         + &pair(["v₁", "v₂"], pumps)
         + &pair(["γ₁", "γ₂"], valves)
+        + &phi.unwrap_or_default()
 }
 
 /// The words of a piece of HTML.
