@@ -237,23 +237,26 @@ pub fn SliderField(
         format!("{number} {}", unit.get())
     };
     view! {
-        <div class=format!("row travel {class}")>
-            <label for=id.0 title=name>{label}</label>
-            <input
-                type="range"
-                id=id.0
-                data-testid=id.0
-                aria-label=name
-                aria-valuetext=spoken
-                min=move || range().0.to_string()
-                max=move || range().1.to_string()
-                step=move || range().2.to_string()
-                prop:value=move || position().to_string()
-                disabled=disabled
-                on:input=handler(on_input)
-            />
-            <NumberField id=id.1 name value on_change limits=limits.unwrap_or(travel) scale digits smallest disabled moved />
-            <span class="unit">{unit}</span>
+        // The row stands in a box because browsers lay no item of a grid or flexible box out alone.
+        <div>
+            <div class=format!("row travel {class}")>
+                <label for=id.0 title=name>{label}</label>
+                <input
+                    type="range"
+                    id=id.0
+                    data-testid=id.0
+                    aria-label=name
+                    aria-valuetext=spoken
+                    min=move || range().0.to_string()
+                    max=move || range().1.to_string()
+                    step=move || range().2.to_string()
+                    prop:value=move || position().to_string()
+                    disabled=disabled
+                    on:input=handler(on_input)
+                />
+                <NumberField id=id.1 name value on_change limits=limits.unwrap_or(travel) scale digits smallest disabled moved />
+                <span class="unit">{unit}</span>
+            </div>
         </div>
     }
 }
