@@ -108,7 +108,7 @@ fn PublishedPoint(id: PresetId, frames: RwSignal<Vec<Frame>>) -> impl IntoView {
     let look = Signal::derive(move || {
         format!(
             "<title>{}</title><circle class=\"hit\" r=\"14\"/><circle class=\"mark\" r=\"4.5\"/>\
-             <text x=\"17\" y=\"4\">{short}</text>",
+             <text x=\"13\" y=\"18\">{short}</text>",
             escape(&label.get())
         )
     });
