@@ -20,11 +20,11 @@ pub const FINE: u32 = 8;
 type CanvasError = <CanvasBackend as DrawingBackend>::ErrorType;
 type Outcome<T = ()> = Result<T, DrawingErrorKind<CanvasError>>;
 
-/// The canvas backend of plotters with three changes. Its pixels are finer than those of the screen, because plotters
-/// counts in whole ones. Strokes alike are joined into one path and settings are made once, because a dotted curve is
-/// hundreds of strokes and each call out of WebAssembly with a text costs about a microsecond. And text is measured by
-/// the canvas, because the original measures it by adding a styled element to the page, which costs a layout and which
-/// the content security policy forbids.
+/// Draws in the place of the canvas backend of plotters, which remains to begin and to end a picture. Its pixels are finer
+/// than those of the screen, because plotters counts in whole ones. Shapes alike are joined into one path and settings are
+/// made once, because a dotted curve is hundreds of strokes and each call out of WebAssembly with a text costs about a
+/// microsecond. And text is measured by the canvas, because the original measures it by adding a styled element to the
+/// page, which costs a layout and which the content security policy forbids.
 struct FineCanvas {
     inner: CanvasBackend,
     context: CanvasRenderingContext2d,
