@@ -34,6 +34,14 @@ pub struct TransmissionZero {
     pub output_direction: DVector<Complex>,
 }
 
+/// A zero this close to the origin, as a share of the fastest pole, is there: its sign is rounding.
+const ORIGIN: f64 = 1e-12;
+
+/// The place of a zero (1/s), exactly at the origin where it is there to rounding, seen from the fastest pole (1/s).
+pub fn snapped_to_origin(zero: Complex, fastest_pole: f64) -> Complex {
+    if zero.norm() > ORIGIN * fastest_pole { zero } else { Complex::ZERO }
+}
+
 /// Finite transmission zeros of a square model, by rising real part, each as often as its multiplicity.
 ///
 /// The model is scaled, reduced to its controllable and observable part (modes that cancel are no zeros of G), then

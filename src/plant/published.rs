@@ -20,7 +20,7 @@ pub(super) fn johansson_minimum_phase() -> Preset {
         rga_11: 1.40,
         dc_gain: None,
     };
-    johansson(PresetId::JohanssonMinimumPhase, "operating point P−", [3.33, 3.35], [0.70, 0.60], [3.00, 3.00], printed)
+    johansson(PresetId::JohanssonMinimumPhase, "P−", [3.33, 3.35], [0.70, 0.60], [3.00, 3.00], printed)
 }
 
 /// Johansson (2000), non-minimum-phase setting P+.
@@ -33,14 +33,7 @@ pub(super) fn johansson_non_minimum_phase() -> Preset {
         rga_11: -0.64,
         dc_gain: None,
     };
-    johansson(
-        PresetId::JohanssonNonMinimumPhase,
-        "operating point P+",
-        [3.14, 3.29],
-        [0.43, 0.34],
-        [3.15, 3.15],
-        printed,
-    )
+    johansson(PresetId::JohanssonNonMinimumPhase, "P+", [3.14, 3.29], [0.43, 0.34], [3.15, 3.15], printed)
 }
 
 fn johansson(

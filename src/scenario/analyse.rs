@@ -1,8 +1,9 @@
 use crate::interaction::{
     PairingVerdict, interpolation_integral, niederlinski, recommend_pairing, relative_gain_array,
 };
-use crate::linear::{Complex, LinearError, StateSpace, TransmissionZero, transmission_zeros};
+use crate::linear::{Complex, LinearError, StateSpace, TransmissionZero, snapped_to_origin, transmission_zeros};
 use crate::plant::{OperatingPoint, PlantError};
+use crate::scalar::larger;
 use crate::sim::{ClosedLoop, Experiment, closed_loop};
 
 use super::{ScenarioError, Setup};
@@ -20,13 +21,14 @@ pub struct Analysis {
     pub model: StateSpace,
     /// Open-loop poles (1/s).
     pub poles: Vec<Complex>,
-    /// Transmission zeros, by rising real part; an error where the plant is singular for every s.
+    /// Transmission zeros, by rising real part, one that is zero to rounding exactly zero; an error where the plant is singular for every s.
     pub zeros: Result<Vec<TransmissionZero>, LinearError>,
     /// G(0), by rows (V/V).
     pub dc_gain: [[f64; 2]; 2],
     /// λ11 of the relative gain array at steady state; an error where G(0) is singular.
     pub rga_11: Result<f64, LinearError>,
-    /// Niederlinski index of the diagonal and of the swapped pairing; `None` where a paired gain is 0.
+    /// Niederlinski index of the diagonal and of the swapped pairing; `None` where a paired gain is 0, and where G(0) is singular,
+    /// because its sign is rounding there.
     pub niederlinski: [Option<f64>; 2],
     /// Which pairing is suggested, and by which rule.
     pub verdict: PairingVerdict,
@@ -46,15 +48,22 @@ pub fn analyse(setup: &Setup) -> Result<Analysis, ScenarioError> {
     let (a, b, c) = jacobian.reduced();
     let model = StateSpace::strictly_proper(a, b, c)?;
     let gain = model.dc_gain()?;
+    let rga_11 = relative_gain_array(&gain).map(|array| array[(0, 0)]);
+    let poles = model.poles()?;
+    let fastest = poles.iter().fold(0.0, |fastest, pole| larger(pole.norm(), fastest));
+    let mut zeros = transmission_zeros(&model);
+    for zero in zeros.iter_mut().flatten() {
+        zero.value = snapped_to_origin(zero.value, fastest);
+    }
     Ok(Analysis {
         operating_point,
         out_of_range: plant.violations(&operating_point),
         time_constants_s: plant.time_constants_s(&operating_point),
-        poles: model.poles()?,
-        zeros: transmission_zeros(&model),
+        poles,
+        zeros,
         dc_gain: [[gain[(0, 0)], gain[(0, 1)]], [gain[(1, 0)], gain[(1, 1)]]],
-        rga_11: relative_gain_array(&gain).map(|array| array[(0, 0)]),
-        niederlinski: niederlinski(&gain),
+        niederlinski: if rga_11.is_ok() { niederlinski(&gain) } else { [None; 2] },
+        rga_11,
         verdict: recommend_pairing(&gain),
         closed_loop: closed_loop(&jacobian, &setup.controller, plant.power_gain)?,
         model,
@@ -77,5 +86,32 @@ impl Analysis {
     /// (see [`interpolation_integral`]). `None` without a zero in the right half-plane or without a step.
     pub fn interpolation_integral(&self, experiment: &Experiment) -> Option<f64> {
         interpolation_integral(self.rightmost_zero()?, experiment.first_reference_step()?)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plant::PresetId;
+    use crate::scenario::setup_of;
+
+    #[test]
+    fn on_the_line_the_zero_is_at_the_origin_and_nothing_of_rounding_is_told() {
+        for k in 1..20 {
+            let gamma = f64::from(k) * 0.05;
+            let mut setup = setup_of(PresetId::JohanssonMinimumPhase);
+            setup.valves = [gamma, 1.0 - gamma];
+            let analysis = analyse(&setup).unwrap();
+            let zeros = analysis.zeros.unwrap();
+            assert!(zeros.iter().any(|zero| zero.value == Complex::ZERO), "{gamma}: {zeros:?}");
+            assert!(analysis.rga_11.is_err());
+            assert_eq!(analysis.niederlinski, [None; 2]);
+            assert_eq!(analysis.closed_loop.slowest(), Some(Complex::ZERO), "{gamma}");
+        }
+        // Beside the line the zero is as small as may be, and is told.
+        let mut setup = setup_of(PresetId::JohanssonMinimumPhase);
+        setup.valves = [0.5, 0.5 + 1e-8];
+        let right_most = analyse(&setup).unwrap().rightmost_zero().unwrap().value.re;
+        assert!(right_most < 0.0 && right_most > -1e-8, "{right_most}");
     }
 }

@@ -18,7 +18,8 @@ pub struct Run {
 }
 
 /// Runs the experiment of a setup on the nonlinear plant and on its linear model. Where the sampled linear loop is
-/// unstable, the metrics carry no figures of a step response: where limits hold it, an oscillation has none.
+/// unstable, the metrics carry no figures of a step response: where limits hold it, an oscillation has none. Nor do they where a tank
+/// would have to be higher than its walls at the start: such a run does not begin at rest.
 ///
 /// # Errors
 /// [`ScenarioError::Plant`] when levels are given and no input holds them.
@@ -31,9 +32,10 @@ pub fn run(setup: &Setup) -> Result<Run, ScenarioError> {
     let linear = simulate_linear(&plant, &start, &jacobian, controller, experiment);
     let is_unstable =
         closed_loop(&jacobian, controller, plant.power_gain).is_ok_and(|l| l.stability == Stability::Unstable);
+    let overflows = (0..4).any(|tank| start.levels[tank] > plant.tanks[tank].height);
     let metrics = |run: &Trajectory| {
         let metrics = loop_metrics(run, &plant, controller, experiment);
-        if is_unstable { metrics.map(LoopMetrics::without_response) } else { metrics }
+        if is_unstable || overflows { metrics.map(LoopMetrics::without_response) } else { metrics }
     };
     Ok(Run { metrics: metrics(&nonlinear), linear_metrics: metrics(&linear), nonlinear, linear })
 }
@@ -57,5 +59,24 @@ mod tests {
             assert_eq!((m.overshoot, m.undershoot), (None, None));
             assert!(m.iae > 0.0 && m.step_time_s.is_some());
         }
+    }
+
+    #[test]
+    fn a_run_that_begins_above_a_wall_has_no_step_response() {
+        let mut setup = setup_of(PresetId::JohanssonMinimumPhase);
+        setup.valves = [0.3, 0.7];
+        for m in run(&setup).unwrap().metrics {
+            assert_eq!((m.rise_time_s, m.settling_2_percent, m.overshoot), (None, None, None));
+            assert!(m.iae > 0.0 && m.step_time_s.is_some());
+        }
+    }
+
+    #[test]
+    fn a_response_is_looked_at_until_the_next_step_or_load() {
+        let mut setup = setup_of(PresetId::JohanssonMinimumPhase);
+        setup.experiment.set_point_steps[1].time_s = 120.0;
+        let [first, second] = run(&setup).unwrap().metrics;
+        assert_eq!((first.step_time_s, first.window_s), (Some(100.0), Some(20.0)));
+        assert_eq!((second.step_time_s, second.window_s), (Some(120.0), Some(2880.0)));
     }
 }

@@ -16,6 +16,8 @@ use super::trajectory::Trajectory;
 pub struct LoopMetrics {
     /// Time of the step that the response figures refer to (s); `None` when this reference never moves.
     pub step_time_s: Option<f64>,
+    /// How long the response to that step is looked at (s): until anything else is done to the plant, or to the end.
+    pub window_s: Option<f64>,
     /// From 10 % to 90 % of the step (s); `None` when it is never reached.
     pub rise_time_s: Option<f64>,
     /// Into the 2 % band of the step.
@@ -62,6 +64,7 @@ fn metrics_of(trajectory: &Trajectory, experiment: &Experiment, index: usize, li
     let step_time_s = response.map(Response::step_time);
     let mut metrics = LoopMetrics {
         step_time_s,
+        window_s: response.map(Response::duration),
         rise_time_s: response.and_then(Response::rise_time),
         settling_2_percent: response.map(|response| response.settling(0.02)),
         settling_5_percent: response.map(|response| response.settling(0.05)),

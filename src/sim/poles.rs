@@ -42,7 +42,8 @@ impl Stability {
 pub struct ClosedLoop {
     /// Poles of the sampled loop (z-plane), by falling modulus.
     pub poles_z: Vec<Complex>,
-    /// The same mapped to the s-plane, `s = ln(z)/Ts` (1/s); a pole at z = 0 has no image and is left out.
+    /// The same mapped to the s-plane, `s = ln(z)/Ts` (1/s); a pole at z = 0 has no image and is left
+    /// out, one at z = 1 to rounding is at 0.
     pub poles_s: Vec<Complex>,
     /// The verdict.
     pub stability: Stability,
@@ -76,7 +77,10 @@ pub fn closed_loop(
     sort_few(&mut poles_z, |x, y| y.norm().total_cmp(&x.norm()).then(y.im.total_cmp(&x.im)));
     let stability = Stability::of(&poles_z);
     let images = poles_z.iter().filter(|&&z| z != Complex::ZERO);
-    let poles_s: Vec<Complex> = images.map(|z| z.ln() / controller.sampling_time_s).collect();
+    // What rounding leaves of a pole at z = 1 would be told as a growth or a decay.
+    let is_one = |z: &Complex| (z - Complex::ONE).norm() < UNIT_CIRCLE_TOLERANCE;
+    let image = |z: &Complex| if is_one(z) { Complex::ZERO } else { z.ln() / controller.sampling_time_s };
+    let poles_s: Vec<Complex> = images.map(image).collect();
     let sensitivity_peak = (stability == Stability::Stable).then(|| open.sensitivity_peak(&poles_s));
     Ok(ClosedLoop { poles_z, poles_s, stability, sensitivity_peak })
 }

@@ -53,6 +53,11 @@ impl<'a> Response<'a> {
         self.time[0]
     }
 
+    /// From the step to the end of the window (s).
+    pub(super) fn duration(&self) -> f64 {
+        self.time[self.time.len() - 1] - self.step_time()
+    }
+
     /// Where the level is: 0 at the old reference, 1 at the new one.
     fn progress(&self, row: usize) -> f64 {
         (self.level[row] - self.before) / (self.after - self.before)

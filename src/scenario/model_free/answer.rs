@@ -1,6 +1,6 @@
 use crate::control::{ModelFree, Pairing};
 use crate::interaction::{niederlinski, relative_gain_array};
-use crate::linear::{Complex, LinearError, StateSpace, transmission_zeros};
+use crate::linear::{Complex, LinearError, StateSpace, snapped_to_origin, transmission_zeros};
 use crate::plant::{OperatingPoint, PlantError, QuadrupleTank, ValveSchedule};
 use crate::scenario::ScenarioError;
 use crate::sim::{
@@ -26,21 +26,16 @@ pub struct Moment {
     pub niederlinski: [Option<f64>; 2],
 }
 
-/// A zero this close to the origin, as a share of the fastest pole, is there: its sign is rounding.
-const ORIGIN: f64 = 1e-12;
-
 impl Moment {
     /// The moment at which the plant has these levels (m) and voltages (V). It need not be at rest.
     pub fn of(plant: &QuadrupleTank, point: &OperatingPoint) -> Self {
         let (a, b, c) = plant.linearise(point).reduced();
         let model = StateSpace::strictly_proper(a, b, c);
         let poles: Vec<f64> = plant.time_constants_s(point).into_iter().flatten().map(|time| -time.recip()).collect();
-        let origin = ORIGIN * poles.iter().fold(0.0, |fastest, pole| pole.abs().max(fastest));
-        let at_origin = |zero: Complex| if zero.norm() > origin { zero } else { Complex::ZERO };
-        let zeros = model
-            .as_ref()
-            .map_err(|&error| error)
-            .and_then(|model| Ok(transmission_zeros(model)?.into_iter().map(|zero| at_origin(zero.value)).collect()));
+        let fastest = poles.iter().fold(0.0, |fastest, pole| pole.abs().max(fastest));
+        let zeros = model.as_ref().map_err(|&error| error).and_then(|model| {
+            Ok(transmission_zeros(model)?.iter().map(|zero| snapped_to_origin(zero.value, fastest)).collect())
+        });
         let gain = model.and_then(|model| model.dc_gain());
         Self {
             valves: plant.valves,
