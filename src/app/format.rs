@@ -25,6 +25,11 @@ impl NumberStyle {
             .collect()
     }
 
+    /// `value` with `digits` decimals, more where it is so small that these would not tell it from zero.
+    pub fn at_least(self, value: f64, digits: usize) -> String {
+        if value.abs() < 0.095 { self.significant(value, digits) } else { self.fixed(value, digits) }
+    }
+
     /// `value` with about `digits` significant digits, never in scientific notation for ordinary sizes.
     pub fn significant(self, value: f64, digits: usize) -> String {
         if value == 0.0 || !value.is_finite() {

@@ -23,6 +23,10 @@ pub fn name_of(lab: Lab, id: PresetId) -> String {
     .to_owned()
 }
 
+fn changed(lab: Lab, id: PresetId) -> String {
+    tr!(lab, preset.changed, name = name_of(lab, id)).to_string()
+}
+
 /// What to know about a rig.
 pub fn remark_of(lab: Lab, id: Option<PresetId>) -> String {
     match id {
@@ -76,11 +80,15 @@ pub fn preset_choice(lab: Lab) -> AnyView {
         }
     };
     let options = Signal::derive(move || {
+        // What was changed is none of the choices, so that choosing the same rig again brings it back.
         let id = id.get();
-        let published =
-            PresetId::ALL.into_iter().map(|choice| option(choice.name(), &name_of(lab, choice), id == Some(choice)));
-        let own = id.is_none().then(|| option("", tr!(lab, preset.own), true));
-        published.chain(own).collect::<String>()
+        let intact = id.filter(|&id| lab.words.setup.with(|setup| **setup == setup_of(id)));
+        let published = PresetId::ALL
+            .into_iter()
+            .map(|choice| option(choice.name(), &name_of(lab, choice), intact == Some(choice)));
+        let own = || id.map_or_else(|| tr!(lab, preset.own).to_owned(), |id| changed(lab, id));
+        let other = intact.is_none().then(|| option("", &own(), true));
+        other.into_iter().chain(published).collect::<String>()
     });
     view! {
         <select

@@ -71,7 +71,11 @@ fn is_beyond(spec: &PoleZero, chart: &Chart) -> bool {
 }
 
 fn side(value: Complex<f64>) -> Role {
-    if value.re > 0.0 { Role::RightHalfPlane } else { Role::MinimumPhase }
+    match value.re {
+        re if re > 0.0 => Role::RightHalfPlane,
+        re if re < 0.0 => Role::MinimumPhase,
+        _ => Role::Neutral,
+    }
 }
 
 /// Ranges of the real and of the imaginary axis, with room around.

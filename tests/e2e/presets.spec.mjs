@@ -131,3 +131,14 @@ test('the run of Cocota P+ is as slow as published', async ({ lab }) => {
   // The 2620 s of level 2 hold for a step at 5000 s; tests/published_closed_loop.rs runs that one.
   expect(second[1]).toBeGreaterThan(2500);
 });
+
+test('a changed rig is called so, and choosing it again brings it back', async ({ lab }) => {
+  await lab.open();
+  await expect(lab.id('preset')).toHaveValue('johansson-2000-minimum-phase');
+  await lab.type('gain1-number', '9');
+  await expect(lab.id('preset')).toHaveValue('');
+  expect(await lab.id('preset').locator('option:checked').textContent()).toBe('Johansson 2000 · P−, changed');
+  await lab.preset('johansson-2000-minimum-phase');
+  expect(await lab.value('gain1-number')).toBe(3);
+  await expect(lab.id('preset')).toHaveValue('johansson-2000-minimum-phase');
+});

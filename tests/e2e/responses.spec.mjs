@@ -251,3 +251,29 @@ test('the data table holds the numbers of the picture', async ({ lab, page }) =>
   expect(await table.locator('thead').innerText()).toContain('level 1');
   await lab.clean();
 });
+
+test('a sentence tells how long a response was looked at, and that a load ends it', async ({ lab }) => {
+  await lab.open();
+  await lab.type('step2-time', '120');
+  expect(await lab.text('responses-sentence')).toMatch(/Level 1 settles 17\.8 s after its step \(watched for 20\.0 s\)/);
+  await lab.type('step2-time', '103');
+  expect(await lab.text('responses-sentence')).toContain('Level 1 does not settle in the 3.00 s to the next step, load or end');
+  await lab.type('step2-time', '1500');
+  expect(await lab.text('responses-sentence')).not.toContain('watched');
+});
+
+test('a run that does not begin at rest has no step response and says why', async ({ lab, page }) => {
+  await lab.open();
+  await lab.type('gamma1-number', '0.3');
+  await lab.type('gamma2-number', '0.7');
+  expect(await lab.text('responses-sentence')).toContain('does not begin at rest');
+  expect(await page.locator('[data-testid="metrics"] tbody tr').first().textContent()).toMatch(/level 1–––––/);
+});
+
+test('without a step there is nothing but sums, and none of rounding', async ({ lab, page }) => {
+  await lab.open();
+  await lab.type('step1-number', '0');
+  await lab.type('step2-number', '0');
+  expect(await lab.text('responses-sentence')).toContain('No reference moves');
+  expect(await page.locator('[data-testid="metrics"] tbody tr').first().textContent()).toMatch(/level 1––––––000/);
+});

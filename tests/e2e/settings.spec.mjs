@@ -125,7 +125,7 @@ test('from an embedded bench the whole lab opens with what is shown', async ({ l
   await lab.settle();
   const [opened] = await Promise.all([context.waitForEvent('page'), lab.id('full-lab').click()]);
   const whole = new Lab(opened, lab.origin, lab.complaints);
-  await expect(whole.id('preset')).toHaveValue('cocota-2009-minimum-phase');
+  await expect(whole.id('preset').locator('option:checked')).toHaveText('Cocota 2009 · P−, changed');
   expect(await whole.value('gamma1-number')).toBe(0.52);
   await expect(opened.locator('header.top')).toBeVisible();
 });

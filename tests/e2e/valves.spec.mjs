@@ -168,3 +168,30 @@ test('where a wall is too low, the page says so and goes on', async ({ lab }) =>
   expect(await lab.text('process-sentence')).toMatch(/Tank 1 would need \d+\.\d cm.*It overflows/);
   await lab.clean();
 });
+
+test('on the line all cards say the same, and rounding is told by none', async ({ lab, page }) => {
+  await lab.open();
+  for (const [gamma1, gamma2] of [['0.5', '0.5'], ['0.2', '0.8'], ['0.4', '0.6']]) {
+    await lab.type('gamma1-number', gamma1);
+    await lab.type('gamma2-number', gamma2);
+    expect(await lab.text('valves-sentence')).toContain('at the origin');
+    expect(await lab.text('zeros-sentence')).not.toContain('left half-plane');
+    expect(await lab.text('niederlinski')).toMatch(/index:\s–\sfor .*,\s–\sfor/);
+    expect(await lab.id('pole-zero').getAttribute('aria-label')).not.toMatch(/e−\d\d/);
+    expect(await page.locator('main').textContent()).not.toMatch(/\de−1\d/);
+  }
+  // Beside it, a small relative gain in the denominator is no zero.
+  await lab.type('gamma1-number', '0.5');
+  await lab.type('gamma2-number', '0.501');
+  expect(await lab.text('process-sentence')).toContain('1.00100 > 1');
+  expect(await page.locator('.card.rga .formula').textContent()).toContain('0.0010');
+  expect(await lab.text('rga-verdict')).toContain('hard to control');
+});
+
+test('where the plant is singular at every frequency, a relative gain is 0/0', async ({ lab }) => {
+  await lab.open();
+  await lab.type('gamma1-number', '1');
+  await lab.type('gamma2-number', '0');
+  expect(await lab.text('lambda-11')).toBe('–');
+  expect(await lab.text('lambda')).toBe('–');
+});

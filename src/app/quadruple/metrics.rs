@@ -15,6 +15,9 @@ struct Row {
     metrics: LoopMetrics,
 }
 
+/// Integrals below this, in the shown unit, are what rounding leaves of a run at rest.
+const ROUNDING: f64 = 1e-7;
+
 /// Metrics of the nonlinear run and of the pinned ones.
 pub fn table(lab: Lab) -> String {
     let unit = unit_name(lab.unit.get());
@@ -71,16 +74,18 @@ fn row_html(lab: Lab, row: &Row) -> String {
         Some(Settling::After { time_s }) => style.significant(time_s, 3),
     };
     let percent = |share: Option<f64>| share.map_or_else(none, |s| format!("{}\u{a0}%", style.fixed(100.0 * s, 1)));
+    // What rounding alone adds up to is nothing.
+    let sum = |value: f64| style.significant(if value < ROUNDING { 0.0 } else { value }, 3);
     let figures = [
         time(m.rise_time_s),
         settling(m.settling_2_percent),
         settling(m.settling_5_percent),
         percent(m.overshoot),
         percent(m.undershoot),
-        style.fixed(to_shown(m.other_peak, unit), length_digits(unit)),
-        style.significant(to_shown(m.iae, unit), 3),
-        style.significant(m.ise * per_metre(unit).powi(2), 3),
-        style.significant(to_shown(m.itae, unit), 3),
+        m.step_time_s.map_or_else(none, |_| style.fixed(to_shown(m.other_peak, unit), length_digits(unit))),
+        sum(to_shown(m.iae, unit)),
+        sum(m.ise * per_metre(unit).powi(2)),
+        sum(to_shown(m.itae, unit)),
         style.fixed(m.total_variation, 2),
         style.fixed(m.saturated_s, 0),
     ];

@@ -157,11 +157,18 @@ fn sentence(lab: Lab) -> String {
         if unstable == Some(true) {
             parts = vec![tr!(lab, responses.unstable).to_string()];
         } else if parts.is_empty() {
-            parts.push(tr!(lab, responses.sentence_still).to_string());
+            let has_step = run.metrics.iter().any(|m| m.step_time_s.is_some());
+            let has_load = lab.words.setup.with(|s| !s.experiment.load_steps.is_empty());
+            let text = match (has_step, has_load) {
+                (true, _) => tr!(lab, responses.not_at_rest),
+                (false, true) => tr!(lab, responses.load_alone),
+                (false, false) => tr!(lab, responses.sentence_still),
+            };
+            parts.push(text.to_owned());
         } else if lab.words.setup.with(|s| s.experiment.is_disturbed()) {
             parts.push(tr!(lab, responses.disturbed).to_string());
         }
-        parts.extend(run.nonlinear.events.iter().take(2).map(|event| {
+        parts.extend(run.nonlinear.events.iter().take(MOST_EVENTS).map(|event| {
             let time = lab.number_style().fixed(event.time_s, 0);
             match event.kind {
                 EventKind::Overflow { tank } => {
@@ -177,10 +184,14 @@ fn sentence(lab: Lab) -> String {
     })
 }
 
+/// Most events that the sentence tells.
+const MOST_EVENTS: usize = 4;
+
 fn of_metrics(lab: Lab, index: usize, metrics: &LoopMetrics) -> Option<String> {
     let style = lab.number_style();
     let unit = lab.unit.get();
-    metrics.step_time_s?;
+    let window_s = metrics.window_s?;
+    let window = style.significant(window_s, 3);
     let cross = style.fixed(to_shown(metrics.other_peak, unit), length_digits(unit));
     let (level, other) = (index + 1, 2 - index);
     Some(match metrics.settling_2_percent? {
@@ -194,11 +205,16 @@ fn of_metrics(lab: Lab, index: usize, metrics: &LoopMetrics) -> Option<String> {
                 tr!(lab, responses.with_overshoot, share = share).to_string()
             };
             let time = style.significant(time_s, 3);
+            // Where it is over so soon, what comes later may be worse.
+            let is_short = window_s < 2.0 * time_s;
+            let watched =
+                if is_short { tr!(lab, responses.watched, window = window).to_string() } else { String::new() };
             tr!(
                 lab,
                 responses.sentence_settles,
                 level = level,
                 time = time,
+                watched = watched,
                 overshoot = overshoot,
                 other = other,
                 cross = cross,
@@ -206,9 +222,15 @@ fn of_metrics(lab: Lab, index: usize, metrics: &LoopMetrics) -> Option<String> {
             )
             .to_string()
         }
-        Settling::Never => {
-            tr!(lab, responses.sentence_never, level = level, other = other, cross = cross, unit = unit_name(unit))
-                .to_string()
-        }
+        Settling::Never => tr!(
+            lab,
+            responses.sentence_never,
+            level = level,
+            window = window,
+            other = other,
+            cross = cross,
+            unit = unit_name(unit)
+        )
+        .to_string(),
     })
 }

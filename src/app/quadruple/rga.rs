@@ -9,6 +9,9 @@ use crate::app::widgets::{card, remark, verdict};
 use crate::interaction::{PairingReason, PairingVerdict};
 use crate::scenario::Analysis;
 
+/// Relative gains above this make a plant hard to control: some directions need far more input than others.
+const LARGE: f64 = 5.0;
+
 /// The relative gain array.
 pub fn relative_gain_card() -> AnyView {
     let lab = use_lab();
@@ -38,7 +41,7 @@ fn gains(lab: Lab) -> String {
     let cell = |row: usize, column: usize| {
         let gain = rga.map(|gains| gains[row][column]);
         let sign = if gain.is_some_and(|g| g > 0.0) { "positive" } else { "negative" };
-        let text = gain.map_or_else(|| "∞".to_owned(), |g| lab.number_style().fixed(g, 2));
+        let text = gain.map_or_else(|| unbounded(lab), |g| lab.number_style().at_least(g, 2));
         let number = element("span", &format!("data-testid=\"lambda-{}{}\"", row + 1, column + 1), &text);
         if chosen(row, column) {
             let note = format!(" ({})", escape(tr!(lab, rga.suggested)));
@@ -59,12 +62,19 @@ fn gains(lab: Lab) -> String {
     format!("{caption}{head}<tbody>{}{}</tbody>", row(0), row(1))
 }
 
+/// A relative gain that there is not: beyond all bounds, or 0/0 where the plant is singular at every frequency.
+fn unbounded(lab: Lab) -> String {
+    let is_degenerate = lab.words.with_analysis(|a| a.zeros.is_err()) == Some(true);
+    if is_degenerate { "–" } else { "∞" }.to_owned()
+}
+
 /// λ11 = γ1γ2/(γ1+γ2−1) with the numbers in it (Cocota 2009, eq. 4.10).
 fn formula(lab: Lab) -> String {
-    let number = |v: f64| lab.number_style().fixed(v, 2);
-    let value = lab.words.with_analysis(|a| a.rga_11.ok()).flatten().map_or_else(|| "∞".to_owned(), number);
+    let number = |v: f64| lab.number_style().at_least(v, 2);
+    let value = lab.words.with_analysis(|a| a.rga_11.ok()).flatten().map_or_else(|| unbounded(lab), number);
     let [g1, g2] = lab.words.setup.with(|s| s.valves);
-    let (first, second, below) = (number(g1), number(g2), number(g1 + g2 - 1.0));
+    let [first, second] = [g1, g2].map(|gamma| lab.number_style().fixed(gamma, 2));
+    let below = number(g1 + g2 - 1.0);
     let gamma = |k: u8| format!("<msub><mi>γ</mi><mn>{k}</mn></msub>");
     let (one, two) = (gamma(1), gamma(2));
     format!(
@@ -87,7 +97,7 @@ fn of_verdict(lab: Lab, verdict: PairingVerdict) -> String {
     };
     let rest = match reason {
         PairingReason::OnlyPositiveRelativeGain { relative_gain } => {
-            tr!(lab, rga.only_positive, other = style.fixed(1.0 - relative_gain, 2)).to_string()
+            tr!(lab, rga.only_positive, other = style.at_least(1.0 - relative_gain, 2)).to_string()
         }
         PairingReason::RelativeGainCloserToOne { relative_gain } => {
             tr!(lab, rga.closer, gain = style.fixed(relative_gain, 2)).to_string()
@@ -95,11 +105,12 @@ fn of_verdict(lab: Lab, verdict: PairingVerdict) -> String {
         PairingReason::EqualRelativeGains => String::new(),
         PairingReason::SingularGain => tr!(lab, rga.singular).to_string(),
     };
-    format!("{lead}{rest}")
+    let is_large = lab.words.with_analysis(|a| a.rga_11.is_ok_and(|gain| gain.abs() > LARGE)) == Some(true);
+    format!("{lead}{rest}{}", if is_large { tr!(lab, rga.large) } else { "" })
 }
 
 fn of_niederlinski(lab: Lab) -> String {
-    let number = |index: Option<f64>| index.map_or_else(|| "–".to_owned(), |n| lab.number_style().fixed(n, 2));
+    let number = |index: Option<f64>| index.map_or_else(|| "–".to_owned(), |n| lab.number_style().at_least(n, 2));
     lab.words
         .with_analysis(|a| {
             let [diagonal, swapped] = a.niederlinski.map(number);

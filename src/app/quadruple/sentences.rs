@@ -60,7 +60,9 @@ pub fn situation(lab: Lab) -> Option<ZeroSituation> {
 pub fn of_zero(lab: Lab) -> (String, bool) {
     let style = lab.number_style();
     let valves = lab.words.setup.with(|s| s.valves);
-    let sum = style.fixed(valves[0] + valves[1], 2);
+    let (sum, off) = (valves[0] + valves[1], (valves[0] + valves[1] - 1.0).abs());
+    // Enough digits to see on which side of 1.
+    let sum = style.fixed(sum, if off < 0.005 { 5 } else { 2 });
     let Some(situation) = situation(lab) else {
         return (tr!(lab, process.no_equilibrium).to_string(), true);
     };
