@@ -13,7 +13,8 @@ impl NumberStyle {
         if !value.is_finite() {
             return "–".to_owned();
         }
-        let text = format!("{value:.digits$}");
+        // Halves go away from zero, as people round: 1.125 is 1.13. Formatting alone takes the even neighbour.
+        let text = format!("{:.digits$}", value * (1.0 + f64::EPSILON));
         let zero = text.chars().all(|c| matches!(c, '-' | '0' | '.'));
         text.chars()
             .filter(|&c| !(zero && c == '-'))
@@ -81,6 +82,7 @@ mod tests {
     fn a_negative_number_has_a_true_minus_and_zero_has_none() {
         assert_eq!(EN.fixed(-0.636, 2), "−0.64");
         assert_eq!(EN.fixed(-0.001, 2), "0.00");
+        assert_eq!([1.125, -1.125, 0.285].map(|half| EN.fixed(half, 2)), ["1.13", "−1.13", "0.29"]);
         assert_eq!(PT.fixed(1.5, 1), "1,5");
     }
 

@@ -31,7 +31,7 @@ fn link_of(lab: Lab) -> Result<String, ScenarioError> {
 
 /// The address that restores everything. Start flags stay; a page without an address of its own (`srcdoc`) has only the
 /// fragment to give.
-fn address_of(lab: Lab) -> Result<String, ScenarioError> {
+pub fn address_of(lab: Lab) -> Result<String, ScenarioError> {
     let link = link_of(lab)?;
     let here = window().location().href().unwrap_or_default();
     let page = here.split('#').next().unwrap_or_default();

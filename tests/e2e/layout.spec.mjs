@@ -62,14 +62,16 @@ for (const [width, height] of SIZES) {
   }
 }
 
-test('narrow screens stack the cards in reading order', async ({ lab, page }) => {
+test('on a phone the responses stand between the valves and the controller, and are seen while the point moves', async ({ lab, page }) => {
   await page.setViewportSize({ width: 390, height: 844 });
   await lab.open();
   const tops = [];
-  for (const card of ['process', 'plane', 'zeros', 'rga', 'pi', 'experiment', 'responses']) {
+  for (const card of ['process', 'plane', 'responses', 'pi', 'experiment', 'zeros', 'rga', 'why']) {
     tops.push((await page.locator(`section.card.${card}`).boundingBox()).y);
   }
   expect(tops).toEqual([...tops].sort((a, b) => a - b));
+  const [plane, responses] = [await lab.id('valve-plane').boundingBox(), await lab.id('responses').boundingBox()];
+  expect(responses.y + responses.height - plane.y).toBeLessThan(844);
 });
 
 test('what a finger has to hit is large enough', async ({ lab, page }) => {

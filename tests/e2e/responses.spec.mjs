@@ -243,6 +243,18 @@ for (const [name, heading, rows] of EXPORTS) {
   });
 }
 
+test('an exported picture leads back to its experiment', async ({ lab, page }) => {
+  await lab.open();
+  await lab.id('gamma1').fill('0.25');
+  await lab.id('responses-menu').locator('summary').click();
+  const [download] = await Promise.all([page.waitForEvent('download'), lab.id('responses-svg').click()]);
+  const svg = (await readFile(await download.path())).toString();
+  const link = await page.evaluate((text) => new DOMParser().parseFromString(text, 'image/svg+xml').querySelector('desc').textContent, svg);
+  await page.goto('about:blank');
+  await page.goto(link);
+  await expect(lab.id('gamma1-number')).toHaveValue('0.25');
+});
+
 test('the data table holds the numbers of the picture', async ({ lab, page }) => {
   await lab.open();
   await lab.id('data-table').click();

@@ -35,7 +35,8 @@ pub fn process_card() -> AnyView {
     let moment = use_moment();
     let remark = Signal::derive(move || match moment.get().and_then(|m| m.time_s) {
         Some(time) => tr!(lab, process.at_time, time = lab.number_style().fixed(time, 0)),
-        None => tr!(lab, process.at_rest).to_owned(),
+        None if lab.locks(Control::Valves) => tr!(lab, process.at_rest).to_owned(),
+        None => tr!(lab, process.drag_valves).to_owned(),
     });
     let open = RwSignal::new(false);
     let sentence = move || sentences::of_zero(lab);

@@ -29,10 +29,9 @@ const INLETS: [(f64, f64, &str); 4] =
     [(70.0, 152.0, "stroke1"), (206.0, 152.0, "stroke2"), (70.0, 34.0, "stroke2"), (206.0, 34.0, "stroke1")];
 /// The valves, left and right.
 const VALVES: [(f64, f64); 2] = [(42.0, 148.0), (234.0, 148.0)];
-const VALVE_LOOKS: [&str; 2] = [
-    "<circle class=\"halo\" r=\"13\"/><path class=\"one\" d=\"M-6 -8 H6 L0 0 L6 8 H-6 L0 0 Z\"/>",
-    "<circle class=\"halo\" r=\"13\"/><path class=\"two\" d=\"M-6 -8 H6 L0 0 L6 8 H-6 L0 0 Z\"/>",
-];
+const HALO: &str = "<circle class=\"halo\" r=\"13\"/>";
+const VALVE_SYMBOLS: &str = "<path class=\"one\" d=\"M36 140 h12 l-6 8 l6 8 h-12 l6 -8 Z\"/>\
+    <path class=\"two\" d=\"M228 140 h12 l-6 8 l6 8 h-12 l6 -8 Z\"/>";
 const VALVE_IDS: [&str; 2] = ["valve1", "valve2"];
 /// How far a valve is dragged from shut to open (CSS px).
 const VALVE_TRAVEL_PX: f64 = 120.0;
@@ -83,7 +82,7 @@ pub fn drawing(lab: Lab, plant: &QuadrupleTank, unit: DisplayUnit, moment: Optio
     let streams = moment.map_or_else(String::new, |m| streams(plant, m));
     let pumps: String = (0..2).map(|k| pump(lab, k, moment.map(|m| m.pump_voltage[k]))).collect();
     let valves: String = (0..2).map(|k| valve_texts(lab, k, plant.valves[k])).collect();
-    format!("{PIPES}{streams}{tanks}{BASIN}{pumps}{valves}")
+    format!("{PIPES}{streams}{tanks}{BASIN}{pumps}{VALVE_SYMBOLS}{valves}")
 }
 
 /// One tank: walls, water, name, level, and a word where it overflows or is dry.
@@ -139,13 +138,11 @@ fn streams(plant: &QuadrupleTank, moment: &Moment) -> String {
             "<line class=\"flow {class}\" x1=\"{x}\" y1=\"{from}\" x2=\"{x}\" y2=\"{to}\" stroke-width=\"{width:.2}\"/>"
         )
     };
-    let falling = INLETS.into_iter().enumerate().map(|(k, (x, y, class))| {
-        let surface = TANKS[k].1 + TANK.1 * (1.0 - share(&plant.tanks[k], moment.levels[k]));
-        stream(class, x, (y, surface), inflow[k])
-    });
+    let surface = |k: usize| TANKS[k].1 + TANK.1 * (1.0 - share(&plant.tanks[k], moment.levels[k]));
+    let falling = INLETS.into_iter().enumerate().map(|(k, (x, y, class))| stream(class, x, (y, surface(k)), inflow[k]));
     let drains = TANKS.into_iter().enumerate().map(|(k, (left, top))| {
         // The upper tanks pour into the lower ones; the lower ones into the basin.
-        let below = if k < 2 { 268.0 } else { TANKS[k - 2].1 + 14.0 };
+        let below = if k < 2 { 268.0 } else { surface(k - 2) };
         stream("drain", left + TANK.0 / 2.0, (top + TANK.1 + 1.0, below), outflow[k])
     });
     falling.chain(drains).collect()
@@ -193,7 +190,7 @@ fn valve_view(lab: Lab, valve: usize) -> AnyView {
             on_drag=move |drag: Drag| set(grabbed.get_value() - drag.moved.1 / VALVE_TRAVEL_PX)
             on_nudge=move |by: Nudge| set(gamma.get_untracked() + STEP * by.along())
             at=VALVES[valve]
-            look=VALVE_LOOKS[valve]
+            look=HALO
         />
     }
     .into_any()

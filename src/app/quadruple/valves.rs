@@ -29,10 +29,9 @@ pub fn valve_plane_card() -> AnyView {
         let style = lab.number_style();
         tr!(lab, valves.summary, gamma1 = style.fixed(g1, 2), gamma2 = style.fixed(g2, 2))
     });
-    let beside = vec![
-        remark(say!(lab, valves.remark)),
-        view! { <ChartMenu picture=picture.clone() file="valve-plane" title /> }.into_any(),
-    ];
+    let menu = view! { <ChartMenu picture=picture.clone() file="valve-plane" title /> }.into_any();
+    let hint = (!lab.locks(Control::Valves)).then(|| remark(say!(lab, valves.remark)));
+    let beside = hint.into_iter().chain([menu]).collect();
     let content = vec![
         view! {
             <div class="chart square">

@@ -9,6 +9,7 @@ use super::element_size::follow_size;
 use crate::app::canvas;
 use crate::app::download::{download_canvas, download_text};
 use crate::app::lab::use_lab;
+use crate::app::share::address_of;
 use crate::app::texts::tr;
 use crate::figure::{Chart, Frame, Sheet, Size, Style, layout, to_svg};
 
@@ -130,7 +131,9 @@ pub fn ChartMenu(
     let save_svg = move || {
         let text = untrack(|| {
             let style = lab.chart_style();
-            for_svg.visit(|charts| to_svg(charts, EXPORT, &style, &title.get(), ""))
+            // A picture on a slide still leads to its experiment.
+            let link = address_of(lab).unwrap_or_default();
+            for_svg.visit(|charts| to_svg(charts, EXPORT, &style, &title.get(), &link))
         });
         download_text(&format!("{file}.svg"), "image/svg+xml", &text);
     };
