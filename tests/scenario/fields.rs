@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 use super::largest_setup;
 
 /// A document in which every kind of field occurs.
-fn full() -> Value {
+pub fn full() -> Value {
     let mut scenario = Scenario::from(largest_setup(0));
     let setup = &mut scenario.setup;
     setup.controller.loops[0].mode = LoopMode::Manual { output: 5.0, until_s: 60.0 };
@@ -24,7 +24,7 @@ fn full() -> Value {
 }
 
 /// Fields (by the path that an error gives, and by JSON pointer) and a number that is out of their range.
-const LEAVES: [(&str, &str, f64); 40] = [
+pub const LEAVES: [(&str, &str, f64); 40] = [
     (
         "setup.plant.parameters.rig.tanks[2].section.area_at_empty",
         "/setup/plant/parameters/rig/tanks/2/section/area_at_empty",

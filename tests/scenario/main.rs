@@ -5,6 +5,7 @@ mod fields;
 #[path = "../random/mod.rs"]
 mod random;
 
+use fields::{LEAVES, full};
 use proptest::prelude::*;
 use proptest::sample::Index;
 use quadtank::control::{AntiWindup, LoopMode, Pairing};
