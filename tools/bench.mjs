@@ -151,8 +151,45 @@ const readMeasures = (page) =>
 
 const RELAY = '?bench=relay-tuning';
 
+/** What the browser alone needs: a page with one slider and two canvases as large as those of the home bench, four curves on each. */
+const EMPTY_PAGE = `<!doctype html><body>
+  <canvas width="240" height="240"></canvas><canvas width="840" height="260"></canvas><br>
+  <input type="range" min="0" max="1" step="0.001" data-testid="gamma1">`;
+
+/** The page follows its slider as the laboratory does, and measures the same. */
+const followSlider = () => {
+  const slider = document.querySelector('input');
+  const contexts = [...document.querySelectorAll('canvas')].map((canvas) => canvas.getContext('2d'));
+  const [POINTS, CURVES] = [200, 4];
+  const paint = (context) => {
+    const { width, height } = context.canvas;
+    context.clearRect(0, 0, width, height);
+    context.lineWidth = 2;
+    for (let curve = 0; curve < CURVES; curve += 1) {
+      context.beginPath();
+      for (let k = 0; k <= POINTS; k += 1) {
+        const wave = Math.sin(k / 20 + curve + 5 * slider.valueAsNumber);
+        context.lineTo((k / POINTS) * width, height * (0.5 + 0.4 * wave));
+      }
+      context.stroke();
+    }
+  };
+  let since;
+  slider.addEventListener('input', () => {
+    if (since !== undefined) return;
+    since = performance.now();
+    requestAnimationFrame(() => {
+      contexts.forEach(paint);
+      const start = since;
+      since = undefined;
+      setTimeout(() => performance.measure('quadtank:paint', { start }));
+    });
+  });
+};
+
 /** What is moved, where, and what has to be met at which slowdown (ms); bars of compute are for the median. */
 const WAYS = [
+  { way: 'the browser alone: a slider and two canvases on an empty page', move: dragSlider('gamma1'), bars: { 1: {}, 6: {} }, isEmpty: true },
   { way: 'slider of γ1', query: '', move: dragSlider('gamma1'), bars: HOME_BARS },
   { way: 'slider of K1', query: '', move: dragSlider('gain1'), bars: HOME_BARS },
   { way: 'point of the valve plane', query: '', move: dragHandle('valve-handle', [0.5, 0.5], [0.25, 0.25]), bars: HOME_BARS },
@@ -173,18 +210,24 @@ const WAYS = [
 async function frameFigures(url, slowdown) {
   return inLaboratory(url, [], async (page, session, version) => {
     const rows = [];
-    for (const { way, query, move, bars } of WAYS.filter(({ bars }) => bars[slowdown])) {
+    for (const { way, query, move, bars, isEmpty } of WAYS.filter(({ bars }) => bars[slowdown])) {
       progress(`${MOVES} moves of the ${way}, processor slowed ${slowdown}×`);
       // Each way starts from the published setting, not from where the one before has left it.
       await session.send('Emulation.setCPUThrottlingRate', { rate: 1 });
-      await page.goto(`${url}${query}`);
-      await page.locator('#bench:not(.outline)').waitFor();
+      if (isEmpty) {
+        await page.setContent(EMPTY_PAGE);
+        await page.evaluate(followSlider);
+      } else {
+        await page.goto(`${url}${query}`);
+        await page.locator('#bench:not(.outline)').waitFor();
+      }
       await move(page, WARM_UP);
       await session.send('Emulation.setCPUThrottlingRate', { rate: slowdown });
       await clearMeasures(page);
       await move(page, MOVES);
       const measures = await readMeasures(page);
       for (const [what, times] of Object.entries(measures)) {
+        if (isEmpty && what !== 'paint') continue;
         if (times.length === 0) throw new Error(`the page recorded no ${MEASURES[what]}`);
         const [median, high] = [quantile(times, 0.5), quantile(times, 0.95)];
         rows.push({ way, slowdown, what, frames: times.length, median, high, bar: bars[slowdown][what] });

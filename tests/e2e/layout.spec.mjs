@@ -62,6 +62,23 @@ for (const [width, height] of SIZES) {
   }
 }
 
+for (const [width, height] of [[1440, 900], [1920, 1080]]) {
+  for (const lang of ['en', 'pt-BR']) {
+    test(`${width} × ${height}, ${lang}: pictures keep their size while sentences change`, async ({ lab, page }) => {
+      await page.setViewportSize({ width, height });
+      await lab.open(`lang=${lang}`);
+      const heights = new Set();
+      for (const [one, two] of [[0.7, 0.6], [0.5, 0.5], [0.45, 0.5], [0.3, 0.4], [0, 0.5], [1, 1], [1, 0], [0.02, 0.9]]) {
+        await lab.type('gamma1-number', String(one));
+        await lab.type('gamma2-number', String(two));
+        const boxes = await Promise.all(['valve-plane', 'pole-zero'].map((name) => lab.id(name).boundingBox()));
+        heights.add(boxes.map((box) => box.height).join(' '));
+      }
+      expect([...heights]).toHaveLength(1);
+    });
+  }
+}
+
 test('on a phone the responses stand between the valves and the controller, and are seen while the point moves', async ({ lab, page }) => {
   await page.setViewportSize({ width: 390, height: 844 });
   await lab.open();
