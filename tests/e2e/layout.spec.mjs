@@ -68,7 +68,7 @@ for (const [width, height] of [[1440, 900], [1920, 1080]]) {
       await page.setViewportSize({ width, height });
       await lab.open(`lang=${lang}`);
       const heights = new Set();
-      for (const [one, two] of [[0.7, 0.6], [0.5, 0.5], [0.45, 0.5], [0.3, 0.4], [0, 0.5], [1, 1], [1, 0], [0.02, 0.9]]) {
+      for (const [one, two] of [[0.7, 0.6], [0.5, 0.5], [0.46, 0.5], [0.3, 0.4], [0, 0.5], [1, 1], [1, 0], [0.02, 0.9]]) {
         await lab.type('gamma1-number', String(one));
         await lab.type('gamma2-number', String(two));
         const boxes = await Promise.all(['valve-plane', 'pole-zero'].map((name) => lab.id(name).boundingBox()));
@@ -90,6 +90,27 @@ test('on a phone the responses stand between the valves and the controller, and 
   const [plane, responses] = [await lab.id('valve-plane').boundingBox(), await lab.id('responses').boundingBox()];
   expect(responses.y + responses.height - plane.y).toBeLessThan(844);
 });
+
+for (const lang of ['en', 'pt-BR']) {
+  test(`${lang}: the name of a changed rig is not cut off`, async ({ lab, page }) => {
+    await lab.open(`lang=${lang}`);
+    const select = lab.id('preset');
+    const names = await select.locator('option').evaluateAll((options) => options.map((option) => option.value));
+    for (const name of names) {
+      await lab.preset(name);
+      await lab.type('gamma1-number', lang === 'en' ? '0.41' : '0,41');
+      const [shown, needed] = await select.evaluate((box) => {
+        const width = () => box.getBoundingClientRect().width;
+        const shown = width();
+        box.style.cssText = 'max-width: none; flex: none';
+        const needed = width();
+        box.style.cssText = '';
+        return [shown, needed];
+      });
+      expect(needed, name).toBeLessThanOrEqual(shown + 0.5);
+    }
+  });
+}
 
 test('what a finger has to hit is large enough', async ({ lab, page }) => {
   await page.setViewportSize({ width: 390, height: 844 });
@@ -115,5 +136,5 @@ test('the screenshot of the README', async ({ lab, page }) => {
   await lab.type('gain2-number', '0.28');
   await lab.type('integral2-number', '160');
   expect(await lab.text('stability')).toContain('stable');
-  await page.screenshot({ path: process.env.QUADTANK_SCREENSHOT ?? 'test-results/screenshot.png' });
+  await page.screenshot({ path: process.env.QUADTANK_SCREENSHOT ?? 'test-results/screenshot.png', fullPage: true });
 });
