@@ -190,7 +190,8 @@ fn independent_tests_see_single_loops_and_detuning_weakens_them() {
     let plant = PublishedPlant::WoodBerry.transfer_matrix().unwrap();
     let time = TestTime { duration: 300.0, release: 3.0, step: 0.02 };
     let rule = TuningRule::ZieglerNicholsPi;
-    let tuned = independent_tuning(&plant, [1.0, 1.0], rule, [1.0, 2.0], time).unwrap();
+    let tuned = independent_tuning(&plant, [Relay::ideal(1.0, 12.8), Relay::ideal(1.0, -19.4)], rule, [1.0, 2.0], time)
+        .unwrap();
     let [one, two] = tuned.map(|(_, settings)| settings.unwrap());
     // Single loops: Kc 2.0994 and −0.4221, Tc 3.907 and 11.132; the relay is within 3 %.
     assert_relative_eq!(one.gain, 0.4 * 2.0994, max_relative = 0.03);
@@ -203,7 +204,7 @@ fn independent_tests_see_single_loops_and_detuning_weakens_them() {
 fn a_sequence_of_tests_converges_on_process_two() {
     let plant = PublishedPlant::ProcessTwo.transfer_matrix().unwrap();
     let time = TestTime { duration: 120.0, release: 1.2, step: 0.01 };
-    let steps = sequential_tuning(&plant, [1.0, 1.0], TuningRule::TyreusLuybenPi, 4, time).unwrap();
+    let steps = sequential_tuning(&plant, [Relay::ideal(1.0, 1.0); 2], TuningRule::TyreusLuybenPi, 4, time).unwrap();
     assert_eq!(steps.len(), 8);
     let gains: Vec<f64> = steps.iter().map(|step| step.settings.unwrap().gain).collect();
     let change = |pass: usize, i: usize| (gains[2 * pass + i] / gains[2 * pass + i - 2] - 1.0).abs();

@@ -1,15 +1,18 @@
 //! Relay-tuning documents: published cases, versions, bad input.
 #![cfg(not(target_arch = "wasm32"))]
 
+use std::f64::consts::TAU;
+
 use quadtank::control::Pairing;
 use quadtank::linear::LoopStability;
 use quadtank::plant::PresetId;
 use quadtank::scenario::tuning::{
-    Element, PublishedCase, Study, Tested, TuningPlant, TuningScenario, TuningSetup, tune,
+    Element, PublishedCase, Study, TestKind, TestSpec, Tested, TuningPlant, TuningScenario, TuningSetup, tune,
 };
 use quadtank::scenario::{
     Document, ScenarioError, document_from_json, document_from_link, from_json, tuning_to_json, tuning_to_link,
 };
+use quadtank::tuning::RelayReading;
 use serde_json::{Value, json};
 
 /// What print and computation differ in by more than the digits of the print and of its periods leave open. Where the source is
@@ -175,4 +178,62 @@ fn a_session_on_a_rig_begins_with_a_test_that_oscillates() {
             std::f64::consts::TAU / design.frequency
         );
     }
+}
+
+/// Two loops e^(−2s)/(10 s + 1) without interaction, under relays of amplitude 1, in tests of a kind.
+fn two_lags(kind: TestKind) -> TuningSetup {
+    let element = |gain: f64| Element { numerator: vec![gain], denominator: vec![1.0, 10.0], dead_time: 2.0 };
+    let mut setup = TuningScenario::default().tuning;
+    setup.plant = TuningPlant::Elements([[element(1.0), element(0.0)], [element(0.0), element(1.0)]]);
+    setup.test = TestSpec { kind, ..TestSpec::simultaneous(200.0, 0.0, 0.01) };
+    setup
+}
+
+/// Period and gain by first harmonics of both loops.
+fn oscillations(setup: &TuningSetup) -> [(f64, f64); 2] {
+    let study = Study::of(&setup.plant).unwrap();
+    let of = |reading: &RelayReading, index: usize| {
+        let oscillation = reading.oscillation.unwrap();
+        (oscillation.period, oscillation.loops[index].gain_by_harmonic.unwrap())
+    };
+    match study.test(setup).unwrap() {
+        Tested::Independent(loops) => [0, 1].map(|i| of(&loops[i].0.reading, i)),
+        Tested::Sequential(steps) => [0, 1].map(|i| of(&steps[i].test.reading, i)),
+        Tested::Simultaneous(test, _) => [0, 1].map(|i| of(&test.reading, i)),
+        Tested::Single(test, _) => [of(&test.reading, 0); 2],
+    }
+}
+
+/// Period, and gain by first harmonics, of 1/(10 s + 1) e^(−2 s) under a relay of amplitude 1, in closed form: when the relay
+/// has switched, the output goes on for the dead time and then turns.
+fn exact_oscillation(bias: f64, hysteresis: f64) -> (f64, f64) {
+    let (lag, dead_time) = (10.0, 2.0);
+    let (up, down) = (bias + 1.0, bias - 1.0);
+    let after_dead_time = |level: f64, input: f64| input + (level - input) * f64::exp(-dead_time / lag);
+    let bottom = after_dead_time(-hysteresis, down);
+    let top = after_dead_time(hysteresis, up);
+    let rising = lag * ((up - bottom) / (up - hysteresis)).ln();
+    let falling = lag * ((top - down) / (-hysteresis - down)).ln();
+    let period = 2.0 * dead_time + rising + falling;
+    (period, (TAU / period * lag).hypot(1.0))
+}
+
+#[test]
+fn bias_and_hysteresis_act_in_every_test_of_both_loops() {
+    for kind in [TestKind::Independent, TestKind::Sequential, TestKind::Simultaneous] {
+        for (bias, hysteresis) in [(0.0, 0.0), (0.3, 0.0), (0.0, 0.05), (-0.2, 0.1)] {
+            let mut setup = two_lags(kind);
+            (setup.test.bias, setup.test.hysteresis) = ([bias; 2], [hysteresis; 2]);
+            let (period, gain) = exact_oscillation(bias, hysteresis);
+            for found in oscillations(&setup) {
+                // Rows every 0.01 make the output straight lines: 1e-5 of a period.
+                assert!((found.0 / period - 1.0).abs() < 1e-5, "{kind:?}: {found:?}, {period}");
+                assert!((found.1 / gain - 1.0).abs() < 1e-5, "{kind:?}: {found:?}, {gain}");
+            }
+        }
+    }
+    // The figures of the closed form: 7.3318, 7.833 and 8.08, 9.039.
+    assert!((exact_oscillation(0.3, 0.0).0 - 7.833).abs() < 5e-4);
+    assert!((exact_oscillation(0.3, 0.0).1 - 8.08).abs() < 5e-3);
+    assert!((exact_oscillation(0.0, 0.05).0 - 9.039).abs() < 5e-4);
 }

@@ -85,30 +85,30 @@ pub fn simultaneous_test(
     relay_test(&mut DelayedPlant::new(&plant.paths())?, relays, PidMatrix::default(), time)
 }
 
-/// An ideal relay in one loop, the input of the other at rest (IRF, Campestrini 2006, §3.5).
+/// A relay in one loop, the input of the other at rest (IRF, Campestrini 2006, §3.5).
 ///
 /// # Errors
 /// As [`simultaneous_test`].
 pub fn independent_test(
     plant: &TransferMatrix,
     index: usize,
-    amplitude: f64,
+    relay: Relay,
     time: TestTime,
 ) -> Result<RelayTest, TuningError> {
-    with_one_relay(plant, index, amplitude, ParallelPid::default(), time)
+    with_one_relay(plant, index, relay, ParallelPid::default(), time)
 }
 
 /// A relay in one loop, a controller in the other.
 fn with_one_relay(
     plant: &TransferMatrix,
     index: usize,
-    amplitude: f64,
+    relay: Relay,
     other: ParallelPid,
     time: TestTime,
 ) -> Result<RelayTest, TuningError> {
     check_stable(plant)?;
     let mut relays = [None; 2];
-    relays[index] = Some(Relay::ideal(amplitude, plant.dc_gain()[(index, index)]));
+    relays[index] = Some(relay);
     let mut controllers = [other; 2];
     controllers[index] = ParallelPid::default();
     relay_test(&mut DelayedPlant::new(&plant.paths())?, relays, PidMatrix::decentralised(controllers), time)
@@ -129,14 +129,14 @@ pub type TestAndSettings = (RelayTest, Option<IsaPid>);
 /// As [`simultaneous_test`]; [`TuningError::OutOfRange`] for a factor that is not positive.
 pub fn independent_tuning(
     plant: &TransferMatrix,
-    amplitudes: [f64; 2],
+    relays: [Relay; 2],
     rule: TuningRule,
     detuning: [f64; 2],
     time: TestTime,
 ) -> Result<[TestAndSettings; 2], TuningError> {
     let of_loop = |index: usize| {
         positive("detuning", detuning[index])?;
-        let test = independent_test(plant, index, amplitudes[index], time)?;
+        let test = independent_test(plant, index, relays[index], time)?;
         let settings = ultimate_point(&test, index).map(|point| rule.settings(point).detuned(detuning[index]));
         Ok::<_, TuningError>((test, settings))
     };
@@ -165,7 +165,7 @@ pub struct SequentialStep {
 /// As [`simultaneous_test`].
 pub fn sequential_tuning(
     plant: &TransferMatrix,
-    amplitudes: [f64; 2],
+    relays: [Relay; 2],
     rule: TuningRule,
     passes: usize,
     time: TestTime,
@@ -174,7 +174,7 @@ pub fn sequential_tuning(
     let mut controllers = [ParallelPid::default(); 2];
     for pass in 1..=passes {
         for index in [0, 1] {
-            let test = with_one_relay(plant, index, amplitudes[index], controllers[1 - index], time)?;
+            let test = with_one_relay(plant, index, relays[index], controllers[1 - index], time)?;
             let point = ultimate_point(&test, index);
             let settings = point.map(|point| rule.settings(point));
             steps.push(SequentialStep { pass, index, test, point, settings });

@@ -188,7 +188,7 @@ fn settings(session: Session) -> AnyView {
         hideable("", session.flag(|s| s.test.kind != TestKind::Single), single(session)),
         hideable("", session.flag(|s| s.test.kind == TestKind::Single), vec![knob(session, &RATIO, 0)]),
         hideable("pairs", Signal::stored(false), sizes(session)),
-        hideable("pairs four", session.flag(|s| is_tuned(s.test.kind)), relays(session)),
+        hideable("pairs four", Signal::stored(false), relays(session)),
         hideable("", session.flag(|s| !is_tuned(s.test.kind)), vec![rule(session)]),
         hideable("pairs", session.flag(|s| s.test.kind != TestKind::Independent), detuning),
         hideable("pairs", session.flag(|s| s.test.kind != TestKind::Sequential), vec![knob(session, &PASSES, 0)]),

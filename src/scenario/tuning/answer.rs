@@ -120,23 +120,16 @@ impl Study {
 fn test(plant: &TransferMatrix, search: &CriticalSearch, setup: &TuningSetup) -> Result<Tested, TuningError> {
     let spec = &setup.test;
     let time = TestTime { duration: spec.duration, release: spec.release, step: spec.step };
+    let gain = plant.dc_gain();
+    let relays = [0, 1].map(|i| relay(spec, i, gain[(i, i)]));
     match spec.kind {
         TestKind::Single => single(plant, spec, time),
         TestKind::Independent => {
-            let tuned = independent_tuning(plant, spec.amplitudes, spec.rule, spec.detuning, time)?;
-            Ok(Tested::Independent(Box::new(tuned)))
+            Ok(Tested::Independent(Box::new(independent_tuning(plant, relays, spec.rule, spec.detuning, time)?)))
         }
-        TestKind::Sequential => {
-            Ok(Tested::Sequential(sequential_tuning(plant, spec.amplitudes, spec.rule, spec.passes, time)?))
-        }
+        TestKind::Sequential => Ok(Tested::Sequential(sequential_tuning(plant, relays, spec.rule, spec.passes, time)?)),
         TestKind::Simultaneous => {
-            let gain = plant.dc_gain();
-            let relay = |i: usize| Relay {
-                hysteresis: spec.hysteresis[i],
-                bias: spec.bias[i],
-                ..Relay::ideal(spec.amplitudes[i], gain[(i, i)])
-            };
-            let relays = [Some(relay(0)), Some(relay(1))];
+            let relays = relays.map(Some);
             let controllers = PidMatrix::default();
             let test = match nonlinear(&setup.plant) {
                 Some(rig) => relay_test(&mut rig.held(), relays, controllers, time)?,
@@ -151,18 +144,18 @@ fn test(plant: &TransferMatrix, search: &CriticalSearch, setup: &TuningSetup) ->
     }
 }
 
+/// The relay of a loop with index 0 or 1, for a loop whose gain has the sign of `gain`.
+fn relay(spec: &TestSpec, index: usize, gain: f64) -> Relay {
+    Relay { hysteresis: spec.hysteresis[index], bias: spec.bias[index], ..Relay::ideal(spec.amplitudes[index], gain) }
+}
+
 /// A relay on one element of the diagonal, with what stands behind it.
 fn single(plant: &TransferMatrix, spec: &TestSpec, time: TestTime) -> Result<Tested, TuningError> {
     let index = spec.number - 1;
     let element = &plant.0[index][index];
     let with = excited(plant, spec)?;
     let gain = if matches!(spec.behind, Behind::Modulus(_)) { 1.0 } else { element.dc_gain() };
-    let relay = Relay {
-        hysteresis: spec.hysteresis[index],
-        bias: spec.bias[index],
-        ..Relay::ideal(spec.amplitudes[index], gain)
-    };
-    let test = single_loop_test(&with, relay, time)?;
+    let test = single_loop_test(&with, relay(spec, index, gain), time)?;
     let found = test.reading.oscillation.and_then(|oscillation| {
         let frequency = oscillation.frequency();
         let gain = oscillation.loops[0].gain_by_peak?.abs();

@@ -39,9 +39,9 @@ pub struct TestSpec {
     pub behind: Behind,
     /// Amplitudes d1, d2.
     pub amplitudes: [f64; 2],
-    /// Half widths ε of the hysteresis; of simultaneous and single tests.
+    /// Half widths ε of the hysteresis.
     pub hysteresis: [f64; 2],
-    /// Means of the relay outputs; of simultaneous and single tests.
+    /// Means of the relay outputs.
     pub bias: [f64; 2],
     /// The rule of independent and sequential tests.
     pub rule: TuningRule,
