@@ -14,6 +14,16 @@ pub fn of_error(lab: Lab, unit: DisplayUnit, error: &ScenarioError) -> String {
         ScenarioError::Malformed { path, reason } => {
             tr!(lab, refused.malformed, path = path.clone(), reason = reason.clone()).to_string()
         }
+        ScenarioError::DecimalComma { path, number, line, column } => tr!(
+            lab,
+            refused.decimal_comma,
+            path = path.clone(),
+            number = number.clone(),
+            line = *line,
+            column = *column
+        )
+        .to_string(),
+        ScenarioError::NotText => tr!(lab, refused.not_text).to_owned(),
         ScenarioError::OutOfRange { field, value, min, max } => out_of_range(lab, field, *value, *min, *max),
         ScenarioError::TooMany { field, count, max } => {
             tr!(lab, refused.many, field = field.clone(), count = *count, max = *max).to_string()

@@ -24,6 +24,8 @@ use crate::scenario::{self, Document, Scenario, ScenarioError, Setup};
 pub enum Notice {
     /// The link or file was not usable; the bench shows what it showed before.
     Refused(ScenarioError),
+    /// The browser could not read the file.
+    NotRead,
     /// The link is on the clipboard.
     Copied,
     /// The clipboard is out of reach: here is the link.

@@ -10,7 +10,6 @@ mod controls;
 mod download;
 mod errors;
 mod format;
-mod json;
 mod lab;
 mod model_free;
 mod pace;

@@ -3,12 +3,11 @@
 use leptos::prelude::*;
 
 use super::download::{copy, download_text};
-use super::json;
 use super::lab::{Lab, Notice};
 use super::start::Bench;
 use crate::scenario::{
-    Document, ScenarioError, json_of_link, model_free_to_json, model_free_to_link, to_json, to_link, tuning_to_json,
-    tuning_to_link,
+    Document, ScenarioError, check_length, document_from_bytes, document_from_link, model_free_to_json,
+    model_free_to_link, to_json, to_link, tuning_to_json, tuning_to_link,
 };
 
 /// What stands before the link text in the fragment of an address.
@@ -17,7 +16,7 @@ const PREFIX: &str = "lab=";
 /// The document in the fragment of the address, if there is one.
 pub fn from_address() -> Option<Result<Document, ScenarioError>> {
     let fragment = window().location().hash().ok()?;
-    fragment.trim_start_matches('#').strip_prefix(PREFIX).map(|link| json::read(&json_of_link(link)?))
+    fragment.trim_start_matches('#').strip_prefix(PREFIX).map(document_from_link)
 }
 
 /// The link of the bench that is shown.
@@ -88,11 +87,17 @@ pub fn save(lab: Lab) {
     }
 }
 
-/// Opens an experiment from a file.
+/// Opens an experiment from a file. One that is too long is refused by its size.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of bytes")]
 pub fn open_file(lab: Lab, file: &web_sys::File) {
-    let text = wasm_bindgen_futures::JsFuture::from(file.text());
+    if let Err(error) = check_length(file.size() as usize) {
+        return lab.notice.set(Some(Notice::Refused(error)));
+    }
+    let bytes = wasm_bindgen_futures::JsFuture::from(file.array_buffer());
     leptos::task::spawn_local(async move {
-        let text = text.await.ok().and_then(|t| t.as_string()).unwrap_or_default();
-        lab.open(json::read(&text));
+        match bytes.await {
+            Ok(buffer) => lab.open(document_from_bytes(&js_sys::Uint8Array::new(&buffer).to_vec())),
+            Err(_) => lab.notice.set(Some(Notice::NotRead)),
+        }
     });
 }

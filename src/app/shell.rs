@@ -281,6 +281,7 @@ fn Notices() -> impl IntoView {
     let content = move |notice: Notice| {
         match notice {
         Notice::Refused(error) => view! { <div>{tr!(lab, refused.lead)} " " {of_error(lab, lab.unit.get(), &error)}</div> }.into_any(),
+        Notice::NotRead => view! { <div>{tr!(lab, refused.not_read)}</div> }.into_any(),
         Notice::Copied => view! { <div>{tr!(lab, app.copied)}</div> }.into_any(),
         Notice::CopyByHand(link) => view! {
             <div>
@@ -294,7 +295,7 @@ fn Notices() -> impl IntoView {
     view! {
         <div role="status" aria-live="polite">
             {move || lab.notice.get().map(|notice| {
-                let class = if matches!(notice, Notice::Refused(_)) { "notice" } else { "notice good" };
+                let class = if matches!(notice, Notice::Refused(_) | Notice::NotRead) { "notice" } else { "notice good" };
                 view! {
                     <div class=class data-testid="notice">
                         {content(notice)}

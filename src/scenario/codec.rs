@@ -1,6 +1,8 @@
+use super::error::quoted;
 use super::fields::{self, Part, malformed};
 use super::model_free::ModelFreeScenario;
-use super::path::path_at;
+use super::path::{byte_at, decimal_comma, path_before};
+use super::text::text_of;
 use super::tree::Tree;
 use super::tuning::TuningScenario;
 use super::{Scenario, ScenarioError};
@@ -40,13 +42,19 @@ pub fn document_from_json(text: &str) -> Result<Document, ScenarioError> {
     document_from_tree(&tree_of(text)?)
 }
 
+/// Reads a document of any kind from the bytes of a file: JSON in UTF-8 or UTF-16, with or without a byte order mark.
+///
+/// # Errors
+/// As [`from_json`]; [`ScenarioError::NotText`].
+pub fn document_from_bytes(bytes: &[u8]) -> Result<Document, ScenarioError> {
+    check_length(bytes.len())?;
+    document_from_json(&text_of(bytes)?)
+}
+
 /// Reads a document of any kind from what JSON was parsed to.
 ///
 /// A later version of a document is read here too: into its own types, then brought up to date.
-///
-/// # Errors
-/// As [`document_from_json`], but for what concerns the text.
-pub fn document_from_tree(tree: &Tree) -> Result<Document, ScenarioError> {
+fn document_from_tree(tree: &Tree) -> Result<Document, ScenarioError> {
     match version_of(tree)? {
         1 => read(Scenario::default(), tree).map(Document::Quadruple),
         2 => read(TuningScenario::default(), tree).map(Document::Tuning),
@@ -56,11 +64,38 @@ pub fn document_from_tree(tree: &Tree) -> Result<Document, ScenarioError> {
 }
 
 fn tree_of(text: &str) -> Result<Tree, ScenarioError> {
-    if text.len() > DOCUMENT_LIMIT {
-        return Err(ScenarioError::TooLong { length: text.len(), max: DOCUMENT_LIMIT });
+    check_length(text.len())?;
+    serde_json::from_str(text).map_err(|error| syntax_error(text, &error))
+}
+
+/// Refuses a document by its length (bytes), before it is read.
+///
+/// # Errors
+/// [`ScenarioError::TooLong`] beyond [`DOCUMENT_LIMIT`].
+pub fn check_length(length: usize) -> Result<(), ScenarioError> {
+    if length > DOCUMENT_LIMIT { Err(ScenarioError::TooLong { length, max: DOCUMENT_LIMIT }) } else { Ok(()) }
+}
+
+/// Why a text is not JSON: a decimal comma up to the place where the parser gave up, else what the parser says.
+fn syntax_error(text: &str, error: &serde_json::Error) -> ScenarioError {
+    let end = byte_at(text, error.line(), error.column());
+    match decimal_comma(text, end) {
+        Some((comma, path)) => ScenarioError::DecimalComma {
+            path: if path.is_empty() { "document".to_owned() } else { path },
+            number: quoted(number_around(text, comma)),
+            line: text[..comma].matches('\n').count() + 1,
+            column: text[..comma].chars().rev().take_while(|&c| c != '\n').count() + 1,
+        },
+        None => malformed(path_before(text, end), error.to_string()),
     }
-    serde_json::from_str(text)
-        .map_err(|error| malformed(path_at(text, error.line(), error.column()), error.to_string()))
+}
+
+/// The number of which a byte of a text is a part.
+fn number_around(text: &str, at: usize) -> &str {
+    let is_part = |c: char| c.is_ascii_digit() || "+-.,eE".contains(c);
+    let begin = text[..at].trim_end_matches(is_part).len();
+    let end = text.len() - text[at..].trim_start_matches(is_part).len();
+    text[begin..end].trim_end_matches(',')
 }
 
 /// The version of a document, which comes before anything else.

@@ -15,6 +15,21 @@ pub enum ScenarioError {
         /// What the parser says.
         reason: String,
     },
+    /// A number with a decimal comma, which ends a number in JSON.
+    #[error("{path}: `{number}` has a decimal comma (line {line}, column {column}); a number has a decimal point")]
+    DecimalComma {
+        /// Where in the document.
+        path: String,
+        /// The number as it is written.
+        number: String,
+        /// Line of the comma, from 1.
+        line: usize,
+        /// Column of the comma in characters, from 1.
+        column: usize,
+    },
+    /// Bytes that are no text.
+    #[error("not UTF-8 text, nor UTF-16, so not JSON")]
+    NotText,
     /// A number that is outside its limits or not finite.
     #[error("{field}: {value} is outside {min} to {max}")]
     OutOfRange {
@@ -73,4 +88,15 @@ pub enum ScenarioError {
     /// The linear model does not answer.
     #[error(transparent)]
     Linear(#[from] LinearError),
+}
+
+/// Longest quotation of a document in an error (characters).
+const LONGEST_QUOTATION: usize = 40;
+
+/// A name or text of a document as errors quote it: its beginning, if it is long.
+pub(super) fn quoted(text: &str) -> String {
+    match text.char_indices().nth(LONGEST_QUOTATION) {
+        Some((end, _)) => format!("{}…", &text[..end]),
+        None => text.to_owned(),
+    }
 }

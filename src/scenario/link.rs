@@ -73,7 +73,7 @@ pub fn document_from_link(link: &str) -> Result<Document, ScenarioError> {
 /// # Errors
 /// [`ScenarioError::TooLong`] beyond [`LINK_LIMIT`]; [`ScenarioError::UnknownVersion`] for a format of a later program;
 /// [`ScenarioError::DamagedLink`] when it is cut off, changed or no link at all.
-pub fn json_of_link(link: &str) -> Result<String, ScenarioError> {
+fn json_of_link(link: &str) -> Result<String, ScenarioError> {
     if link.len() > LINK_LIMIT {
         return Err(ScenarioError::TooLong { length: link.len(), max: LINK_LIMIT });
     }

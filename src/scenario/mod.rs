@@ -1,7 +1,7 @@
 //! The document that describes an experiment: its types, versions, validation and links, and what follows from it.
 //!
 //! A [`Scenario`], [`TuningScenario`](tuning::TuningScenario) or [`ModelFreeScenario`](model_free::ModelFreeScenario) is a file, a
-//! link, an embed, a command-line run. It comes in by [`document_from_json`] or [`document_from_link`], which check every number
+//! link, an embed, a command-line run. It comes in by [`document_from_bytes`] or [`document_from_link`], which check every number
 //! against [`limits`] and take any bytes; [`to_json`] and [`to_link`] write it, with all digits. All of it follows from one table
 //! of `fields` per type.
 //! [`setup_of`] gives the published rigs. [`analyse()`] says what theory says about a setup, [`run()`] what happens, and
@@ -22,6 +22,7 @@ mod path;
 mod presets;
 mod report;
 mod run;
+mod text;
 mod tree;
 pub mod tuning;
 mod valve_map;
@@ -30,16 +31,16 @@ pub use analyse::{Analysis, analyse};
 #[cfg(not(target_arch = "wasm32"))]
 pub use codec::schema_of;
 pub use codec::{
-    DOCUMENT_LIMIT, Document, document_from_json, document_from_tree, from_json, model_free_to_json, to_json,
-    tuning_to_json,
+    DOCUMENT_LIMIT, Document, check_length, document_from_bytes, document_from_json, from_json, model_free_to_json,
+    to_json, tuning_to_json,
 };
 pub use document::{OperatingPointSpec, PlantSpec, Scenario, Setup, View};
 pub use error::ScenarioError;
 pub use limits::Limits;
-pub use link::{LINK_LIMIT, document_from_link, json_of_link, model_free_to_link, to_link, tuning_to_link};
+pub use link::{LINK_LIMIT, document_from_link, model_free_to_link, to_link, tuning_to_link};
 pub use margins::Margins;
 pub use presets::setup_of;
 pub use report::AnalysisReport;
 pub use run::{Run, run};
-pub use tree::Tree;
+use tree::Tree;
 pub use valve_map::ValveMap;

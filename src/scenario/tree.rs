@@ -1,5 +1,4 @@
-//! A document as a tree, between its text and its [fields](super::fields): on the host the text is parsed by `serde_json`, on the
-//! page by the browser.
+//! A document as a tree, between its text and its [fields](super::fields).
 
 use std::fmt;
 

@@ -1,6 +1,7 @@
 //! The command line as a reader of the README uses it: every example there, the exit codes, and what goes wrong.
 #![cfg(not(target_arch = "wasm32"))]
 
+mod documents;
 mod model_free;
 mod quadruple;
 mod tuning;

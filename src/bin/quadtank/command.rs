@@ -5,26 +5,29 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::error::ErrorKind;
 use clap::{Parser, Subcommand, ValueEnum};
 use quadtank::plant::PresetId;
 use quadtank::scenario::model_free::{ModelFreeScenario, ModelFreeSetup, published_model_free};
 use quadtank::scenario::tuning::{PublishedCase, TuningSetup};
 use quadtank::scenario::{
-    AnalysisReport, DOCUMENT_LIMIT, Document, Scenario, ScenarioError, Setup, analyse, document_from_json,
-    model_free_to_json, run, schema_of, setup_of, to_json, tuning_to_json,
+    AnalysisReport, DOCUMENT_LIMIT, Document, Scenario, ScenarioError, Setup, analyse, check_length,
+    document_from_bytes, model_free_to_json, run, schema_of, setup_of, to_json, tuning_to_json,
 };
 use quadtank::tuning::TuningError;
 use serde::Serialize;
 use thiserror::Error;
 
+mod message;
 mod model_free;
 mod plot;
 mod tune;
 
 /// The quadruple-tank laboratory without a screen.
 ///
-/// Units are SI: levels in m, flows in m³/s, times in s, poles and zeros in 1/s. Exit status: 0 when all went well, 1 when
-/// a file cannot be read or written, 2 for a broken scenario or a wrong command.
+/// Units are SI: levels in m, flows in m³/s, times in s, poles and zeros in 1/s. A file is JSON in UTF-8 or UTF-16. Exit status: 0
+/// when all went well, 1 when a file cannot be read or written, 2 for a broken scenario or a wrong command; messages are single
+/// lines on standard error.
 #[derive(Parser)]
 #[command(name = "quadtank", version)]
 struct Cli {
@@ -127,8 +130,6 @@ enum Failure {
     Tuning { file: String, error: TuningError },
     #[error("{file}: this command needs a relay-tuning session, version 2; a run of the quadruple tank is version 1")]
     NoTuning { file: String },
-    #[error("{file}: not UTF-8 text, so not JSON")]
-    NotText { file: String },
     #[error("{file}: {error}")]
     File { file: String, error: io::Error },
 }
@@ -136,9 +137,7 @@ enum Failure {
 impl Failure {
     fn exit_code(&self) -> ExitCode {
         match self {
-            Self::Scenario { .. } | Self::Tuning { .. } | Self::NoTuning { .. } | Self::NotText { .. } => {
-                ExitCode::from(2)
-            }
+            Self::Scenario { .. } | Self::Tuning { .. } | Self::NoTuning { .. } => ExitCode::from(2),
             Self::File { .. } => ExitCode::from(1),
         }
     }
@@ -146,14 +145,31 @@ impl Failure {
 
 /// Reads the arguments and does what they say.
 pub fn main() -> ExitCode {
-    match execute(Cli::parse().command) {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => return wrong_command(&error),
+    };
+    match execute(cli.command) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            // Nobody is left to be told when standard error is closed too.
-            let _ = writeln!(io::stderr(), "quadtank: {failure}");
+            message::tell(&failure);
             failure.exit_code()
         }
     }
+}
+
+/// Prints the help that was asked for, or what is wrong with the arguments in one line.
+fn wrong_command(error: &clap::Error) -> ExitCode {
+    if matches!(
+        error.kind(),
+        ErrorKind::DisplayHelp | ErrorKind::DisplayVersion | ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand
+    ) {
+        error.exit();
+    }
+    let text = error.to_string();
+    let lines: Vec<&str> = text.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
+    message::tell(lines.join("; ").trim_start_matches("error: "));
+    ExitCode::from(2)
 }
 
 fn execute(command: Command) -> Result<(), Failure> {
@@ -223,7 +239,7 @@ fn answer(
     of_session: impl Fn(&TuningSetup) -> Result<(), Failure>,
     of_model_free: impl Fn(&ModelFreeSetup) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
-    match told(file, document_from_json(&read(file)?))? {
+    match document(file)? {
         Document::Quadruple(scenario) => of_run(&scenario.setup),
         Document::Tuning(scenario) => of_session(&scenario.tuning),
         Document::ModelFree(scenario) => of_model_free(&scenario.model_free),
@@ -238,17 +254,21 @@ fn tuned<T>(file: &Path, result: Result<T, TuningError>) -> Result<T, Failure> {
     result.map_err(|error| Failure::Tuning { file: file_name(file), error })
 }
 
-/// Reads a file or standard input, but not much more than a scenario may have.
-fn read(file: &Path) -> Result<String, Failure> {
+/// Reads a document from a file or from standard input. A file that is too long is refused by its size; of what has no size,
+/// such as a pipe, not more is read than a document may have, and a byte that tells that there is more.
+fn document(file: &Path) -> Result<Document, Failure> {
+    let failed = |error| Failure::File { file: file_name(file), error };
     let mut bytes = Vec::new();
     let limit = DOCUMENT_LIMIT as u64 + 1;
-    let result = if is_standard_stream(file) {
-        io::stdin().lock().take(limit).read_to_end(&mut bytes)
+    if is_standard_stream(file) {
+        io::stdin().lock().take(limit).read_to_end(&mut bytes).map_err(failed)?;
     } else {
-        File::open(file).and_then(|opened| opened.take(limit).read_to_end(&mut bytes))
-    };
-    result.map_err(|error| Failure::File { file: file_name(file), error })?;
-    String::from_utf8(bytes).map_err(|_| Failure::NotText { file: file_name(file) })
+        let opened = File::open(file).map_err(failed)?;
+        let length = opened.metadata().map_err(failed)?.len();
+        told(file, check_length(usize::try_from(length).unwrap_or(usize::MAX)))?;
+        opened.take(limit).read_to_end(&mut bytes).map_err(failed)?;
+    }
+    told(file, document_from_bytes(&bytes))
 }
 
 /// Writes to standard output. A reader that has seen enough (`quadtank … | head`) is no failure.

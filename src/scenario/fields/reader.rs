@@ -1,4 +1,5 @@
 use super::visitor::{Path, Presence, Step, Visitor};
+use crate::scenario::error::quoted;
 use crate::scenario::limits::Limits;
 use crate::scenario::{ScenarioError, Tree};
 
@@ -85,12 +86,13 @@ impl<'t> Place<'t> {
 
     /// What is wrong about the names at this place.
     fn check(&self, at: &Path) -> Result<(), ScenarioError> {
-        let expected =
-            |kind: &str, name: &str| format!("unknown {kind} `{name}`, expected one of `{}`", self.asked.join("`, `"));
+        let expected = |kind: &str, name: &str| {
+            format!("unknown {kind} `{}`, expected one of `{}`", quoted(name), self.asked.join("`, `"))
+        };
         match (self.form, self.tree) {
             (Form::Map, Some(Tree::Map(entries))) => {
                 if let Some((key, _)) = entries.iter().find(|(key, _)| !self.asked.contains(&key.as_str())) {
-                    return Err(malformed(at.to("") + dot(at) + key, expected("field", key)));
+                    return Err(malformed(at.to("") + dot(at) + &quoted(key), expected("field", key)));
                 }
                 let Some(name) = self.missing else { return Ok(()) };
                 Err(malformed(at.to(""), format!("missing field `{name}`")))
@@ -178,7 +180,10 @@ impl Visitor for Reader<'_> {
         let count = items.len();
         // That there are too many of what may be any number is no matter of shape.
         if least == most && count != most {
-            return Err(malformed(at.to(""), format!("invalid length {count}, expected {most} elements")));
+            let is_number = |item: &Tree| matches!(item, Tree::Unsigned(_) | Tree::Signed(_) | Tree::Float(_));
+            // Perhaps a decimal comma, which a list takes for the end of an entry.
+            let hint = if count > most && items.iter().all(is_number) { "; a number has a decimal point" } else { "" };
+            return Err(malformed(at.to(""), format!("invalid length {count}, expected {most} elements{hint}")));
         }
         Ok(count)
     }
@@ -196,7 +201,7 @@ fn is_no(tree: &Tree, at: &Path, expected: &str) -> ScenarioError {
         Tree::Unsigned(value) => format!("integer `{value}`"),
         Tree::Signed(value) => format!("integer `{value}`"),
         Tree::Float(value) => format!("floating point `{value}`"),
-        Tree::Text(text) => format!("string \"{text}\""),
+        Tree::Text(text) => format!("string \"{}\"", quoted(text)),
         Tree::List(_) => "list".to_owned(),
         Tree::Map(_) => "map".to_owned(),
     };
