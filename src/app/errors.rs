@@ -6,6 +6,7 @@ use super::texts::tr;
 use crate::control::{EstimatorError, MAX_WINDOW_SAMPLES};
 use crate::plant::{DisplayUnit, PlantError};
 use crate::scenario::ScenarioError;
+use crate::scenario::tuning::ElementFault;
 
 /// One sentence; a field keeps its name from the document.
 pub fn of_error(lab: Lab, unit: DisplayUnit, error: &ScenarioError) -> String {
@@ -48,7 +49,23 @@ pub fn of_error(lab: Lab, unit: DisplayUnit, error: &ScenarioError) -> String {
             .to_string(),
             EstimatorError::ModelGain { .. } => format!("{field}: {error}"),
         },
+        ScenarioError::Element { field, fault } => {
+            tr!(lab, refused.element, field = field.clone(), reason = of_fault(lab, *fault)).to_string()
+        }
         ScenarioError::Linear(error) => error.to_string(),
+    }
+}
+
+/// Why relay tuning does not work with an element.
+fn of_fault(lab: Lab, fault: ElementFault) -> String {
+    match fault {
+        ElementFault::NoDenominator => tr!(lab, refused.no_denominator).to_owned(),
+        ElementFault::Biproper { .. } => tr!(lab, refused.biproper).to_owned(),
+        ElementFault::Improper { .. } => tr!(lab, refused.improper).to_owned(),
+        ElementFault::Integrating => tr!(lab, refused.integrating).to_owned(),
+        ElementFault::Unstable { real_part } => {
+            tr!(lab, refused.unstable, real = lab.number_style().significant(real_part, 3)).to_string()
+        }
     }
 }
 

@@ -4,6 +4,8 @@ use crate::control::EstimatorError;
 use crate::linear::LinearError;
 use crate::plant::PlantError;
 
+use super::tuning::ElementFault;
+
 /// Why a document is not a scenario, or a scenario cannot be computed.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum ScenarioError {
@@ -84,6 +86,14 @@ pub enum ScenarioError {
         field: String,
         /// What is wrong.
         error: EstimatorError,
+    },
+    /// An element of a plant that relay tuning does not work with.
+    #[error("{field}: {fault}; its coefficients are read by rising powers of s: [1, 10] is 1 + 10 s")]
+    Element {
+        /// Where in the document.
+        field: String,
+        /// What is wrong.
+        fault: ElementFault,
     },
     /// The linear model does not answer.
     #[error(transparent)]

@@ -1,5 +1,6 @@
 use crate::control::Pairing;
 use crate::plant::PresetId;
+use crate::scenario::ScenarioError;
 use crate::scenario::fields::{Fields, ITSELF, Part, names};
 use crate::scenario::limits::{self, Limits};
 use crate::tuning::{Action, PlacementMethod, PublishedPlant, TuningRule};
@@ -96,6 +97,11 @@ impl Part for Element {
         f.list("numerator", &mut self.numerator, MOST_COEFFICIENTS, f64::default, coefficient);
         f.list("denominator", &mut self.denominator, MOST_COEFFICIENTS, f64::default, coefficient);
         f.spare().number("dead_time", &mut self.dead_time, NOT_NEGATIVE);
+        if f.is_checking()
+            && let Some(fault) = self.fault()
+        {
+            f.refuse(ITSELF, |field| ScenarioError::Element { field, fault });
+        }
     }
 }
 

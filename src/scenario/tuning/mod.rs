@@ -5,6 +5,7 @@ mod csv;
 mod designed;
 mod details;
 mod document;
+mod element;
 mod fields;
 mod plant;
 mod printed;
@@ -20,6 +21,7 @@ pub use document::{
     Behind, CompareSpec, CriticalSpec, DecouplerSpec, DesignSpec, ResponseSpec, TestKind, TestSpec, TuningScenario,
     TuningSetup,
 };
-pub use plant::{Element, TuningPlant};
+pub use element::{Element, ElementFault};
+pub use plant::TuningPlant;
 pub use printed::{PrintedFigure, PrintedRemark, rule_targets};
 pub use published::PublishedCase;

@@ -3,16 +3,7 @@ use crate::linear::{Complex, TransferFunction, TransferMatrix};
 use crate::plant::PresetId;
 use crate::tuning::{PublishedPlant, TuningError, tank_transfer_matrix};
 
-/// An element `b(s)/a(s) e^(−θ s)` of a plant of one's own.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Element {
-    /// Coefficients of b by rising powers of s.
-    pub numerator: Vec<f64>,
-    /// Coefficients of a by rising powers of s.
-    pub denominator: Vec<f64>,
-    /// Dead time θ.
-    pub dead_time: f64,
-}
+use super::Element;
 
 /// The plant that is tuned. Times are in its own unit.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,10 +49,9 @@ impl TuningPlant {
                 })
             }
             Self::Elements(rows) => {
-                let element =
-                    |e: &Element| TransferFunction::new(e.numerator.clone(), e.denominator.clone(), e.dead_time);
-                let [[g11, g12], [g21, g22]] = rows;
-                Ok(TransferMatrix([[element(g11)?, element(g12)?], [element(g21)?, element(g22)?]]))
+                let [[g11, g12], [g21, g22]] =
+                    rows.each_ref().map(|row| row.each_ref().map(Element::transfer_function));
+                Ok(TransferMatrix([[g11?, g12?], [g21?, g22?]]))
             }
         }
     }
