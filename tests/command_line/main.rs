@@ -2,6 +2,7 @@
 #![cfg(not(target_arch = "wasm32"))]
 
 mod documents;
+mod elements;
 mod model_free;
 mod quadruple;
 mod tuning;

@@ -7,7 +7,9 @@ use crate::app::texts::tr;
 use crate::app::widgets::Picture;
 use crate::figure::{self, CurveChart, LociChart, LoopsChart, LoopsRecord, Pen};
 use crate::linear::Loci;
-use crate::scenario::tuning::{Designed, Tested, TuningPlant, curve_to_csv, loci_to_csv, record_to_csv, rule_targets};
+use crate::scenario::tuning::{
+    Designed, Tested, TuningPlant, curve_to_csv, loci_to_csv, record_to_csv, response_to_csv, rule_targets,
+};
 use crate::sim::LoopTrace;
 use crate::tuning::{GainLimit, TuningRule};
 
@@ -65,7 +67,7 @@ pub fn response(session: Session, window: Signal<(f64, f64)>) -> Picture {
             loops(session, &records, window.get(), Some(references), show);
         });
     };
-    let csv = move || session.charts.with_design(|design| record_to_csv(&design.response.trace)).unwrap_or_default();
+    let csv = move || session.charts.with_design(response_to_csv).unwrap_or_default();
     Picture::new(build, csv)
 }
 

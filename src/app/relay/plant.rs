@@ -14,7 +14,7 @@ use crate::app::widgets::html::option;
 use crate::app::widgets::{Scale, card};
 use crate::control::Pairing;
 use crate::plant::PresetId;
-use crate::scenario::tuning::{PublishedCase, TuningPlant, TuningSetup};
+use crate::scenario::tuning::{PublishedCase, TuningPlant, TuningSetup, TuningWarning};
 use crate::tuning::PublishedPlant;
 
 const WOOD_BERRY: &str = "wood-berry";
@@ -204,6 +204,12 @@ fn remark(session: Session) -> String {
     }
     if session.words.setup.with(|s| rig(s).is_some_and(|(_, nonlinear)| nonlinear)) {
         text = text + " " + tr!(lab, relay.nonlinear_remark);
+    }
+    for warning in session.words.setup.with(|s| s.warnings()) {
+        if let TuningWarning::CoefficientOrder { field, read_as, reversed } = warning {
+            let order = tr!(lab, relay.coefficient_order, field = field, read = read_as, reversed = reversed);
+            text = text + " " + &order;
+        }
     }
     text
 }

@@ -25,9 +25,10 @@ mod tune;
 
 /// The quadruple-tank laboratory without a screen.
 ///
-/// Units are SI: levels in m, flows in m³/s, times in s, poles and zeros in 1/s. A file is JSON in UTF-8 or UTF-16. Exit status: 0
-/// when all went well, 1 when a file cannot be read or written, 2 for a broken scenario or a wrong command; messages are single
-/// lines on standard error.
+/// Units are SI: levels in m, flows in m³/s, times in s, poles and zeros in 1/s. A file is JSON in UTF-8 or UTF-16. Coefficients
+/// of transfer functions (elements of a relay-tuning session) are by rising powers of s: [1, 10] is 1 + 10 s. Exit status: 0 when
+/// all went well, 1 when a file cannot be read or written, 2 for a broken scenario or a wrong command; messages, and warnings of
+/// what may not be meant, are single lines on standard error.
 #[derive(Parser)]
 #[command(name = "quadtank", version)]
 struct Cli {
@@ -38,6 +39,9 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     /// Print what linear theory says about a scenario, as JSON
+    ///
+    /// Of a relay-tuning session (version 2): steady-state gain, relative gain, critical curve. The coefficients of its elements
+    /// are by rising powers of s: [1, 10] is 1 + 10 s.
     Analyse {
         /// Scenario file (JSON), or - for standard input
         file: PathBuf,
@@ -74,6 +78,9 @@ enum Command {
         name: Option<PresetId>,
     },
     /// Run the relay test and the design of a relay-tuning session (version 2)
+    ///
+    /// The coefficients of its elements are by rising powers of s: [1, 10] is 1 + 10 s. What it compares its response with is in
+    /// the report too.
     Tune {
         /// Scenario file (JSON), or - for standard input
         file: PathBuf,
@@ -241,7 +248,13 @@ fn answer(
 ) -> Result<(), Failure> {
     match document(file)? {
         Document::Quadruple(scenario) => of_run(&scenario.setup),
-        Document::Tuning(scenario) => of_session(&scenario.tuning),
+        Document::Tuning(scenario) => {
+            of_session(&scenario.tuning)?;
+            for warning in scenario.tuning.warnings() {
+                message::tell(format!("{}: warning: {warning}", file_name(file)));
+            }
+            Ok(())
+        }
         Document::ModelFree(scenario) => of_model_free(&scenario.model_free),
     }
 }

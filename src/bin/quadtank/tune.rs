@@ -1,20 +1,20 @@
 //! Relay tuning without a screen: what a session finds, as JSON, CSV or a picture.
 
 use clap::ValueEnum;
-use nalgebra::DMatrix;
 use quadtank::control::{IsaPid, ParallelPid};
 use quadtank::figure::{
     Chart, CurveChart, LociChart, LoopsChart, LoopsRecord, Pen, Size, Style, characteristic_loci, critical_curve,
     to_svg, two_loops,
 };
-use quadtank::interaction::niederlinski;
-use quadtank::linear::{Closure, Complex, Loci, LoopStability};
+use quadtank::linear::{Closure, Complex, LinearError, Loci, LoopStability};
 use quadtank::scenario::tuning::{
-    DesignRoot, Designed, Study, TestSpec, Tested, Tuning, TuningSetup, record_to_csv, tune,
+    Comparison, DesignRoot, Designed, SteadyState, Study, TestSpec, Tested, Tuning, TuningSetup, record_to_csv,
+    response_to_csv, tune,
 };
 use quadtank::sim::{Halt, LoopTrace, StepFigures};
 use quadtank::tuning::{
-    CurveDistance, GainLimit, RelayReading, RelayVerdict, TestAndSettings, TuningError, dynamic_relative_gain,
+    Corner, CurveDistance, CurvePoint, GainLimit, RelayReading, RelayVerdict, TestAndSettings, TuningError,
+    dynamic_relative_gain,
 };
 use serde_json::{Value, json};
 
@@ -42,32 +42,34 @@ fn rows<T>(entry: impl Fn(usize, usize) -> T) -> [[T; 2]; 2] {
 
 /// What follows from the plant alone.
 pub fn analysis(setup: &TuningSetup) -> Result<Value, TuningError> {
-    let found = tune(setup)?;
-    let gain = DMatrix::from_fn(2, 2, |row, column| found.study.dc_gain[(row, column)]);
-    let points: Vec<Value> = found
-        .study
-        .curve
-        .points
-        .iter()
-        .map(|point| json!({ "angle_rad": point.angle, "limit": limit(&point.limit) }))
-        .collect();
-    let corners: Vec<Value> = found
-        .study
-        .curve
-        .corners
-        .iter()
-        .map(|corner| {
-            let [slow, quick] = corner.points;
-            json!({ "importance": corner.importance, "gains": slow.gains, "periods": [slow.period(), quick.period()] })
-        })
-        .collect();
+    let steady_state = SteadyState::of(&setup.plant.transfer_matrix()?);
+    let curve = match Study::of(&setup.plant) {
+        // A loop without a gain of its own: the axes of the curve have no unit.
+        Err(TuningError::Linear(error @ LinearError::SingularGain { .. })) => Err(error),
+        study => Ok(study?.curve),
+    };
     Ok(json!({
-        "dc_gain": rows(|row, column| gain[(row, column)]),
-        "rga_11": found.study.rga_11,
-        "niederlinski_diagonal": niederlinski(&gain)[0],
-        "critical_curve": points,
-        "corners": corners,
+        "dc_gain": rows(|row, column| steady_state.dc_gain[(row, column)]),
+        "rga_11": in_place(steady_state.rga_11.as_ref(), |gain| json!(gain)),
+        "niederlinski_diagonal": steady_state.niederlinski_diagonal,
+        "critical_curve": in_place(curve.as_ref(), |curve| curve.points.iter().map(point).collect()),
+        "corners": in_place(curve.as_ref(), |curve| curve.corners.iter().map(corner).collect()),
+        "warnings": setup.warnings(),
     }))
+}
+
+/// An answer, or the typed reason why there is none.
+fn in_place<T>(answer: Result<&T, &LinearError>, write: impl FnOnce(&T) -> Value) -> Value {
+    answer.map_or_else(|error| json!(error), write)
+}
+
+fn point(point: &CurvePoint) -> Value {
+    json!({ "angle_rad": point.angle, "limit": limit(&point.limit) })
+}
+
+fn corner(corner: &Corner) -> Value {
+    let [slow, quick] = corner.points;
+    json!({ "importance": corner.importance, "gains": slow.gains, "periods": [slow.period(), quick.period()] })
 }
 
 fn limit(limit: &GainLimit) -> Value {
@@ -84,7 +86,8 @@ fn limit(limit: &GainLimit) -> Value {
 pub fn report(setup: &TuningSetup) -> Result<Value, TuningError> {
     let found = tune(setup)?;
     let design = found.design.as_ref().map(|design| designed(&found.study, design, setup)).transpose()?;
-    Ok(json!({ "test": tested(&found.study, &found.test, &setup.test)?, "design": design }))
+    let test = tested(&found.study, &found.test, &setup.test)?;
+    Ok(json!({ "test": test, "design": design, "warnings": setup.warnings() }))
 }
 
 fn tested(study: &Study, test: &Tested, spec: &TestSpec) -> Result<Value, TuningError> {
@@ -178,21 +181,38 @@ fn designed(study: &Study, design: &Designed, setup: &TuningSetup) -> Result<Val
         "chosen": setup.design.root,
         "figures": design.response.figures.map(figures),
         "response_halted": design.response.trace.halt.map(halt),
+        "comparison": design.comparison.as_ref().map(comparison),
     }))
+}
+
+/// The controllers that the design is compared with, row by input, and what they do.
+fn comparison(of: &Comparison) -> Value {
+    json!({
+        "controllers": of.controllers.0.map(|row| row.map(gains)),
+        "stability": stability(of.stability),
+        "figures": of.response.figures.map(figures),
+        "response_halted": of.response.trace.halt.map(halt),
+    })
+}
+
+fn gains(pid: ParallelPid) -> Value {
+    json!({ "kp": pid.proportional, "ki": pid.integral, "kd": pid.derivative })
+}
+
+fn stability(of: LoopStability) -> Value {
+    match of {
+        LoopStability::Stable => json!({ "stable": true }),
+        LoopStability::Unstable { poles } => json!({ "stable": false, "right_half_plane_poles": poles }),
+        LoopStability::Marginal { frequency } => json!({ "stable": false, "marginal_at": frequency }),
+    }
 }
 
 fn root(study: &Study, root: &DesignRoot) -> Result<Value, TuningError> {
     let margins = study.margins(root)?;
-    let gains = |pid: ParallelPid| json!({ "kp": pid.proportional, "ki": pid.integral, "kd": pid.derivative });
-    let stability = match root.stability {
-        LoopStability::Stable => json!({ "stable": true }),
-        LoopStability::Unstable { poles } => json!({ "stable": false, "right_half_plane_poles": poles }),
-        LoopStability::Marginal { frequency } => json!({ "stable": false, "marginal_at": frequency }),
-    };
     Ok(json!({
         "controllers": root.controllers.map(gains),
         "warnings": root.warnings,
-        "stability": stability,
+        "stability": stability(root.stability),
         "distance_from_minus_one": margins.distance,
         "gain_margin": margins.gain_up,
         "lower_gain_margin": margins.gain_down,
@@ -222,10 +242,11 @@ fn record(test: &Tested) -> Option<&LoopTrace> {
     }
 }
 
-/// The response of the design, one row per sample and per arrival of what a dead time had held back.
+/// The response of the design, one row per sample and per arrival of what a dead time had held back, beside the one that it is
+/// compared with.
 pub fn response_csv(setup: &TuningSetup) -> Result<String, TuningError> {
     let found = tune(setup)?;
-    Ok(found.design.map(|design| record_to_csv(&design.response.trace)).unwrap_or_default())
+    Ok(found.design.as_ref().map(response_to_csv).unwrap_or_default())
 }
 
 /// The record of the relay test, one row per step, switch and arrival.
@@ -247,12 +268,15 @@ pub fn svg(setup: &TuningSetup, picture: Picture, style: &Style) -> Result<Strin
     Ok(match picture {
         Picture::Test => {
             let trace = record(&found.test).unwrap_or(&empty);
-            loops_svg(trace, None, |charts| to_svg(charts, size, style, title, description))
+            loops_svg(&[(trace, Pen::Solid)], None, |charts| to_svg(charts, size, style, title, description))
         }
         Picture::Response => {
+            let compared = found.design.as_ref().and_then(|design| design.comparison.as_ref());
+            let compared = compared.map(|comparison| (&comparison.response.trace, Pen::Dotted));
             let trace = found.design.as_ref().map_or(&empty, |design| &design.response.trace);
+            let records: Vec<_> = compared.into_iter().chain([(trace, Pen::Solid)]).collect();
             let references = Some(setup.response.references);
-            loops_svg(trace, references, |charts| to_svg(charts, size, style, title, description))
+            loops_svg(&records, references, |charts| to_svg(charts, size, style, title, description))
         }
         Picture::Curve => curve(&found, |chart| to_svg(&[critical_curve(chart)], size, style, title, description)),
         Picture::Loci => {
@@ -261,19 +285,24 @@ pub fn svg(setup: &TuningSetup, picture: Picture, style: &Style) -> Result<Strin
     })
 }
 
-/// Charts of a record, as SVG.
-fn loops_svg(trace: &LoopTrace, references: Option<[f64; 2]>, draw: impl Fn(&[Chart]) -> String) -> String {
-    let record = LoopsRecord {
-        name: "",
+fn drawn(trace: &LoopTrace, pen: Pen) -> LoopsRecord<'_> {
+    LoopsRecord {
+        name: if pen == Pen::Solid { "" } else { "compared" },
         time: &trace.time,
         outputs: trace.outputs.each_ref().map(Vec::as_slice),
         inputs: trace.inputs.each_ref().map(Vec::as_slice),
         switches: trace.switches.each_ref().map(Vec::as_slice),
-        pen: Pen::Solid,
-    };
-    let window = (0.0, trace.time.last().copied().unwrap_or(1.0));
+        pen,
+    }
+}
+
+/// Charts of records with their pens, the one that counts last, as SVG.
+fn loops_svg(records: &[(&LoopTrace, Pen)], references: Option<[f64; 2]>, draw: impl Fn(&[Chart]) -> String) -> String {
+    let end = records.last().and_then(|(trace, _)| trace.time.last());
+    let window = (0.0, end.copied().unwrap_or(1.0));
     let (axes, texts) = (["time", "output", "input"], ["loop 1", "loop 2"]);
-    draw(&two_loops(&LoopsChart { records: &[record], window, references, axes, texts }))
+    let records: Vec<_> = records.iter().map(|&(trace, pen)| drawn(trace, pen)).collect();
+    draw(&two_loops(&LoopsChart { records: &records, window, references, axes, texts }))
 }
 
 fn curve<T>(found: &Tuning, draw: impl Fn(&CurveChart) -> T) -> T {

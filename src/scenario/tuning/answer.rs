@@ -1,7 +1,6 @@
-use nalgebra::{DMatrix, Matrix2};
+use nalgebra::Matrix2;
 
 use crate::control::{PidMatrix, Relay};
-use crate::interaction::relative_gain_array;
 use crate::linear::{Complex, DelayedPlant, LinearError, TransferMatrix};
 use crate::tuning::{
     CriticalCurve, CriticalSearch, CurveDistance, RelayTest, SequentialStep, TestAndSettings, TestTime, TuningError,
@@ -11,7 +10,7 @@ use crate::tuning::{
 
 use super::details::excited;
 use super::rig::nonlinear;
-use super::{Behind, Designed, TestKind, TestSpec, TuningPlant, TuningSetup};
+use super::{Behind, Designed, SteadyState, TestKind, TestSpec, TuningPlant, TuningSetup};
 
 /// Directions of the critical curve.
 const DIRECTIONS: usize = 200;
@@ -86,7 +85,7 @@ impl Study {
     pub fn of(plant: &TuningPlant) -> Result<Self, TuningError> {
         let plant = plant.transfer_matrix()?;
         check_stable(&plant)?;
-        let dc_gain = plant.dc_gain();
+        let SteadyState { dc_gain, rga_11, .. } = SteadyState::of(&plant);
         // Importance, signs and normalised gains all rest on the diagonal of G(0).
         if dc_gain.diagonal().iter().any(|&g| g == 0.0 || !g.is_finite()) {
             return Err(LinearError::SingularGain { reciprocal_condition: 0.0 }.into());
@@ -94,9 +93,7 @@ impl Study {
         let (low, high) = frequency_range(&plant)?;
         let search = CriticalSearch::new(&plant, low, high);
         let curve = CriticalCurve::of(&plant, &search, DIRECTIONS);
-        let gain = DMatrix::from_fn(2, 2, |row, column| dc_gain[(row, column)]);
-        let rga_11 = relative_gain_array(&gain).ok().map(|array| array[(0, 0)]);
-        Ok(Self { plant, dc_gain, rga_11, curve, search })
+        Ok(Self { plant, dc_gain, rga_11: rga_11.ok(), curve, search })
     }
 
     /// Gains on the axes of the normalised critical curve, k1 g11(0) and k2 g22(0) (Campestrini 2006, Fig. 25).

@@ -6,6 +6,8 @@ use crate::linear::Loci;
 use crate::sim::LoopTrace;
 use crate::tuning::{CriticalCurve, GainLimit};
 
+use super::Designed;
+
 /// A line of numbers; one that is missing is an empty cell.
 fn line(text: &mut String, numbers: &[Option<f64>]) {
     for (index, number) in numbers.iter().enumerate() {
@@ -27,6 +29,30 @@ pub fn record_to_csv(trace: &LoopTrace) -> String {
         line(&mut text, &[time, y1[row], y2[row], u1[row], u2[row]].map(Some));
     }
     text
+}
+
+/// A response, beside that of the controllers it is compared with, if there are any. Their records may have rows at different times
+/// (arrivals of what a dead time had held back, an early end): where one has no row, its cells are empty.
+pub fn response_to_csv(design: &Designed) -> String {
+    let trace = &design.response.trace;
+    let Some(compared) = design.comparison.as_ref().map(|comparison| &comparison.response.trace) else {
+        return record_to_csv(trace);
+    };
+    let mut text = "time,output_1,output_2,input_1,input_2,\
+        compared_output_1,compared_output_2,compared_input_1,compared_input_2\n"
+        .to_owned();
+    let cells = |trace: &LoopTrace, row: Option<usize>| {
+        let columns = trace.outputs.iter().chain(&trace.inputs);
+        columns.map(|column| row.map(|row| column[row])).collect::<Vec<_>>()
+    };
+    let mut next = [0; 2];
+    loop {
+        let times = [(trace, next[0]), (compared, next[1])].map(|(of, row)| of.time.get(row).copied());
+        let Some(time) = times.into_iter().flatten().reduce(f64::min) else { return text };
+        let rows = [0, 1].map(|k| (times[k] == Some(time)).then_some(next[k]));
+        line(&mut text, &[vec![Some(time)], cells(trace, rows[0]), cells(compared, rows[1])].concat());
+        next = [0, 1].map(|k| next[k] + usize::from(rows[k].is_some()));
+    }
 }
 
 /// The critical curve: gains in every direction, and the period where they oscillate.

@@ -12,9 +12,11 @@ mod printed;
 mod published;
 mod rig;
 mod start;
+mod steady_state;
+mod warnings;
 
 pub use answer::{FoundPoint, Study, Tested, Tuning, tune};
-pub use csv::{curve_to_csv, loci_to_csv, record_to_csv};
+pub use csv::{curve_to_csv, loci_to_csv, record_to_csv, response_to_csv};
 pub use designed::{Comparison, DesignRoot, Designed, StepResponse};
 pub use details::Recovered;
 pub use document::{
@@ -25,3 +27,5 @@ pub use element::{Element, ElementFault};
 pub use plant::TuningPlant;
 pub use printed::{PrintedFigure, PrintedRemark, rule_targets};
 pub use published::PublishedCase;
+pub use steady_state::SteadyState;
+pub use warnings::TuningWarning;

@@ -1,0 +1,134 @@
+//! The commands on plants of one's own, and on a response that is compared with another.
+
+use approx::assert_relative_eq;
+use serde_json::{Value, json};
+
+use super::{pipe, run, stderr, stdout};
+
+/// The published session of Table 12, row 2, with four elements in the place of its plant.
+fn session(elements: &Value) -> Value {
+    let mut session: Value = serde_json::from_str(&stdout(&run(&["cases", "table-12-row-2"]))).unwrap();
+    session["tuning"]["plant"] = json!({ "elements": elements });
+    session
+}
+
+fn element(numerator: &[f64], denominator: &[f64], dead_time: f64) -> Value {
+    json!({ "numerator": numerator, "denominator": denominator, "dead_time": dead_time })
+}
+
+fn report(command: &str, session: &Value) -> Value {
+    serde_json::from_str(&stdout(&pipe(&[command, "-"], session.to_string().as_bytes()))).unwrap()
+}
+
+/// Wood and Berry with the coefficients of the denominators in either order.
+fn column(denominator: fn(f64) -> [f64; 2]) -> Value {
+    let of = |gain, time, dead_time| element(&[gain], &denominator(time), dead_time);
+    json!([[of(12.8, 16.7, 1.0), of(-18.9, 21.0, 3.0)], [of(6.6, 10.9, 7.0), of(-19.4, 14.4, 3.0)]])
+}
+
+#[test]
+fn coefficients_in_the_other_order_are_told_beside_the_answer() {
+    let meant = session(&column(|time| [1.0, time]));
+    let turned = session(&column(|time| [time, 1.0]));
+    let field = "tuning.plant.elements[0][0].denominator";
+    for command in ["analyse", "tune"] {
+        assert_eq!(report(command, &meant)["warnings"], json!([]));
+        let expected = json!([{
+            "warning": "coefficient-order", "field": field, "read_as": "16.7 + 1 s", "reversed": "1 + 16.7 s",
+        }]);
+        assert_eq!(report(command, &turned)["warnings"], expected);
+    }
+    assert_relative_eq!(report("analyse", &meant)["rga_11"].as_f64().unwrap(), 2.0094, epsilon = 5.1e-5);
+    for command in
+        [&["analyse", "-"][..], &["tune", "-", "--format", "csv"], &["simulate", "-"], &["plot", "-", "--svg", "-"]]
+    {
+        assert_eq!(stderr(&pipe(command, meant.to_string().as_bytes())), "");
+        let said = stderr(&pipe(command, turned.to_string().as_bytes()));
+        assert!(
+            said.starts_with(&format!("quadtank: standard input: warning: {field}: read by rising powers of s")),
+            "{said}"
+        );
+        assert_eq!(said.lines().count(), 1, "{said}");
+    }
+    for help in [&["--help"][..], &["analyse", "--help"], &["tune", "--help"]] {
+        let text = stdout(&run(help));
+        assert!(text.contains("rising powers of s"), "{text}");
+    }
+}
+
+#[test]
+fn an_element_that_is_not_supported_is_named() {
+    // (s + 1)/(s + 5), 1; (s + 1)/(s + 2), 1.
+    let biproper = json!([
+        [element(&[1.0], &[5.0, 1.0], 0.0), element(&[1.0], &[1.0], 0.0)],
+        [element(&[1.0, 1.0], &[2.0, 1.0], 0.0), element(&[1.0], &[1.0], 0.0)],
+    ]);
+    let integrating = json!([
+        [element(&[1.0], &[5.0, 1.0], 0.0), element(&[1.0], &[0.0, 1.0], 0.0)],
+        [element(&[1.0], &[2.0, 1.0], 0.0), element(&[1.0], &[1.0, 1.0], 0.0)],
+    ]);
+    for (elements, reason) in [(biproper, "a biproper element"), (integrating, "an integrating element")] {
+        for command in ["analyse", "tune", "simulate"] {
+            let output = pipe(&[command, "-"], session(&elements).to_string().as_bytes());
+            assert_eq!(output.status.code(), Some(2));
+            let expected = format!("quadtank: standard input: tuning.plant.elements[0][1]: {reason}");
+            assert!(stderr(&output).starts_with(&expected), "{}", stderr(&output));
+        }
+    }
+}
+
+#[test]
+fn analyse_answers_in_place_where_the_gain_is_singular() {
+    let one = element(&[1.0], &[1.0, 1.0], 0.0);
+    let found = report("analyse", &session(&json!([[one, one], [one, one]])));
+    assert_eq!(found["rga_11"]["error"], "singular-gain");
+    assert_eq!(found["niederlinski_diagonal"], Value::Null);
+    assert_eq!(found["dc_gain"], json!([[1.0, 1.0], [1.0, 1.0]]));
+    assert_eq!(found["critical_curve"].as_array().unwrap().len(), 200);
+    // A loop without a gain of its own has no curve, but a relative gain: λ11 = 0.
+    let none = element(&[0.0], &[1.0, 1.0], 0.0);
+    let found = report("analyse", &session(&json!([[none, one], [one, one]])));
+    assert_eq!((&found["rga_11"], &found["niederlinski_diagonal"]), (&json!(0.0), &Value::Null));
+    assert_eq!(found["critical_curve"]["error"], "singular-gain");
+}
+
+#[test]
+fn a_comparison_is_in_the_report_and_in_the_table() {
+    let mut session: Value = serde_json::from_str(&stdout(&run(&["cases", "table-12-row-2"]))).unwrap();
+    assert_eq!(report("tune", &session)["design"]["comparison"], Value::Null);
+    let alone = stdout(&pipe(&["simulate", "-"], session.to_string().as_bytes()));
+    session["tuning"]["response"]["compare"] = json!("tyreus-luyben");
+    let comparison = report("tune", &session)["design"]["comparison"].clone();
+    // Kc/2.2, 2.2 Tc and Tc/6.3 (Campestrini 2006, Table 2) of Kc = 0.71 and −0.264, Tc = 12.7.
+    for (row, gain) in [(0, 0.71 / 2.2), (1, -0.264 / 2.2)] {
+        let controller = &comparison["controllers"][row][row];
+        let value = |name: &str| controller[name].as_f64().unwrap();
+        assert_relative_eq!(value("kp"), gain, max_relative = 1e-12);
+        assert_relative_eq!(value("ki"), gain / (2.2 * 12.7), max_relative = 1e-12);
+        assert_relative_eq!(value("kd"), gain * 12.7 / 6.3, max_relative = 1e-12);
+    }
+    assert_eq!(comparison["stability"]["stable"], json!(true));
+    assert!(comparison["figures"][0]["iae"].as_f64().unwrap() > 0.0);
+
+    let table = stdout(&pipe(&["simulate", "-"], session.to_string().as_bytes()));
+    let mut lines = table.lines();
+    let header: Vec<&str> = lines.next().unwrap().split(',').collect();
+    assert_eq!(header[5..], ["compared_output_1", "compared_output_2", "compared_input_1", "compared_input_2"]);
+    let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
+    assert!(rows.iter().all(|row| row.len() == 9));
+    // The columns of the design are those of the table without a comparison.
+    let of_design: Vec<String> = rows.iter().filter(|row| !row[1].is_empty()).map(|row| row[..5].join(",")).collect();
+    assert_eq!(of_design, alone.lines().skip(1).collect::<Vec<_>>());
+    let times: Vec<f64> = rows.iter().map(|row| row[0].parse().unwrap()).collect();
+    assert!(times.is_sorted());
+    // It follows the step.
+    let compared: Vec<f64> = rows.iter().filter(|row| !row[5].is_empty()).map(|row| row[5].parse().unwrap()).collect();
+    assert!((compared.last().unwrap() - 1.0).abs() < 0.1, "{:?}", compared.last());
+    let svg = |session: &Value| {
+        stdout(&pipe(&["plot", "-", "--svg", "-", "--picture", "response"], session.to_string().as_bytes()))
+    };
+    session["tuning"]["response"]["compare"] = json!("nothing");
+    let without = svg(&session).matches("<path").count();
+    session["tuning"]["response"]["compare"] = json!("full");
+    assert!(svg(&session).matches("<path").count() > without);
+}
