@@ -11,8 +11,8 @@ use quadtank::interaction::{PairingReason, PairingVerdict};
 use quadtank::linear::LinearError;
 use quadtank::plant::{PlantError, PresetId};
 use quadtank::scenario::{
-    Analysis, AnalysisReport, OperatingPointSpec, Scenario, ScenarioError, Setup, ValveMap, analyse, limits, run,
-    setup_of,
+    Analysis, AnalysisReport, OperatingPointSpec, Scenario, ScenarioError, Setup, ValveMap, analyse, from_json, limits,
+    run, setup_of,
 };
 use quadtank::sim::{Settling, Stability, Trajectory};
 use serde_json::Value;
@@ -165,6 +165,14 @@ fn cocota_non_minimum_phase_paired_diagonally_is_unstable() {
     setup.controller.pairing = Pairing::Diagonal;
     assert_eq!(analyse(&setup).unwrap().closed_loop.stability, Stability::Unstable);
     assert!(!run(&setup).unwrap().nonlinear.events.is_empty());
+}
+
+/// A level beyond 10 % of its step at the step itself: 130.370 s by a simulation of another kind, to its last digit.
+#[test]
+fn a_rise_under_way_counts_from_the_step() {
+    let document = include_str!("data/rise-time-under-way.json");
+    let metrics = run(&from_json(document).unwrap().setup).unwrap().metrics;
+    assert_relative_eq!(metrics[1].rise_time_s.unwrap(), 130.370, epsilon = 5e-4);
 }
 
 // Singular cases: an answer where there is one, a typed error where there is none.

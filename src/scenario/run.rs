@@ -1,6 +1,8 @@
 use serde::Serialize;
 
-use crate::sim::{LoopMetrics, Stability, Trajectory, closed_loop, loop_metrics, simulate, simulate_linear};
+use crate::sim::{
+    LoopMetrics, NoResponse, Stability, Trajectory, closed_loop, loop_metrics, simulate, simulate_linear,
+};
 
 use super::{ScenarioError, Setup};
 
@@ -33,9 +35,11 @@ pub fn run(setup: &Setup) -> Result<Run, ScenarioError> {
     let is_unstable =
         closed_loop(&jacobian, controller, plant.power_gain).is_ok_and(|l| l.stability == Stability::Unstable);
     let overflows = (0..4).any(|tank| start.levels[tank] > plant.tanks[tank].height);
+    let reason =
+        if overflows { Some(NoResponse::StartOverflows) } else { is_unstable.then_some(NoResponse::UnstableLoop) };
     let metrics = |run: &Trajectory| {
         let metrics = loop_metrics(run, &plant, controller, experiment);
-        if is_unstable || overflows { metrics.map(LoopMetrics::without_response) } else { metrics }
+        reason.map_or(metrics, |reason| metrics.map(|metrics| metrics.without_response(reason)))
     };
     Ok(Run { metrics: metrics(&nonlinear), linear_metrics: metrics(&linear), nonlinear, linear })
 }
@@ -56,7 +60,7 @@ mod tests {
         let unstable = run(&setup).unwrap();
         for m in unstable.metrics.into_iter().chain(unstable.linear_metrics) {
             assert_eq!((m.rise_time_s, m.settling_2_percent, m.settling_5_percent), (None, None, None));
-            assert_eq!((m.overshoot, m.undershoot), (None, None));
+            assert_eq!((m.overshoot, m.undershoot, m.no_response), (None, None, Some(NoResponse::UnstableLoop)));
             assert!(m.iae > 0.0 && m.step_time_s.is_some());
         }
     }
@@ -67,6 +71,7 @@ mod tests {
         setup.valves = [0.3, 0.7];
         for m in run(&setup).unwrap().metrics {
             assert_eq!((m.rise_time_s, m.settling_2_percent, m.overshoot), (None, None, None));
+            assert_eq!(m.no_response, Some(NoResponse::StartOverflows));
             assert!(m.iae > 0.0 && m.step_time_s.is_some());
         }
     }

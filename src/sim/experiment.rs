@@ -1,3 +1,16 @@
+use std::array::from_fn;
+
+/// A step of a reference of at most this size has no figures (m): no sensor resolves it, and rounding errors of a level, which
+/// are up to 2e-15 m, would show in shares of a still smaller one.
+pub(super) const LEAST_STEP: f64 = 1e-9;
+
+/// Sum of changes that act together; exactly 0 where they cancel to rounding.
+pub(super) fn net(changes: impl Iterator<Item = f64> + Clone) -> f64 {
+    let sum: f64 = changes.clone().sum();
+    let rounding: f64 = changes.map(|change| f64::EPSILON * change.abs()).sum();
+    if sum.abs() <= 2.0 * rounding { 0.0 } else { sum }
+}
+
 /// A step of one reference, relative to the operating point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SetPointStep {
@@ -26,6 +39,16 @@ pub enum Load {
         /// Area of the hole (m²).
         area: f64,
     },
+}
+
+impl Load {
+    /// What the load acts on, as an index (0 and 1 for the pumps, 2 to 5 for the tanks), and the size of the change.
+    fn change(self) -> (usize, f64) {
+        match self {
+            Self::PumpFlow { pump, flow } => (pump, flow),
+            Self::Leak { tank, area } => (2 + tank, area),
+        }
+    }
 }
 
 /// A load that begins at a time and stays.
@@ -73,17 +96,28 @@ impl Experiment {
         !self.load_steps.is_empty() || self.measurement.noise_std > 0.0 || self.measurement.quantised
     }
 
-    /// The reference step (m) that comes first, in all levels that step at that time; `None` when no reference moves.
+    /// The reference step (m) that comes first, in all levels that step at that time; `None` when no reference moves. Steps
+    /// of one level at the same time add up, and those that cancel are none.
     pub fn first_reference_step(&self) -> Option<[f64; 2]> {
-        let moving = || self.set_point_steps.iter().filter(|s| s.size != 0.0);
-        let first = moving().map(|s| s.time_s).min_by(f64::total_cmp)?;
-        let mut step = [0.0; 2];
-        for s in moving().filter(|s| s.time_s == first) {
-            if let Some(size) = step.get_mut(s.level) {
-                *size += s.size;
-            }
-        }
-        Some(step)
+        let mut times: Vec<f64> = self.set_point_steps.iter().map(|step| step.time_s).collect();
+        times.sort_by(f64::total_cmp);
+        let step_at = |time_s: f64| -> [f64; 2] {
+            from_fn(|level| {
+                let acting = self.set_point_steps.iter().filter(|step| step.level == level && step.time_s == time_s);
+                net(acting.map(|step| step.size))
+            })
+        };
+        times.into_iter().map(step_at).find(|step| *step != [0.0; 2])
+    }
+
+    /// When a load first changes after `time_s` (s). Loads that cancel or have no size change nothing.
+    pub(super) fn next_load_s(&self, time_s: f64) -> Option<f64> {
+        let changes_at = |begin: f64| {
+            let acting = || self.load_steps.iter().filter(|step| step.time_s == begin).map(|step| step.load.change());
+            acting().any(|(index, _)| net(acting().filter(|change| change.0 == index).map(|change| change.1)) != 0.0)
+        };
+        let later = self.load_steps.iter().map(|step| step.time_s).filter(|&begin| begin > time_s);
+        later.filter(|&begin| changes_at(begin)).min_by(f64::total_cmp)
     }
 }
 
@@ -128,5 +162,30 @@ mod tests {
             with_steps(&[(0, 30.0, 1.0), (1, 5.0, 0.0), (1, 10.0, 0.5), (0, 10.0, -0.25), (0, 10.0, 0.125)]);
         assert_eq!(experiment.first_reference_step(), Some([-0.125, 0.5]));
         assert_eq!(with_steps(&[(0, 10.0, 0.0)]).first_reference_step(), None);
+    }
+
+    #[test]
+    fn steps_that_cancel_are_none() {
+        let cancelling = [(0, 5.0, 0.1), (0, 5.0, 0.2), (0, 5.0, -0.3), (1, 9.0, 0.25), (0, 12.0, 1.0)];
+        assert_eq!(with_steps(&cancelling).first_reference_step(), Some([0.0, 0.25]));
+        assert_eq!(with_steps(&cancelling[..3]).first_reference_step(), None);
+        // The smallest number is a step where nothing cancels it.
+        assert_eq!(with_steps(&[(0, 5.0, 5e-324)]).first_reference_step(), Some([5e-324, 0.0]));
+    }
+
+    #[test]
+    fn the_next_load_is_the_first_that_changes_anything() {
+        let flow = |time_s: f64, pump: usize, flow: f64| LoadStep { time_s, load: Load::PumpFlow { pump, flow } };
+        let leak = |time_s: f64, tank: usize, area: f64| LoadStep { time_s, load: Load::Leak { tank, area } };
+        let mut experiment = with_steps(&[]);
+        experiment.load_steps = vec![
+            leak(40.0, 0, 1e-6),
+            flow(20.0, 0, 1e-6),
+            flow(20.0, 0, -1e-6),
+            leak(25.0, 3, 0.0),
+            flow(30.0, 0, 1e-6),
+            flow(30.0, 1, -1e-6),
+        ];
+        assert_eq!([0.0, 30.0, 40.0].map(|after| experiment.next_load_s(after)), [Some(30.0), Some(40.0), None]);
     }
 }

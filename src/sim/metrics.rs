@@ -7,7 +7,7 @@ use crate::plant::QuadrupleTank;
 use crate::scalar::larger;
 
 use super::experiment::Experiment;
-use super::response::{Response, Settling};
+use super::response::{NoResponse, Response, Settling};
 use super::trajectory::Trajectory;
 
 /// How one loop answered its first set-point step, within the window that [`loop_metrics`] describes; sums over the
@@ -18,7 +18,9 @@ pub struct LoopMetrics {
     pub step_time_s: Option<f64>,
     /// How long the response to that step is looked at (s): until anything else is done to the plant, or to the end.
     pub window_s: Option<f64>,
-    /// From 10 % to 90 % of the step (s); `None` when it is never reached.
+    /// Why there are no figures of a step response; `None` where there are.
+    pub no_response: Option<NoResponse>,
+    /// From 10 % to 90 % of the step (s); `None` also when 90 % is never reached.
     pub rise_time_s: Option<f64>,
     /// Into the 2 % band of the step.
     pub settling_2_percent: Option<Settling>,
@@ -47,7 +49,8 @@ pub struct LoopMetrics {
 ///
 /// The response figures refer to the first step of the reference of that loop. Their window ends where anything else is
 /// done to the plant, be it a step of either reference or a load, because from there on the response is to that as well;
-/// else at the end of the run. They are about true levels, not measured ones. Times are interpolated between rows.
+/// else at the end of the run. Steps or loads that cancel are none. The figures are about true levels, not measured ones.
+/// Times are interpolated between rows. `controller` is that of the run.
 pub fn loop_metrics(
     trajectory: &Trajectory,
     plant: &QuadrupleTank,
@@ -55,22 +58,30 @@ pub fn loop_metrics(
     experiment: &Experiment,
 ) -> [LoopMetrics; 2] {
     let limits = controller.pairing.by_loop(plant.controller_limits());
-    std::array::from_fn(|index| metrics_of(trajectory, experiment, index, limits[index]))
+    std::array::from_fn(|index| metrics_of(trajectory, experiment, controller.sampling_time_s, index, limits[index]))
 }
 
-fn metrics_of(trajectory: &Trajectory, experiment: &Experiment, index: usize, limits: (f64, f64)) -> LoopMetrics {
-    let response = Response::first(trajectory, experiment, index);
-    let response = response.as_ref();
-    let step_time_s = response.map(Response::step_time);
+fn metrics_of(
+    trajectory: &Trajectory,
+    experiment: &Experiment,
+    sampling_time_s: f64,
+    index: usize,
+    limits: (f64, f64),
+) -> LoopMetrics {
+    let window = Response::first(trajectory, experiment, sampling_time_s, index);
+    let window = window.as_ref();
+    let no_response = window.map_or(Some(NoResponse::NoStep), Response::refusal);
+    let response = window.filter(|_| no_response.is_none());
     let mut metrics = LoopMetrics {
-        step_time_s,
-        window_s: response.map(Response::duration),
+        step_time_s: window.map(Response::step_time),
+        window_s: window.map(Response::duration),
+        no_response,
         rise_time_s: response.and_then(Response::rise_time),
         settling_2_percent: response.map(|response| response.settling(0.02)),
         settling_5_percent: response.map(|response| response.settling(0.05)),
         overshoot: response.map(Response::overshoot),
         undershoot: response.map(Response::undershoot),
-        other_peak: response.map_or(0.0, Response::other_peak),
+        other_peak: window.map_or(0.0, Response::other_peak),
         iae: 0.0,
         ise: 0.0,
         itae: 0.0,
@@ -82,10 +93,11 @@ fn metrics_of(trajectory: &Trajectory, experiment: &Experiment, index: usize, li
 }
 
 impl LoopMetrics {
-    /// The same without the figures of a step response, for a loop that never comes to rest.
+    /// The same without the figures of a step response, for a reason that holds for any step.
     #[must_use]
-    pub fn without_response(self) -> Self {
+    pub fn without_response(self, reason: NoResponse) -> Self {
         Self {
+            no_response: self.no_response.or(Some(reason)),
             rise_time_s: None,
             settling_2_percent: None,
             settling_5_percent: None,
@@ -244,5 +256,92 @@ mod tests {
         assert!(metrics.rise_time_s.is_some());
         let metrics = first(&run(&[], |_| 0.0), &experiment(&[], vec![]));
         assert_eq!((metrics.step_time_s, metrics.settling_2_percent, metrics.overshoot), (None, None, None));
+    }
+
+    #[test]
+    fn a_level_under_way_counts_from_the_step_itself() {
+        // Beyond 10 % when the reference steps, and 8 s from 90 % of it.
+        let steps = [(0, 10.0)];
+        let mut run = run(&steps, |t| 0.2 + 0.7 * t / 8.0);
+        run.levels[0][10] = 0.1 + 0.2 * STEP;
+        let metrics = first(&run, &experiment(&steps, vec![]));
+        assert_relative_eq!(metrics.rise_time_s.unwrap(), 8.0, max_relative = 1e-12);
+        // Beyond 90 % there is nothing left to rise.
+        run.levels[0][10] = 0.1 + STEP;
+        assert_eq!(first(&run, &experiment(&steps, vec![])).rise_time_s, Some(0.0));
+    }
+
+    fn sized(steps: &[(usize, f64, f64)]) -> Experiment {
+        let set_point_steps = steps.iter().map(|&(level, time_s, size)| SetPointStep { level, time_s, size }).collect();
+        Experiment { set_point_steps, ..experiment(&[], vec![]) }
+    }
+
+    #[test]
+    fn a_window_ends_at_the_exact_time_of_the_load() {
+        let load = |time_s: f64, flow: f64| LoadStep { time_s, load: Load::PumpFlow { pump: 1, flow } };
+        let steps = [(0, 10.0)];
+        let window = |loads: Vec<LoadStep>| first(&run(&steps, |_| 1.0), &experiment(&steps, loads)).window_s;
+        assert_eq!(window(vec![load(30.25, 1e-6)]), Some(20.25));
+        // What begins with the step, before it or after the run ends no window; nor do loads that cancel.
+        assert_eq!(window(vec![load(10.0, 1e-6), load(1e-300, 1e-6), load(200.0, 1e-6)]), Some(90.0));
+        assert_eq!(window(vec![load(30.25, 1e-6), load(30.25, -1e-6), load(40.5, 0.0)]), Some(90.0));
+    }
+
+    #[test]
+    fn steps_that_cancel_are_none_and_others_add_up() {
+        let response = |t: f64| 1.0 - (-t / 8.0).exp();
+        let plain = first(&run(&[(0, 10.0)], response), &sized(&[(0, 10.0, STEP)]));
+        // Two halves, the second at a time that is rounded up to the same sample; a pair that cancels before and after.
+        let in_parts = sized(&[
+            (0, 2.0, 0.3),
+            (0, 2.0, -0.1),
+            (0, 2.0, -0.2),
+            (0, 10.0, STEP / 2.0),
+            (0, 9.5, STEP / 2.0),
+            (1, 20.0, 0.1),
+            (1, 20.0, -0.1),
+        ]);
+        assert_eq!(first(&run(&[(0, 10.0)], response), &in_parts), plain);
+        let none = first(&run(&[], |_| 0.0), &sized(&[(0, 10.0, STEP), (0, 10.0, -STEP)]));
+        assert_eq!((none.step_time_s, none.no_response), (None, Some(NoResponse::NoStep)));
+    }
+
+    #[test]
+    fn a_step_within_the_rounding_of_a_level_has_no_figures() {
+        for size in [5e-324, 1e-300, -1e-17, 1e-9] {
+            let metrics = first(&run(&[], |_| 0.0), &sized(&[(0, 10.0, size)]));
+            assert_eq!(metrics.no_response, Some(NoResponse::StepTooSmall { size }));
+            assert_eq!((metrics.step_time_s, metrics.window_s), (Some(10.0), Some(90.0)));
+            assert_eq!((metrics.rise_time_s, metrics.settling_2_percent, metrics.overshoot), (None, None, None));
+        }
+    }
+
+    #[test]
+    fn a_step_at_next_to_no_time_is_one_at_the_start() {
+        let steps = [(0, 0.0)];
+        let late = first(&run(&steps, |t| t / 50.0), &sized(&[(0, 1e-300, STEP)]));
+        assert_eq!((late.step_time_s, late.no_response), (Some(0.0), None));
+        assert_relative_eq!(late.rise_time_s.unwrap(), 40.0, max_relative = 1e-12);
+    }
+
+    #[test]
+    fn sums_weigh_each_row_with_the_time_to_the_next() {
+        let mut run = Trajectory::with_rows(4);
+        // Errors 0.5, −0.25 and 2 for 3 s, 0.5 s and 4 s; the reference steps at 3 s.
+        let rows = [(0.0, 0.5, 2.0), (3.0, 1.25, 0.0), (3.5, -1.0, 12.0), (7.5, 0.0, 7.0)];
+        for (row, (time, level, output)) in rows.into_iter().enumerate() {
+            let reference = 1.0;
+            run.set(row, time, [level, 0.0, 0.0, 0.0], [reference, 0.0], [output, 5.0], [output, 5.0]);
+        }
+        let metrics = first(&run, &sized(&[(0, 3.0, 0.5)]));
+        assert_eq!(metrics.iae, 0.5 * 3.0 + 0.25 * 0.5 + 2.0 * 4.0);
+        assert_eq!(metrics.ise, 0.25 * 3.0 + 0.0625 * 0.5 + 4.0 * 4.0);
+        // From the step on: 0 s, 0 s and 0.5 s after it.
+        assert_eq!(metrics.itae, 0.5 * 2.0 * 4.0);
+        assert_eq!(metrics.total_variation, 2.0 + 12.0 + 5.0);
+        // At 0 V for 0.5 s, beyond 10 V for 4 s.
+        assert_eq!(metrics.saturated_s, 4.5);
+        // Without a step time counts from the start.
+        assert_eq!(first(&run, &sized(&[])).itae, 3.0 * 0.25 * 0.5 + 3.5 * 2.0 * 4.0);
     }
 }

@@ -4,7 +4,8 @@ use serde::Serialize;
 
 use crate::scalar::larger;
 
-use super::experiment::Experiment;
+use super::course::TIME_SLACK;
+use super::experiment::{Experiment, LEAST_STEP, net};
 use super::trajectory::Trajectory;
 
 /// When a response stays within its band.
@@ -20,32 +21,84 @@ pub enum Settling {
     Never,
 }
 
+/// Why a loop has no figures of a step response.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum NoResponse {
+    /// The reference never moves.
+    NoStep,
+    /// The step is at most 1 nm, which no sensor resolves; shares of a still smaller one would be rounding errors of the level.
+    StepTooSmall {
+        /// Size of the step (m).
+        size: f64,
+    },
+    /// The linear loop is unstable: an oscillation that only limits hold has no step response.
+    UnstableLoop,
+    /// A tank overflows at the operating point, so the run does not begin at rest.
+    StartOverflows,
+}
+
+/// A change of a reference.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct ReferenceStep {
+    /// The row at which it acts.
+    row: usize,
+    /// By how much (m).
+    size: f64,
+}
+
 /// A step response and what the other level did meanwhile. All slices have the rows of the window, from the step on.
 pub(super) struct Response<'a> {
     time: &'a [f64],
     level: &'a [f64],
     other_level: &'a [f64],
+    /// Size of the step (m).
+    step: f64,
+    /// The reference before and after it (m).
     before: f64,
     after: f64,
+    /// When the window ends (s).
+    end_s: f64,
 }
 
 impl<'a> Response<'a> {
-    /// The response of level `index`; `None` when its reference never moves.
-    pub(super) fn first(trajectory: &'a Trajectory, experiment: &Experiment, index: usize) -> Option<Self> {
-        let reference = &trajectory.references[index];
-        let at_start: f64 =
-            experiment.set_point_steps.iter().filter(|s| s.level == index && s.time_s <= 0.0).map(|s| s.size).sum();
-        let initial = reference.first()? - at_start;
-        let (first, before) = if at_start == 0.0 { (moved_after(reference, 0)?, initial) } else { (0, initial) };
-        let end = window_end(trajectory, experiment, first);
+    /// The response of level `index` to the first step of its reference, in a run with the given sampling time (s); `None`
+    /// when its reference never moves.
+    pub(super) fn first(
+        trajectory: &'a Trajectory,
+        experiment: &Experiment,
+        sampling_time_s: f64,
+        index: usize,
+    ) -> Option<Self> {
+        let steps_of = |level: usize| reference_steps(trajectory, experiment, sampling_time_s, level);
         let other = 1 - index;
+        let ReferenceStep { row: first, size: step } = *steps_of(index).first()?;
+        let slack = TIME_SLACK * sampling_time_s;
+        let begin_s = trajectory.time_s[first];
+        let later_steps = [0, 1].into_iter().flat_map(steps_of).filter(|later| later.row > first);
+        let end_s = later_steps
+            .map(|later| trajectory.time_s[later.row])
+            .chain(experiment.next_load_s(begin_s + slack))
+            .chain(trajectory.time_s.last().copied())
+            .fold(f64::INFINITY, f64::min);
+        // The last row is at the end itself, where the level does not show yet what begins there.
+        let end = trajectory.time_s.partition_point(|&time| time <= end_s + slack).max(first + 1);
+        let reference = &trajectory.references[index];
+        let after = reference[first];
         Some(Self {
-            time: trajectory.time_s.get(first..end)?,
-            level: trajectory.levels[index].get(first..end)?,
-            other_level: trajectory.levels[other].get(first..end)?,
-            before,
-            after: reference[first],
+            time: &trajectory.time_s[first..end],
+            level: &trajectory.levels[index][first..end],
+            other_level: &trajectory.levels[other][first..end],
+            step,
+            before: if first == 0 { after - step } else { reference[first - 1] },
+            after,
+            end_s,
         })
+    }
+
+    /// Why the step has no figures, where it has none.
+    pub(super) fn refusal(&self) -> Option<NoResponse> {
+        (self.step.abs() <= LEAST_STEP).then_some(NoResponse::StepTooSmall { size: self.step })
     }
 
     /// When the reference stepped (s).
@@ -55,7 +108,7 @@ impl<'a> Response<'a> {
 
     /// From the step to the end of the window (s).
     pub(super) fn duration(&self) -> f64 {
-        self.time[self.time.len() - 1] - self.step_time()
+        self.end_s - self.step_time()
     }
 
     /// Where the level is: 0 at the old reference, 1 at the new one.
@@ -70,10 +123,10 @@ impl<'a> Response<'a> {
         self.time[row] + fraction * (self.time[row + 1] - self.time[row]) - self.step_time()
     }
 
-    /// When the progress first reaches `value` (s after the step).
+    /// When the progress first reaches `value` (s after the step): 0 for a level that is there when the reference steps.
     fn reached(&self, value: f64) -> Option<f64> {
-        let row = (1..self.level.len()).find(|&row| self.progress(row) >= value)?;
-        Some(self.crossing(row - 1, value))
+        let row = (0..self.level.len()).find(|&row| self.progress(row) >= value)?;
+        Some(if row == 0 { 0.0 } else { self.crossing(row - 1, value) })
     }
 
     /// From 10 % to 90 % (s).
@@ -110,18 +163,27 @@ impl<'a> Response<'a> {
     }
 }
 
-/// First row after `row` at which a reference moved.
-fn moved_after(reference: &[f64], row: usize) -> Option<usize> {
-    (row + 1..reference.len()).find(|&k| reference[k] != reference[k - 1])
-}
-
-/// One past the last row that still belongs to the step at `first`: the row at which something else begins, where the
-/// level does not know of it yet.
-fn window_end(trajectory: &Trajectory, experiment: &Experiment, first: usize) -> usize {
-    let time = &trajectory.time_s;
-    let next_reference = trajectory.references.iter().filter_map(|reference| moved_after(reference, first)).min();
-    let next_load =
-        experiment.load_steps.iter().map(|load| load.time_s).filter(|&t| t > time[first]).fold(f64::INFINITY, f64::min);
-    let last_before_load = time.partition_point(|&t| t <= next_load);
-    next_reference.map_or(time.len(), |row| row + 1).min(last_before_load)
+/// Changes of the reference of a level in a run with the given sampling time (s), in order of time. Steps that act at the same
+/// sample are one, and those that cancel are none.
+fn reference_steps(
+    trajectory: &Trajectory,
+    experiment: &Experiment,
+    sampling_time_s: f64,
+    level: usize,
+) -> Vec<ReferenceStep> {
+    let row_of = |time_s: f64| {
+        // A reference steps at the first sample at or after its time.
+        let sample = (time_s / sampling_time_s - TIME_SLACK).ceil();
+        trajectory.time_s.partition_point(|&time| time < (sample - TIME_SLACK) * sampling_time_s)
+    };
+    let steps = experiment.set_point_steps.iter().filter(|step| step.level == level);
+    let mut steps: Vec<ReferenceStep> =
+        steps.map(|step| ReferenceStep { row: row_of(step.time_s), size: step.size }).collect();
+    steps.retain(|step| step.row < trajectory.time_s.len());
+    steps.sort_by_key(|step| step.row);
+    let at_once = steps.chunk_by(|one, next| one.row == next.row);
+    at_once
+        .map(|steps| ReferenceStep { row: steps[0].row, size: net(steps.iter().map(|step| step.size)) })
+        .filter(|step| step.size != 0.0)
+        .collect()
 }

@@ -3,7 +3,10 @@ use super::two_loops::LoopTrace;
 /// Share of the reference within which an output has settled.
 const BAND: f64 = 0.02;
 
-/// What a run says of one output.
+/// A reference below this share of the largest output is none: shares of it would be rounding errors of the output.
+const LEAST_REFERENCE: f64 = 1e-9;
+
+/// What a run says of one output. A reference of next to nothing, at most 1e-9 of the largest output, is one of 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepFigures {
     /// By how much it passes its reference, as a share of it; `None` for a reference of 0.
@@ -26,8 +29,8 @@ impl LoopTrace {
         let rows = || self.time.iter().copied().zip(outputs.iter().copied());
         let pairs = rows().zip(rows().skip(1));
         let iae = pairs.map(|((t, y), (u, z))| 0.5 * (u - t) * ((y - reference).abs() + (z - reference).abs())).sum();
-        if reference == 0.0 {
-            let peak = outputs.iter().map(|y| y.abs()).fold(0.0, f64::max);
+        let peak = outputs.iter().map(|y| y.abs()).fold(0.0, f64::max);
+        if reference.abs() <= LEAST_REFERENCE * peak || reference == 0.0 {
             return StepFigures { overshoot: None, settling_time: None, peak: Some(peak), iae };
         }
         let overshoot = outputs.iter().map(|y| y / reference - 1.0).fold(0.0, f64::max);
@@ -59,5 +62,17 @@ mod tests {
         assert_eq!((second.peak, second.overshoot, second.settling_time), (Some(0.3), None, None));
         let unsettled = LoopTrace { outputs: [vec![0.0, 1.0, 2.0, 2.0, 2.5], vec![0.0; 5]], ..trace };
         assert_eq!(unsettled.step_figures([2.0, 0.0])[0].settling_time, None);
+    }
+
+    #[test]
+    fn a_reference_too_small_to_tell_from_zero_is_zero() {
+        let outputs = vec![0.0, 0.5, -0.25, 0.0];
+        let trace =
+            LoopTrace { time: vec![0.0, 1.0, 2.0, 3.0], outputs: [outputs, vec![0.0; 4]], ..LoopTrace::default() };
+        for reference in [5e-324, 1e-300, -4e-10] {
+            let [first, _] = trace.step_figures([reference, 0.0]);
+            assert_eq!((first.peak, first.overshoot, first.settling_time), (Some(0.5), None, None));
+        }
+        assert!(trace.step_figures([6e-10, 0.0])[0].overshoot.is_some_and(f64::is_finite));
     }
 }

@@ -3,6 +3,7 @@ use serde::Serialize;
 use crate::control::Pairing;
 use crate::plant::QuadrupleTank;
 
+use super::experiment::LEAST_STEP;
 use super::trajectory::Trajectory;
 
 /// Band around the new reference that counts as settled, as a share of the step.
@@ -16,11 +17,8 @@ const SHOWN: f64 = 0.1;
 /// Samples in a row inside the band that show that a level was there, not only passed.
 const HELD: usize = 20;
 
-/// Smallest difference that counts as a step of the start (m): rounding leaves less, and no sensor sees it.
-const LEAST_STEP: f64 = 1e-9;
-
 /// How one level followed its reference, from samples: sums over all of them, the last included; figures of the response from
-/// the last step of this reference on.
+/// the last step of this reference by more than 1 nm on.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct TrackingFigures {
     /// Σ |r − h| Ts (m s).
@@ -102,12 +100,9 @@ impl Samples {
 
     /// Sample of the last step of the reference, and its size (m).
     fn last_step(&self) -> Option<(usize, f64)> {
-        let moved = (1..self.reference.len()).rev().find(|&k| self.reference[k] != self.reference[k - 1]);
-        if let Some(k) = moved {
-            return Some((k, self.reference[k] - self.reference[k - 1]));
-        }
-        let size = self.reference.first()? - self.level.first()?;
-        (size.abs() > LEAST_STEP).then_some((0, size))
+        let at_start = self.reference.first()? - self.level.first()?;
+        let later = (1..self.reference.len()).rev().map(|k| (k, self.reference[k] - self.reference[k - 1]));
+        later.chain([(0, at_start)]).find(|(_, size)| size.abs() > LEAST_STEP)
     }
 
     fn lost_at(&self, first: usize) -> Option<f64> {
