@@ -127,7 +127,7 @@ proptest! {
         for (j, time_constant) in plant.time_constants_s(&point).into_iter().enumerate() {
             match time_constant {
                 Some(value) => prop_assert!((value * model.a[(j, j)] + 1.0).abs() < 1e-12 && value > 0.0),
-                None => prop_assert!(model.dry[j] && model.a[(j, j)] == 0.0),
+                None => prop_assert!(model.quasi_steady[j] && model.a[(j, j)] == 0.0),
             }
         }
         let (a, b, c) = model.reduced();

@@ -31,7 +31,7 @@ pub use singular_values::singular_values;
 pub use state_space::StateSpace;
 pub use transfer::{TransferFunction, TransferMatrix};
 pub use turn::{exponential, square_root, turn};
-pub use zeros::{TransmissionZero, snapped_to_origin, transmission_zeros};
+pub use zeros::{TransmissionZero, place_nearest_at_origin, transmission_zeros};
 
 /// Complex number of the linear room: poles, zeros (1/s) and gains.
 pub type Complex = nalgebra::Complex<f64>;

@@ -9,6 +9,7 @@
 //! Nothing here allocates: a chart asks thousands of times.
 
 use super::LinearError;
+use crate::scalar::{complements, excess_over_one};
 
 /// The finite zeros, at most two, real, the smaller first (1/s).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,8 +49,9 @@ pub struct PathPoint {
 
 /// `η = (1−γ1)(1−γ2)/(γ1γ2)` (Cocota 2009, eq. 3.23): infinite where a γ is 0, undefined (`None`) where in addition the
 /// other one is 1.
-pub fn eta([gamma1, gamma2]: [f64; 2]) -> Option<f64> {
-    let eta = (1.0 - gamma1) * (1.0 - gamma2) / (gamma1 * gamma2);
+pub fn eta(gammas: [f64; 2]) -> Option<f64> {
+    let ([gamma1, gamma2], [above1, above2]) = (gammas, complements(gammas));
+    let eta = above1 * above2 / (gamma1 * gamma2);
     (!eta.is_nan()).then_some(eta)
 }
 
@@ -77,7 +79,7 @@ pub fn zeros(t3: f64, t4: f64, gammas: [f64; 2]) -> Result<FiniteZeros, LinearEr
         return Ok(FiniteZeros::None);
     }
     // 1 − η without cancellation, so that the zero at the origin is exact.
-    let gap = (gamma1 + gamma2 - 1.0) / (gamma1 * gamma2);
+    let gap = excess_over_one(gammas) / (gamma1 * gamma2);
     if sum == 0.0 {
         return if gap == 0.0 { Err(degenerate) } else { Ok(FiniteZeros::None) };
     }

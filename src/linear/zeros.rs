@@ -34,12 +34,12 @@ pub struct TransmissionZero {
     pub output_direction: DVector<Complex>,
 }
 
-/// A zero this close to the origin, as a share of the fastest pole, is there: its sign is rounding.
-const ORIGIN: f64 = 1e-12;
-
-/// The place of a zero (1/s), exactly at the origin where it is there to rounding, seen from the fastest pole (1/s).
-pub fn snapped_to_origin(zero: Complex, fastest_pole: f64) -> Complex {
-    if zero.norm() > ORIGIN * fastest_pole { zero } else { Complex::ZERO }
+/// Puts the zero nearest to the origin exactly there. A model with a singular G(0) and no pole at the origin has a zero at the
+/// origin, which is computed with a rounding error.
+pub fn place_nearest_at_origin(zeros: &mut [TransmissionZero]) {
+    if let Some(nearest) = zeros.iter_mut().min_by(|x, y| x.value.norm().total_cmp(&y.value.norm())) {
+        nearest.value = Complex::ZERO;
+    }
 }
 
 /// Finite transmission zeros of a square model, by rising real part, each as often as its multiplicity.

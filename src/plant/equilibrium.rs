@@ -1,6 +1,7 @@
 use serde::Serialize;
 
 use super::{Disturbance, PlantError, QuadrupleTank};
+use crate::scalar::{complements, excess_over_one};
 
 /// Distance of γ1 + γ2 from 1 below which the plant counts as singular at steady state.
 ///
@@ -80,13 +81,13 @@ impl QuadrupleTank {
 
     /// Solves the flow balance of the lower tanks for the pump voltages (V), without any check.
     pub(super) fn balancing_voltages(&self, levels: [f64; 2]) -> [f64; 2] {
-        let [gamma_1, gamma_2] = self.valves;
+        let ([gamma_1, gamma_2], [above_1, above_2]) = (self.valves, complements(self.valves));
         let q1 = self.tanks[0].outflow(levels[0], self.gravity);
         let q2 = self.tanks[1].outflow(levels[1], self.gravity);
-        let determinant = gamma_1 + gamma_2 - 1.0;
+        let determinant = excess_over_one(self.valves);
         [
-            (gamma_2 * q1 - (1.0 - gamma_2) * q2) / (determinant * self.pumps[0].gain),
-            (gamma_1 * q2 - (1.0 - gamma_1) * q1) / (determinant * self.pumps[1].gain),
+            (gamma_2 * q1 - above_2 * q2) / (determinant * self.pumps[0].gain),
+            (gamma_1 * q2 - above_1 * q1) / (determinant * self.pumps[1].gain),
         ]
     }
 

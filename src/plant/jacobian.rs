@@ -1,20 +1,19 @@
 use nalgebra::{DMatrix, Matrix2x4, Matrix4, Matrix4x2};
 
 use super::{Disturbance, OperatingPoint, QuadrupleTank};
+use crate::scalar::complements;
 
-/// Level at or below which a tank counts as dry (m).
-///
-/// A tank of the published size under this much water answers within about 0.01 s, far within a sampling time, and its
-/// √-slope spreads the entries of A over so many decades that poles and zeros would lose digits.
-pub const DRY_LEVEL: f64 = 1e-9;
+/// An upper tank whose time constant is at most this share of the longest is quasi-steady: slow poles and zeros move by no
+/// larger share when its state is left out. With it, from 4e-9 on zeros get lost in the rounding of the fast entries of A.
+const QUASI_STEADY: f64 = 1e-8;
 
 /// The linear model `dx/dt = A x + B u`, `y = C x` of the plant around an operating point, in deviations: `x` levels
 /// (m), `u` pump voltages (V), `y` measured signals (V).
 ///
-/// A tank that is dry at the operating point (level at or below [`DRY_LEVEL`]) has an infinite √-slope: it follows its
-/// inflow at once and holds no water. Such a tank is listed in `dry`, its row and column in A, its row in B and its
-/// column in C are zero, and [`Jacobian::reduced`] leaves it out. What a pump sends into a dry upper tank stands in the
-/// row of B of the lower one.
+/// A tank without water at the operating point is dry: its √-slope is infinite, so it follows its inflow at once. An upper
+/// tank with so little water that its time constant is below 1e-8 of the longest is taken to do so too. Such tanks are
+/// listed in `quasi_steady`, their row and column in A, their row in B and their column in C are zero, and
+/// [`Jacobian::reduced`] leaves them out. What a pump sends into such an upper tank stands in the row of B of the lower one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Jacobian {
     /// System matrix (1/s), 4 × 4.
@@ -23,26 +22,26 @@ pub struct Jacobian {
     pub b: Matrix4x2<f64>,
     /// Output matrix (V/m), 2 × 4.
     pub c: Matrix2x4<f64>,
-    /// Which tanks are dry, so that no linear model of them exists.
-    pub dry: [bool; 4],
+    /// Which tanks follow their inflow at once and have no state.
+    pub quasi_steady: [bool; 4],
 }
 
 impl Jacobian {
-    /// The model without the dry tanks: `(A, B, C)` with n × n, n × 2 and 2 × n entries, the n tanks that hold water in
-    /// their order. n is 0 when every tank is dry.
+    /// The model without the quasi-steady tanks: `(A, B, C)` with n × n, n × 2 and 2 × n entries, the n tanks that have a
+    /// state in their order. n is 0 when every tank is dry.
     pub fn reduced(&self) -> (DMatrix<f64>, DMatrix<f64>, DMatrix<f64>) {
-        let wet: Vec<usize> = (0..4).filter(|&j| !self.dry[j]).collect();
-        let n = wet.len();
+        let states: Vec<usize> = (0..4).filter(|&j| !self.quasi_steady[j]).collect();
+        let n = states.len();
         (
-            DMatrix::from_fn(n, n, |i, j| self.a[(wet[i], wet[j])]),
-            DMatrix::from_fn(n, 2, |i, j| self.b[(wet[i], j)]),
-            DMatrix::from_fn(2, n, |i, j| self.c[(i, wet[j])]),
+            DMatrix::from_fn(n, n, |i, j| self.a[(states[i], states[j])]),
+            DMatrix::from_fn(n, 2, |i, j| self.b[(states[i], j)]),
+            DMatrix::from_fn(2, n, |i, j| self.c[(i, states[j])]),
         )
     }
 }
 
 impl QuadrupleTank {
-    /// Time constants T1…T4 (s) at any point, at rest or not; `None` for a dry tank (see [`DRY_LEVEL`]):
+    /// Time constants T1…T4 (s) at any point, at rest or not; `None` for a dry tank, one without water:
     /// `1/T_j = (k_l a/A) √(g/(2h)) + δ_j` with `δ_j = (A′/A²) (inflow − outflow)`, which is 0 at an exact equilibrium
     /// and for a prismatic tank (Cocota 2009, eqs. 3.14–3.17).
     pub fn time_constants_s(&self, operating_point: &OperatingPoint) -> [Option<f64>; 4] {
@@ -54,26 +53,27 @@ impl QuadrupleTank {
         let levels = operating_point.levels;
         let area: [f64; 4] = std::array::from_fn(|j| self.tanks[j].section.area(levels[j]));
         let rates = self.decay_rates(operating_point);
-        let dry = rates.map(|rate| rate.is_none());
+        let quasi_steady = self.quasi_steady(&levels);
+        let above = complements(self.valves);
 
-        let mut jacobian = Jacobian { a: Matrix4::zeros(), b: Matrix4x2::zeros(), c: Matrix2x4::zeros(), dry };
+        let mut jacobian = Jacobian { a: Matrix4::zeros(), b: Matrix4x2::zeros(), c: Matrix2x4::zeros(), quasi_steady };
         for (j, rate) in rates.into_iter().enumerate() {
-            jacobian.a[(j, j)] = -rate.unwrap_or(0.0);
+            jacobian.a[(j, j)] = if quasi_steady[j] { 0.0 } else { -rate.unwrap_or(0.0) };
         }
         for lower in 0..2 {
             let (upper, other) = (lower + 2, 1 - lower);
             // Flow per volt of the pump that feeds the lower tank, and of the other one that feeds the upper tank.
             let direct = self.valves[lower] * self.pumps[lower].gain;
-            let from_above = (1.0 - self.valves[other]) * self.pumps[other].gain;
-            if !dry[upper] {
+            let from_above = above[other] * self.pumps[other].gain;
+            if !quasi_steady[upper] {
                 jacobian.b[(upper, other)] = from_above / area[upper];
             }
-            if dry[lower] {
+            if quasi_steady[lower] {
                 continue;
             }
             jacobian.b[(lower, lower)] = direct / area[lower];
             jacobian.c[(lower, lower)] = self.sensor.gain;
-            if dry[upper] {
+            if quasi_steady[upper] {
                 jacobian.b[(lower, other)] = from_above / area[lower];
             } else {
                 let slope = self.tanks[upper].outflow_slope(levels[upper], self.gravity);
@@ -91,8 +91,18 @@ impl QuadrupleTank {
             let (tank, level) = (&self.tanks[j], levels[j]);
             let area = tank.section.area(level);
             let delta = tank.section.area_slope / (area * area) * net_inflow[j];
-            (level > DRY_LEVEL).then(|| tank.outflow_slope(level, self.gravity) / area + delta)
+            (level > 0.0).then(|| tank.outflow_slope(level, self.gravity) / area + delta)
         })
+    }
+
+    /// Which tanks follow their inflow at once, at given levels (m).
+    fn quasi_steady(&self, levels: &[f64; 4]) -> [bool; 4] {
+        let time: [f64; 4] = std::array::from_fn(|j| {
+            let (tank, level) = (&self.tanks[j], levels[j]);
+            if level > 0.0 { tank.section.area(level) / tank.outflow_slope(level, self.gravity) } else { 0.0 }
+        });
+        let longest = time.into_iter().fold(0.0, f64::max);
+        std::array::from_fn(|j| time[j] == 0.0 || (j >= 2 && time[j] <= QUASI_STEADY * longest))
     }
 }
 
@@ -133,7 +143,7 @@ mod tests {
     fn an_open_valve_leaves_its_upper_tank_out() {
         let (plant, point) = johansson([0.7, 1.0], [3.0, 3.0]);
         let jacobian = plant.linearise(&point);
-        assert_eq!(jacobian.dry, [false, false, true, false]);
+        assert_eq!(jacobian.quasi_steady, [false, false, true, false]);
         assert_eq!(plant.time_constants_s(&point)[2], None);
         assert_eq!(jacobian.b[(0, 1)], 0.0);
         let (a, b, c) = jacobian.reduced();
@@ -149,7 +159,7 @@ mod tests {
         // Pump 2 is off, so tank 3 is dry although its valve would feed it.
         let (plant, point) = johansson([0.7, 0.6], [3.0, 0.0]);
         let jacobian = plant.linearise(&point);
-        assert_eq!(jacobian.dry, [false, false, true, false]);
+        assert_eq!(jacobian.quasi_steady, [false, false, true, false]);
         assert_relative_eq!(jacobian.b[(0, 1)], 0.4 * 3.35e-6 / 28e-4, max_relative = 1e-12);
 
         // The limit of a nearly dry one: the same gain from pump 2 to level 1 at rest.
@@ -170,11 +180,25 @@ mod tests {
     }
 
     #[test]
-    fn a_tank_is_dry_at_the_stated_level() {
-        let (plant, mut point) = johansson([0.7, 0.6], [3.0, 3.0]);
-        point.levels[2] = DRY_LEVEL;
-        assert_eq!(plant.time_constants_s(&point)[2], None);
-        point.levels[2] = 1.01 * DRY_LEVEL;
-        assert!(plant.time_constants_s(&point)[2].is_some_and(|t| t > 0.0 && t < 0.01));
+    fn a_tank_with_a_small_flow_is_not_dry() {
+        let (plant, point) = johansson([0.999_999, 0.6], [3.0, 3.0]);
+        // T = A q/(a² g) of a tank at rest.
+        let expected = 32e-4 * 1e-6 * 3.33e-6 * 3.0 / (5.7e-6_f64.powi(2) * plant.gravity);
+        assert_relative_eq!(plant.time_constants_s(&point)[3].unwrap(), expected, max_relative = 1e-9);
+        assert_eq!(plant.linearise(&point).quasi_steady, [false; 4]);
+        // With less its state goes, its time constant stays.
+        let (plant, point) = johansson([1.0 - 1e-12, 0.6], [3.0, 3.0]);
+        assert_relative_eq!(plant.time_constants_s(&point)[3].unwrap(), 1e-6 * expected, max_relative = 1e-3);
+        assert_eq!(plant.linearise(&point).quasi_steady, [false, false, false, true]);
+        let (plant, point) = johansson([1.0, 0.6], [3.0, 3.0]);
+        assert_eq!(plant.time_constants_s(&point)[3], None);
+    }
+
+    #[test]
+    fn a_lower_tank_with_a_small_flow_keeps_its_output() {
+        let (plant, point) = johansson([1e-6, 1.0], [3.0, 3.0]);
+        let jacobian = plant.linearise(&point);
+        assert_eq!(jacobian.quasi_steady, [false, false, true, false]);
+        assert_eq!(jacobian.c[(0, 0)], plant.sensor.gain);
     }
 }

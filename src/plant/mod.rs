@@ -15,7 +15,7 @@ mod tank;
 
 pub use equilibrium::{OperatingPoint, SINGULAR_MARGIN};
 pub use error::PlantError;
-pub use jacobian::{DRY_LEVEL, Jacobian};
+pub use jacobian::Jacobian;
 pub use preset::{DisplayUnit, Preset, PresetId, Printed, Remark};
 pub use quadruple::{Disturbance, Pump, QuadrupleTank, Sensor};
 pub use schedule::ValveSchedule;

@@ -2,7 +2,7 @@ use std::array::from_fn;
 
 use super::Tank;
 use super::tank::torricelli_speed;
-use crate::scalar::{larger, smaller};
+use crate::scalar::{complements, larger, smaller};
 
 /// A pump with its voltage limits; its flow is `gain × voltage` (Cocota 2009, eq. 2.25).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -112,15 +112,11 @@ impl QuadrupleTank {
 
     /// The same with the valves at `[γ1, γ2]`.
     #[inline]
-    pub fn valve_flows_at(
-        &self,
-        [gamma_1, gamma_2]: [f64; 2],
-        pump_voltage: &[f64; 2],
-        disturbance: &Disturbance,
-    ) -> [f64; 4] {
+    pub fn valve_flows_at(&self, valves: [f64; 2], pump_voltage: &[f64; 2], disturbance: &Disturbance) -> [f64; 4] {
         let [q1, q2]: [f64; 2] =
             from_fn(|i| larger(self.pumps[i].gain * pump_voltage[i] + disturbance.pump_flow[i], 0.0));
-        [gamma_1 * q1, gamma_2 * q2, (1.0 - gamma_2) * q2, (1.0 - gamma_1) * q1]
+        let ([gamma_1, gamma_2], [above_1, above_2]) = (valves, complements(valves));
+        [gamma_1 * q1, gamma_2 * q2, above_2 * q2, above_1 * q1]
     }
 
     /// Flow through the outlet of each tank at the given levels (m³/s).

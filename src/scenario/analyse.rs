@@ -1,9 +1,8 @@
 use crate::interaction::{
     PairingVerdict, interpolation_integral, niederlinski, recommend_pairing, relative_gain_array,
 };
-use crate::linear::{Complex, LinearError, StateSpace, TransmissionZero, snapped_to_origin, transmission_zeros};
+use crate::linear::{Complex, LinearError, StateSpace, TransmissionZero, place_nearest_at_origin, transmission_zeros};
 use crate::plant::{OperatingPoint, PlantError};
-use crate::scalar::larger;
 use crate::sim::{ClosedLoop, Experiment, closed_loop};
 
 use super::{ScenarioError, Setup};
@@ -21,7 +20,7 @@ pub struct Analysis {
     pub model: StateSpace,
     /// Open-loop poles (1/s).
     pub poles: Vec<Complex>,
-    /// Transmission zeros, by rising real part, one that is zero to rounding exactly zero; an error where the plant is singular for every s.
+    /// Transmission zeros, by rising real part, one of them exactly zero where G(0) is singular; an error where the plant is singular for every s.
     pub zeros: Result<Vec<TransmissionZero>, LinearError>,
     /// G(0), by rows (V/V).
     pub dc_gain: [[f64; 2]; 2],
@@ -50,10 +49,9 @@ pub fn analyse(setup: &Setup) -> Result<Analysis, ScenarioError> {
     let gain = model.dc_gain()?;
     let rga_11 = relative_gain_array(&gain).map(|array| array[(0, 0)]);
     let poles = model.poles()?;
-    let fastest = poles.iter().fold(0.0, |fastest, pole| larger(pole.norm(), fastest));
     let mut zeros = transmission_zeros(&model);
-    for zero in zeros.iter_mut().flatten() {
-        zero.value = snapped_to_origin(zero.value, fastest);
+    if let (Ok(zeros), Err(LinearError::SingularGain { .. })) = (&mut zeros, &rga_11) {
+        place_nearest_at_origin(zeros);
     }
     Ok(Analysis {
         operating_point,

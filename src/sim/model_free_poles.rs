@@ -77,7 +77,7 @@ pub fn continuous_model_free_poles(
         }
         a[(4 + i, i)] = -1.0;
     }
-    let wet: Vec<usize> = (0..6).filter(|&k| k > 3 || !jacobian.dry[k]).collect();
+    let wet: Vec<usize> = (0..6).filter(|&k| k > 3 || !jacobian.quasi_steady[k]).collect();
     let mut poles = eigenvalues(&DMatrix::from_fn(wet.len(), wet.len(), |i, j| a[(wet[i], wet[j])]))?;
     sort_few(&mut poles, falling);
     Ok(poles)
@@ -170,7 +170,7 @@ impl<'a> LinearLoop<'a> {
             law,
             hold,
             input: from_fn(|i| by_pump.column(law.pairing.pump_of(i)).into_owned()),
-            wet: (0..4).filter(|&tank| !jacobian.dry[tank]).collect(),
+            wet: (0..4).filter(|&tank| !jacobian.quasi_steady[tank]).collect(),
             integrating: (0..2).filter(|&i| law.loops[i].integral != 0.0).collect(),
             estimator: law.estimator.map(weights).transpose()?,
         })

@@ -38,11 +38,11 @@ impl<'a> OpenLoop<'a> {
         Self { controller, transition: hold.transition, input, sensor }
     }
 
-    /// State matrix of the closed loop without the tanks that are `dry`. States are levels (m), then one integral per
+    /// State matrix of the closed loop without the tanks that are `quasi_steady`. States are levels (m), then one integral per
     /// loop that acts, `s = I − K Ts/(2 Ti) e` (V), with which Tustin's rule reads `c = K (1 + Ts/(2 Ti)) e + s` and
     /// `s⁺ = s + K Ts/Ti e`.
-    pub(super) fn closed(&self, dry: [bool; 4]) -> DMatrix<f64> {
-        let wet: Vec<usize> = (0..4).filter(|&tank| !dry[tank]).collect();
+    pub(super) fn closed(&self, quasi_steady: [bool; 4]) -> DMatrix<f64> {
+        let wet: Vec<usize> = (0..4).filter(|&tank| !quasi_steady[tank]).collect();
         let acting: Vec<usize> = (0..2).filter(|&i| self.controller.loops[i].gain != 0.0).collect();
         let n = wet.len();
         let share = |i: usize| self.controller.sampling_time_s / self.controller.loops[i].integral_time_s;

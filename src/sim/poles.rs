@@ -62,7 +62,7 @@ impl ClosedLoop {
 /// Poles, verdict and sensitivity peak of the sampled linear loop: the plant of `jacobian` under zero-order hold with
 /// the two PI laws, both in automatic mode and away from their limits.
 ///
-/// One state per tank that is not dry and one per loop. A loop with gain 0 does not act and its integral is left out.
+/// One state per tank that is not quasi-steady and one per loop. A loop with gain 0 does not act and its integral is left out.
 /// `power_gain` is that of the power module.
 ///
 /// # Errors
@@ -73,7 +73,7 @@ pub fn closed_loop(
     power_gain: f64,
 ) -> Result<ClosedLoop, LinearError> {
     let open = OpenLoop::new(jacobian, controller, power_gain);
-    let mut poles_z = eigenvalues(&open.closed(jacobian.dry))?;
+    let mut poles_z = eigenvalues(&open.closed(jacobian.quasi_steady))?;
     sort_few(&mut poles_z, |x, y| y.norm().total_cmp(&x.norm()).then(y.im.total_cmp(&x.im)));
     let stability = Stability::of(&poles_z);
     let images = poles_z.iter().filter(|&&z| z != Complex::ZERO);

@@ -43,23 +43,23 @@ pub fn wood_berry_full_controller() -> PidMatrix {
 }
 
 /// The linear model of the quadruple tank as transfer functions, from pump voltages (V) to measured levels (V), in seconds:
-/// one lag where a pump feeds a lower tank, two where its water passes an upper one (Johansson 2000, eq. 2). A dry tank
-/// passes on what it receives at once.
+/// one lag where a pump feeds a lower tank, two where its water passes an upper one (Johansson 2000, eq. 2). A
+/// quasi-steady tank passes on what it receives at once.
 ///
 /// # Errors
 /// None for a model of a plant; the type is that of [`TransferFunction::new`].
 pub fn tank_transfer_matrix(jacobian: &Jacobian) -> Result<TransferMatrix, LinearError> {
-    let Jacobian { a, b, c, dry } = jacobian;
+    let Jacobian { a, b, c, quasi_steady } = jacobian;
     let time = |tank: usize| -1.0 / a[(tank, tank)];
     let none = || TransferFunction::lags(0.0, &[], 0.0);
     let own = |i: usize| {
-        if dry[i] { none() } else { TransferFunction::lags(c[(i, i)] * b[(i, i)] * time(i), &[time(i)], 0.0) }
+        if quasi_steady[i] { none() } else { TransferFunction::lags(c[(i, i)] * b[(i, i)] * time(i), &[time(i)], 0.0) }
     };
     let across = |i: usize| {
         let (upper, other) = (i + 2, 1 - i);
-        if dry[i] {
+        if quasi_steady[i] {
             none()
-        } else if dry[upper] {
+        } else if quasi_steady[upper] {
             TransferFunction::lags(c[(i, i)] * b[(i, other)] * time(i), &[time(i)], 0.0)
         } else {
             let gain = c[(i, i)] * a[(i, upper)] * b[(upper, other)] * time(i) * time(upper);

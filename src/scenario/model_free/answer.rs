@@ -1,6 +1,6 @@
 use crate::control::{ModelFree, Pairing};
 use crate::interaction::{niederlinski, relative_gain_array};
-use crate::linear::{Complex, LinearError, StateSpace, snapped_to_origin, transmission_zeros};
+use crate::linear::{Complex, LinearError, StateSpace, place_nearest_at_origin, transmission_zeros};
 use crate::plant::{OperatingPoint, PlantError, QuadrupleTank, ValveSchedule};
 use crate::scenario::ScenarioError;
 use crate::sim::{
@@ -18,7 +18,7 @@ pub struct Moment {
     pub valves: [f64; 2],
     /// Poles (1/s), those of the tanks that hold water.
     pub poles: Vec<f64>,
-    /// Transmission zeros (1/s); one that is zero to rounding is zero.
+    /// Transmission zeros (1/s), one of them exactly zero where G(0) is singular.
     pub zeros: Result<Vec<Complex>, LinearError>,
     /// Relative gain λ11; `None` where G(0) is singular.
     pub rga_11: Option<f64>,
@@ -32,22 +32,23 @@ impl Moment {
         let (a, b, c) = plant.linearise(point).reduced();
         let model = StateSpace::strictly_proper(a, b, c);
         let poles: Vec<f64> = plant.time_constants_s(point).into_iter().flatten().map(|time| -time.recip()).collect();
-        let fastest = poles.iter().fold(0.0, |fastest, pole| pole.abs().max(fastest));
-        let zeros = model.as_ref().map_err(|&error| error).and_then(|model| {
-            Ok(transmission_zeros(model)?.iter().map(|zero| snapped_to_origin(zero.value, fastest)).collect())
+        let gain = model.as_ref().ok().and_then(|model| model.dc_gain().ok());
+        let relative_gains = gain.as_ref().map(relative_gain_array);
+        let zeros = model.and_then(|model| {
+            let mut zeros = transmission_zeros(&model)?;
+            if matches!(relative_gains, Some(Err(LinearError::SingularGain { .. }))) {
+                place_nearest_at_origin(&mut zeros);
+            }
+            Ok(zeros.iter().map(|zero| zero.value).collect())
         });
-        let gain = model.and_then(|model| model.dc_gain());
+        let rga_11 = relative_gains.and_then(|array| Some(array.ok()?[(0, 0)]));
         Self {
             valves: plant.valves,
             poles,
             zeros,
-            rga_11: gain.as_ref().ok().and_then(|gain| Some(relative_gain_array(gain).ok()?[(0, 0)])),
+            rga_11,
             // On the singular line its sign is rounding.
-            niederlinski: gain
-                .as_ref()
-                .ok()
-                .filter(|gain| relative_gain_array(gain).is_ok())
-                .map_or([None; 2], niederlinski),
+            niederlinski: rga_11.and(gain).map_or([None; 2], |gain| niederlinski(&gain)),
         }
     }
 
