@@ -103,8 +103,11 @@ pub const POWER_GAIN: Limits = Limits::new(0.01, 100.0);
 pub const SENSOR_GAIN: Limits = Limits::new(0.01, 1e4);
 /// Range of a sensor (m).
 pub const SENSOR_RANGE: Limits = Limits::new(0.01, 10.0);
-/// Resolution of a sensor (V).
+/// Resolution of a sensor (V), 0 for an ideal one; see also [`LEAST_SENSOR_RESOLUTION`].
 pub const SENSOR_RESOLUTION: Limits = Limits::new(0.0, 10.0);
+/// Least resolution of a sensor that is not ideal (V), far below that of any converter: the largest signal,
+/// [`SENSOR_GAIN`] times [`SENSOR_RANGE`], is then 10¹⁴ steps, which a number of 53 bits still counts.
+pub const LEAST_SENSOR_RESOLUTION: f64 = 1e-9;
 /// Acceleration of gravity (m/s²).
 pub const GRAVITY: Limits = Limits::new(0.1, 100.0);
 

@@ -24,7 +24,7 @@ pub fn full() -> Value {
 }
 
 /// Fields (by the path that an error gives, and by JSON pointer) and a number that is out of their range.
-pub const LEAVES: [(&str, &str, f64); 40] = [
+pub const LEAVES: [(&str, &str, f64); 42] = [
     (
         "setup.plant.parameters.rig.tanks[2].section.area_at_empty",
         "/setup/plant/parameters/rig/tanks/2/section/area_at_empty",
@@ -51,6 +51,8 @@ pub const LEAVES: [(&str, &str, f64); 40] = [
     ("setup.plant.parameters.rig.sensor.gain", "/setup/plant/parameters/rig/sensor/gain", 0.0),
     ("setup.plant.parameters.rig.sensor.range", "/setup/plant/parameters/rig/sensor/range", 0.0),
     ("setup.plant.parameters.rig.sensor.resolution", "/setup/plant/parameters/rig/sensor/resolution", -1.0),
+    ("setup.plant.parameters.rig.sensor.resolution", "/setup/plant/parameters/rig/sensor/resolution", 5e-324),
+    ("setup.plant.parameters.rig.sensor.resolution", "/setup/plant/parameters/rig/sensor/resolution", 0.9e-9),
     ("setup.plant.parameters.rig.gravity", "/setup/plant/parameters/rig/gravity", 0.0),
     ("setup.valves[1]", "/setup/valves/1", -0.1),
     ("setup.operating_point.pump_voltage[0]", "/setup/operating_point/pump_voltage/0", -3.0),
@@ -86,6 +88,15 @@ pub const LEAVES: [(&str, &str, f64); 40] = [
 #[test]
 fn a_full_document_is_allowed() {
     assert!(from_json(&full().to_string()).is_ok());
+}
+
+#[test]
+fn a_sensor_is_ideal_or_has_at_least_the_least_resolution() {
+    for resolution in [0.0, limits::LEAST_SENSOR_RESOLUTION, limits::SENSOR_RESOLUTION.max] {
+        let mut document = full();
+        *document.pointer_mut("/setup/plant/parameters/rig/sensor/resolution").unwrap() = json!(resolution);
+        assert!(from_json(&document.to_string()).is_ok(), "{resolution}");
+    }
 }
 
 #[test]

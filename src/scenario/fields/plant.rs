@@ -65,6 +65,10 @@ impl Part for Sensor {
         f.number("gain", &mut self.gain, limits::SENSOR_GAIN);
         f.number("range", &mut self.range, limits::SENSOR_RANGE);
         f.number("resolution", &mut self.resolution, limits::SENSOR_RESOLUTION);
+        if self.resolution != 0.0 {
+            let least = Limits { min: limits::LEAST_SENSOR_RESOLUTION, ..limits::SENSOR_RESOLUTION };
+            f.check("resolution", self.resolution, least);
+        }
     }
 }
 
