@@ -111,6 +111,18 @@ mod tests {
     }
 
     #[test]
+    fn a_partial_decoupler_of_the_second_output_is_the_mirror_of_that_of_the_first() {
+        let (plant, s) = (wood_berry(), Complex::new(0.01, 0.3));
+        let g = plant.at(s);
+        // D = [1, 0; g_I2, 1]: y1 sees v1 through g11 + g12 g_I2.
+        let paths = decoupled_paths(&plant, Decoupling::SecondOutput).unwrap();
+        assert_eq!(at(&paths, 1, 0, s), Complex::ZERO);
+        assert_eq!((at(&paths, 1, 1, s), at(&paths, 0, 1, s)), (g[(1, 1)], g[(0, 1)]));
+        let expected = g[(0, 0)] - g[(0, 1)] * g[(1, 0)] / g[(1, 1)];
+        assert_relative_eq!((at(&paths, 0, 0, s) - expected).norm(), 0.0, epsilon = 1e-13);
+    }
+
+    #[test]
     fn what_knows_the_future_is_refused() {
         let mut plant = wood_berry();
         plant.0[0].swap(0, 1);

@@ -147,6 +147,23 @@ mod tests {
 
     const TOLERANCE: f64 = 1e-13;
 
+    #[test]
+    fn the_doubt_grows_with_the_smallest_pivot_so_far() {
+        let mut doubt = Doubt::new(TOLERANCE);
+        assert_eq!(doubt.threshold(), TOLERANCE);
+        assert_eq!(Compression::of(dmatrix![1.0, 0.0; 0.0, 0.125], &mut doubt).rank, 2);
+        assert_eq!(doubt.threshold(), 8.0 * TOLERANCE);
+        // A larger pivot later takes no doubt away.
+        assert_eq!(Compression::of(dmatrix![0.5], &mut doubt).rank, 1);
+        assert_eq!(doubt.threshold(), 8.0 * TOLERANCE);
+        // What counts in a first decision is a rounding error in a later one; the limit itself is one.
+        for (size, rank) in [(7.9 * TOLERANCE, 0), (8.0 * TOLERANCE, 0), (8.1 * TOLERANCE, 1)] {
+            let mut doubt = Doubt { ..doubt };
+            assert_eq!(Compression::of(dmatrix![size], &mut doubt).rank, rank);
+        }
+        assert_eq!(Compression::of(dmatrix![7.9 * TOLERANCE], &mut Doubt::new(TOLERANCE)).rank, 1);
+    }
+
     /// 1/(s+1) in parallel with a lag that the output does not see and one that the input does not move.
     fn with_hidden_modes() -> StateSpace {
         let a = dmatrix![-1.0, 0.0, 0.3; 0.7, -2.0, 0.1; 0.0, 0.0, -3.0];

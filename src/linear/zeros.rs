@@ -68,8 +68,7 @@ pub fn transmission_zeros(model: &StateSpace) -> Result<Vec<TransmissionZero>, L
     let values = eigenvalues(&dynamics)?;
     let mut zeros: Vec<TransmissionZero> = Vec::with_capacity(values.len());
     for (i, &value) in values.iter().enumerate().filter(|(_, value)| value.im <= 0.0) {
-        let close = |other: &&Complex| (*other - value).norm() <= SAME_ZERO * value.norm();
-        let repetition = values.iter().take(i).filter(close).count();
+        let repetition = values.iter().take(i).filter(|&&other| are_same(other, value)).count();
         let Some(zero) = scaled.zero(&system, value, repetition)? else { continue };
         if value.im < 0.0 {
             zeros.push(zero.conjugate());
@@ -138,6 +137,11 @@ impl Scaled {
             Err(failure)
         }
     }
+}
+
+/// Whether two zeros are one zero twice.
+fn are_same(one: Complex, other: Complex) -> bool {
+    (one - other).norm() <= SAME_ZERO * other.norm()
 }
 
 /// Sizes below this are rounding errors of the (scaled) model.
@@ -282,6 +286,51 @@ mod tests {
         let (first, second) = (&zeros[0], &zeros[1]);
         assert!(first.input_direction.dotc(&second.input_direction).norm() < 0.5);
         assert!(first.output_direction.dotc(&second.output_direction).norm() < 0.5);
+    }
+
+    /// A zero of `c [1, s, s²]ᵀ/((s + 1)(s + 2)(s + 3))`, in controllable form, after the polish from `z`.
+    fn polished<T: ComplexField<RealField = f64>>(c: [f64; 3], z: T) -> T {
+        let a = dmatrix![0.0, 1.0, 0.0; 0.0, 0.0, 1.0; -6.0, -11.0, -6.0];
+        let model = StateSpace::strictly_proper(a, dmatrix![0.0; 0.0; 1.0], DMatrix::from_row_slice(1, 3, &c)).unwrap();
+        let (value, right, left) = polish(&model, z, 0).unwrap();
+        let at = pencil(&model, &value);
+        // Of the place that is given back, not of the one before.
+        assert!((&at * &right).norm() <= 1e-6 * right.norm() && (at.transpose() * &left).norm() <= 1e-6 * left.norm());
+        value
+    }
+
+    #[test]
+    fn a_zero_that_is_a_little_off_is_brought_to_full_accuracy() {
+        // (s − 2)(s + 5) and s² + 4 over (s + 1)(s + 2)(s + 3): within 1e-7 (1 + |z|) the correction is of second order.
+        let real = [-10.0, 3.0, 1.0];
+        for off in [2.9e-7, -2.9e-7, 1e-9] {
+            let left = 10.0 * off * off + 1e-14;
+            assert!((polished(real, 2.0 + off) - 2.0).abs() <= left, "{off}");
+            assert!((polished(real, -5.0 + off) + 5.0).abs() <= left, "{off}");
+            let pair = polished([4.0, 0.0, 1.0], Complex::new(-off / 2.0, 2.0 + off / 2.0));
+            assert!((pair - Complex::new(0.0, 2.0)).norm() <= left, "{off}");
+        }
+        // What is further away is no rounding error and stays.
+        for off in [3.1e-7, 1e-5, -1e-3] {
+            let model =
+                StateSpace::strictly_proper(dmatrix![0.0, 1.0; -3.0, -4.0], dmatrix![0.0; 1.0], dmatrix![-2.0, 1.0]);
+            assert_eq!(polish(&model.unwrap(), 2.0 + off, 0).unwrap().0, 2.0 + off);
+        }
+    }
+
+    #[test]
+    fn zeros_are_the_same_relative_to_their_size() {
+        for size in [1e-6, 1.0, 1e6] {
+            let at = |share: f64| Complex::new(0.6, 0.8 + share) * size;
+            assert!(are_same(at(0.9e-7), at(0.0)) && !are_same(at(1.1e-7), at(0.0)));
+        }
+    }
+
+    #[test]
+    fn the_tolerance_is_64_roundings_of_the_size_of_the_model() {
+        let model =
+            StateSpace::new(dmatrix![1.0], dmatrix![2.0, 4.0], dmatrix![6.0; 2.0], dmatrix![8.0, 0.0; 0.0, -10.0]);
+        assert_eq!(tolerance(&model.unwrap()), 64.0 * f64::EPSILON * 15.0);
     }
 
     #[test]
