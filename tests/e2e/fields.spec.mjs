@@ -1,5 +1,9 @@
 // Number fields and sliders: exact entry, limits, keyboard, extremes.
+import { readFileSync } from 'node:fs';
 import { expect, test } from './lab.mjs';
+
+/** The link of Johansson's rig as it is published, valves at 0.7 and 0.6. */
+const JOHANSSON = `lab=${readFileSync(new URL('../data/scenario-v1-johansson.link', import.meta.url), 'utf8').trim()}`;
 
 test('a number out of range shows the limits and keeps the last valid value', async ({ lab, page }) => {
   await lab.open();
@@ -16,6 +20,90 @@ test('a number out of range shows the limits and keeps the last valid value', as
   await expect(page.locator('#gamma1-number-problem')).toHaveCount(0);
   await lab.settle();
   expect(await lab.text('lambda-11')).not.toBe(lambda);
+});
+
+test('the red range goes when the old value returns, by whatever way', async ({ lab, page }) => {
+  await lab.open();
+  const field = lab.id('gamma1-number');
+  const isQuiet = async (value) => {
+    await expect(page.locator('#gamma1-number-problem')).toHaveCount(0);
+    await expect(field).not.toHaveAttribute('aria-invalid');
+    await expect(field).not.toHaveAttribute('aria-describedby');
+    await expect(field).toHaveValue(value);
+  };
+  const refuse = async (text) => {
+    await field.fill(text);
+    await expect(page.locator('#gamma1-number-problem')).toBeVisible();
+    await expect(field).toHaveAttribute('aria-invalid', 'true');
+    await expect(field).toHaveAttribute('aria-describedby', 'gamma1-number-problem');
+    await expect(field).toHaveValue(text);
+  };
+  for (const text of ['2', 'nonsense', '']) {
+    await refuse(text);
+    await field.blur();
+    await isQuiet('0.70');
+    await refuse(text);
+    await field.press('Escape');
+    await isQuiet('0.70');
+    await refuse(text);
+    await field.fill('0.7');
+    await isQuiet('0.7');
+    await field.blur();
+    await isQuiet('0.70');
+    await refuse(text);
+    await field.press('ArrowUp');
+    await isQuiet('0.71');
+    await field.press('ArrowDown');
+    await isQuiet('0.70');
+  }
+  // The document changes while the field has the focus: by a link in the address.
+  for (const text of ['2', '0.3']) {
+    await lab.preset('johansson-2000-non-minimum-phase');
+    await field.fill(text);
+    await page.evaluate((fragment) => (location.hash = fragment), JOHANSSON);
+    await isQuiet('0.70');
+    await page.evaluate(() => history.replaceState(null, '', '?'));
+  }
+});
+
+for (const [field, pressed] of [['gamma1-number', 'voltage1'], ['integral2-number', 'antiwindup'], ['gain1-number', 'quantised'], ['step1-time', 'quantised']]) {
+  test(`what is pressed after a refused entry stays where it is (${field}, ${pressed})`, async ({ lab, page }) => {
+    await lab.open();
+    for (const summary of await page.locator('.process details.more > summary, .pi details.more > summary').all()) await summary.click();
+    await lab.id(field).fill('1e9');
+    await expect(page.locator('.problem')).toBeVisible();
+    await lab.id(pressed).scrollIntoViewIfNeeded();
+    const { x, y } = await lab.middle(pressed);
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    await lab.settle();
+    await expect(page.locator('.problem')).toHaveCount(0);
+    expect(await lab.middle(pressed)).toEqual({ x, y });
+    await page.mouse.up();
+    await expect(lab.id(pressed)).toBeFocused();
+  });
+}
+
+test('a number can be typed at any pace', async ({ lab, page }) => {
+  await lab.open();
+  await page.locator('.process details.more > summary').click();
+  for (const name of ['gamma1-number', 'voltage1']) {
+    const field = lab.id(name);
+    await field.fill('');
+    for (const [key, text] of [['0', '0'], ['.', '0.'], ['5', '0.5'], ['x', '0.5x'], ['Backspace', '0.5'], ['0', '0.50']]) {
+      await field.press(key);
+      await expect(field).toHaveValue(text);
+      await lab.settle();
+      await expect(field).toHaveValue(text);
+    }
+    await field.fill('0.25');
+    await field.fill('1000000');
+    await lab.settle();
+    await expect(field).toHaveValue('1000000');
+    await field.blur();
+    await expect(field).toHaveValue('0.25');
+  }
+  await lab.clean();
 });
 
 test('a gain of zero is refused, a negative one is taken', async ({ lab, page }) => {

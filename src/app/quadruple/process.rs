@@ -67,8 +67,12 @@ pub fn process_card() -> AnyView {
 
 /// The voltage of a pump at rest. Editing it makes the voltages, not the levels, what the operating point is given by.
 fn voltage_field(lab: Lab, pump: usize) -> AnyView {
-    let voltages =
+    let computed =
         move || lab.words.analysis.with(|a| a.as_ref().as_ref().ok().map(|a| a.operating_point.pump_voltage));
+    let voltages = move || match lab.scenario.with(|s| s.setup.operating_point) {
+        OperatingPointSpec::PumpVoltage(given) => Some(given),
+        OperatingPointSpec::Levels(_) => computed(),
+    };
     let value = Signal::derive(move || voltages().map_or(0.0, |v| v[pump]));
     let on_change = move |v: f64| {
         let mut both = untrack(voltages).unwrap_or_default();

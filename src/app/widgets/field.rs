@@ -46,8 +46,18 @@ impl Scale {
     }
 }
 
-/// A number field: exact entry, arrows and Page Up/Down. It refuses what is out of range, says the limits, and keeps the
-/// last valid value.
+/// What is being typed into a number field.
+#[derive(Clone)]
+struct Draft {
+    text: String,
+    /// Whether it is no number or out of range.
+    refused: bool,
+    /// The value in force. The draft is void when another value takes its place.
+    value: f64,
+}
+
+/// A number field: exact entry, arrows and Page Up/Down. It refuses what is out of range, says the limits while the refused
+/// text stands, and keeps the last valid value.
 #[component]
 pub fn NumberField(
     /// Name for tests and for the label; unique on the page.
@@ -83,8 +93,9 @@ pub fn NumberField(
 ) -> impl IntoView {
     let lab = use_lab();
     let (told, told_limits) = (lab.told_or(moved, value), lab.told(limits));
-    let draft = RwSignal::new(None::<String>);
-    let refused = RwSignal::new(false);
+    let draft = RwSignal::new(None::<Draft>);
+    let typed = Signal::derive(move || draft.get().filter(|draft| draft.value.total_cmp(&told.get()).is_eq()));
+    let refused = Signal::derive(move || typed.with(|typed| typed.as_ref().is_some_and(|draft| draft.refused)));
     let style = move || lab.number_style();
     let show = move |v: f64| match digits {
         Some(digits) => style().fixed(v, digits),
@@ -94,22 +105,16 @@ pub fn NumberField(
         let (min, max) = limits.get_untracked();
         let on_grid = is_multiple(v, grid.get_untracked());
         let fits = (min..=max).contains(&v) && v.abs() >= smallest && on_grid;
-        refused.set(!fits);
         if fits {
             on_change.run(v);
-            moved.notify();
         }
         fits
     };
     let on_input = move |event| {
         let text = event_target_value(&event);
-        match NumberStyle::parse(&text) {
-            Some(v) => {
-                accept(v);
-            }
-            None => refused.set(true),
-        }
-        draft.set(Some(text));
+        let refused = !NumberStyle::parse(&text).is_some_and(accept);
+        draft.set(Some(Draft { text, refused, value: value.get_untracked() }));
+        moved.notify();
     };
     let on_key = move |event: KeyboardEvent| {
         let steps = match event.key().as_str() {
@@ -117,11 +122,7 @@ pub fn NumberField(
             "ArrowDown" => -1.0,
             "PageUp" => 10.0,
             "PageDown" => -10.0,
-            "Escape" => {
-                draft.set(None);
-                refused.set(false);
-                return;
-            }
+            "Escape" => return draft.set(None),
             _ => return,
         };
         event.prevent_default();
@@ -131,6 +132,7 @@ pub fn NumberField(
         let step = grid.get_untracked();
         let scale = if step > 0.0 { Scale::Linear(step) } else { scale };
         accept(scale.nudge(value.get_untracked(), steps, floor, max).clamp(min, max));
+        moved.notify();
     };
     let problem = move || {
         refused.get().then(|| {
@@ -151,9 +153,9 @@ pub fn NumberField(
             autocomplete="off"
             data-testid=id
             aria-label=name
-            aria-invalid=move || (refused.get() && draft.get().is_some()).then(|| "true".to_owned())
+            aria-invalid=move || refused.get().then(|| "true".to_owned())
             aria-describedby=move || refused.get().then(|| format!("{id}-problem"))
-            prop:value=move || draft.get().unwrap_or_else(|| show(told.get()))
+            prop:value=move || typed.get().map_or_else(|| show(told.get()), |draft| draft.text)
             disabled=disabled
             on:input=handler(on_input)
             on:keydown=handler(on_key)
