@@ -395,3 +395,28 @@ test('exports hand over the numbers of each picture', async ({ lab, page }) => {
     await page.keyboard.press('Escape');
   }
 });
+
+// Documents whose critical point has no importance, or one beyond the slider, and targets that cannot be dragged to.
+for (const [gains, target] of [
+  [[0, 0], [-0.5, 0.1]],
+  [[0, -0.4], [-0.5, 0.1]],
+  [[0.1, 0], [20, 0.01]],
+  [[0.096, -0.417], [-0.5, -15]],
+]) {
+  test(`each slider has a number in its range for the critical gains ${gains} and the target ${target}`, async ({ lab, page }) => {
+    await lab.open(BENCH);
+    await openChanged(lab, page, ({ tuning: { design } }) => {
+      design.critical = { point: { gains, period: 11.57 } };
+      design.target = target;
+    });
+    expect(await lab.value('target-re')).toBe(target[0]);
+    await lab.clean();
+    await lab.axe();
+    const spoken = await lab.id('critical-handle').getAttribute('aria-valuetext');
+    expect(spoken).toMatch(gains[0] === 0 && gains[1] === 0 ? /^r₂ is not defined at this point$/ : /^r₂ /);
+    await lab.id('critical-handle').focus();
+    await page.keyboard.press('ArrowUp');
+    await lab.settle();
+    await lab.clean();
+  });
+}

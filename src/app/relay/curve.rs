@@ -63,9 +63,14 @@ pub fn curve_card() -> AnyView {
     })
 }
 
+/// Magnitude of r2 of the critical point; none where it is 0/0, as for gains of zero.
+fn known_importance(setup: &TuningSetup) -> Option<f64> {
+    setup.importance().ok().filter(|r| !r.is_nan()).map(f64::abs)
+}
+
 /// r2 of the critical point as the slider shows it, 1 where there is none.
 fn importance(setup: &TuningSetup) -> f64 {
-    setup.importance().map_or(1.0, |r| r.abs().clamp(IMPORTANCES.0, IMPORTANCES.1))
+    known_importance(setup).map_or(1.0, |r| r.clamp(IMPORTANCES.0, IMPORTANCES.1))
 }
 
 /// The chosen point, and the plane around it: a click anywhere, on an estimate say, chooses the importance there.
@@ -98,6 +103,12 @@ fn CriticalHandle(frames: RwSignal<Vec<Frame>>, chosen: Signal<Option<(f64, f64)
     let session = use_session();
     let lab = session.lab;
     let value = session.part(importance);
+    let known = Signal::derive(move || lab.tuning.with(|s| known_importance(&s.tuning)));
+    let spoken = move || match known.get() {
+        Some(r) if r.is_infinite() => "r₂ ∞".to_owned(),
+        Some(r) => format!("r₂ {}", lab.number_style().significant(r, 3)),
+        None => tr!(lab, relay.no_importance).to_owned(),
+    };
     let at = Signal::derive(move || chosen.get().unwrap_or((0.0, 0.0)));
     view! {
         <PointHandle
@@ -106,7 +117,7 @@ fn CriticalHandle(frames: RwSignal<Vec<Frame>>, chosen: Signal<Option<(f64, f64)
             at
             value
             limits=IMPORTANCES
-            spoken=Signal::derive(move || format!("r₂ {}", lab.number_style().significant(value.get(), 3)))
+            spoken=Signal::derive(spoken)
             locked=lab.locks(Control::Point)
             on_move=move |place: (f64, f64)| choose(session, place)
             on_nudge=move |by: Nudge| set_importance(session, value.get_untracked() * power(STEP, (by.up - by.right + by.page).clamp(-200.0, 200.0)))
@@ -168,4 +179,25 @@ fn table(session: Session) -> String {
         tr!(lab, relay.col_curve).to_owned(),
     ];
     html::table(tr!(lab, relay.curve_caption), &names, &rows)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario::tuning::TuningScenario;
+
+    fn with_gains(gains: [f64; 2]) -> TuningSetup {
+        let mut setup = TuningScenario::default().tuning;
+        setup.design.critical = CriticalSpec::Point { gains, period: 10.0 };
+        setup
+    }
+
+    #[test]
+    fn the_slider_has_a_number_for_any_critical_point() {
+        assert_eq!(known_importance(&with_gains([0.0, 0.0])), None);
+        for gains in [[0.0, 0.0], [0.0, 1.0], [1.0, 0.0], [-1e-300, 1e300], [1e-6, -1e6], [-0.0, -1.0]] {
+            let r = importance(&with_gains(gains));
+            assert!((IMPORTANCES.0..=IMPORTANCES.1).contains(&r), "{gains:?} gives {r}");
+        }
+    }
 }

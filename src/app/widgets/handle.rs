@@ -61,10 +61,10 @@ pub fn Handle(
     /// What it moves, for screen readers.
     #[prop(into)]
     label: Signal<String>,
-    /// Where it is, as a number and in words.
+    /// Where it is, as a finite number.
     #[prop(into)]
     value: Signal<f64>,
-    /// Smallest and largest number.
+    /// Smallest and largest number that it can be moved to.
     #[prop(into)]
     limits: Signal<(f64, f64)>,
     /// Where it is, in words.
@@ -92,6 +92,7 @@ pub fn Handle(
 ) -> impl IntoView {
     let lab = use_lab();
     let (value, limits, spoken) = (lab.told(value), lab.told(limits), lab.told(spoken));
+    let range = Signal::derive(move || range_with(limits.get(), value.get()));
     let grabbed_at = StoredValue::new(None::<(f64, f64)>);
     let position = |event: &PointerEvent| (f64::from(event.client_x()), f64::from(event.client_y()));
     let on_down = move |event: PointerEvent| {
@@ -135,8 +136,8 @@ pub fn Handle(
             data-testid=id
             transform=move || { let (x, y) = at.get(); format!("translate({x} {y})") }
             aria-label=label
-            aria-valuemin=move || limits.get().0.to_string()
-            aria-valuemax=move || limits.get().1.to_string()
+            aria-valuemin=move || range.get().0.to_string()
+            aria-valuemax=move || range.get().1.to_string()
             aria-valuenow=move || value.get().to_string()
             aria-valuetext=spoken
             aria-disabled=locked.then_some("true")
@@ -150,5 +151,23 @@ pub fn Handle(
             inner_html=look
         >
         </g>
+    }
+}
+
+/// The range of a slider for assistive technology, which has to contain its value: a document may set a value that the
+/// handle cannot be moved to.
+fn range_with((min, max): (f64, f64), value: f64) -> (f64, f64) {
+    (min.min(value), max.max(value))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_range_contains_a_value_that_the_handle_cannot_reach() {
+        assert_eq!(range_with((-10.0, 10.0), 3.0), (-10.0, 10.0));
+        assert_eq!(range_with((-10.0, 10.0), 999_999.5), (-10.0, 999_999.5));
+        assert_eq!(range_with((-10.0, 10.0), -458_281.0), (-458_281.0, 10.0));
     }
 }

@@ -64,6 +64,12 @@ impl TimeAxis {
         self.on_cursor.run(time.map(|t| t.clamp(begin, end)));
     }
 
+    /// The cursor for assistive technology: the beginning where there is none, the end where it is beyond that.
+    fn shown_cursor(self) -> f64 {
+        let (begin, end) = self.whole.get();
+        self.cursor.get().map_or(begin, |time| time.clamp(begin, end))
+    }
+
     /// Moves the cursor by so many steps, big ones with Shift.
     fn step(self, steps: f64, big: bool) {
         let (from, to) = self.window.get_untracked();
@@ -159,7 +165,7 @@ pub fn TimeSurface(
             aria-label=label
             aria-valuemin=move || axis.whole.get().0.to_string()
             aria-valuemax=move || axis.whole.get().1.to_string()
-            aria-valuenow=move || axis.cursor.get().unwrap_or_else(|| axis.whole.get().0).to_string()
+            aria-valuenow=move || axis.shown_cursor().to_string()
             aria-valuetext=move || Some(spoken.get()).filter(|text| !text.is_empty())
             on:pointerdown=handler(on_down)
             on:pointermove=handler(on_move)
