@@ -12,6 +12,8 @@ use crate::scenario::{
 
 /// What stands before the link text in the fragment of an address.
 const PREFIX: &str = "lab=";
+/// A reference to this page without its query.
+pub const BARE: &str = "?";
 
 /// The document in the fragment of the address, if there is one.
 pub fn from_address() -> Option<Result<Document, ScenarioError>> {
@@ -37,9 +39,10 @@ pub fn address_of(lab: Lab) -> Result<String, ScenarioError> {
     Ok(format!("{page}#{PREFIX}{link}"))
 }
 
-/// The fragment that restores everything, for a link to another page.
-pub fn fragment(lab: Lab) -> Option<String> {
-    link_of(lab).ok().map(|link| format!("#{PREFIX}{link}"))
+/// A reference to this page without its start flags that restores everything. It names no path: one that begins with two
+/// slashes would be read as a host.
+pub fn bare_reference(lab: Lab) -> Result<String, ScenarioError> {
+    Ok(format!("{BARE}#{PREFIX}{}", link_of(lab)?))
 }
 
 /// Puts the link on the clipboard and into the address bar, so that a reload restores the bench as well.
@@ -66,12 +69,11 @@ fn show_address(address: &str) {
 /// Shows another bench, also in the address, so that a reload comes back to it. A link in the address was of the last one.
 pub fn go_to(lab: Lab, bench: Bench) {
     lab.bench.set(bench);
-    let location = window().location();
-    let query = location.search().unwrap_or_default();
+    let query = window().location().search().unwrap_or_default();
     let others =
         query.trim_start_matches('?').split('&').filter(|pair| !pair.is_empty() && !pair.starts_with("bench="));
     let query: Vec<String> = others.map(str::to_owned).chain([format!("bench={}", bench.name())]).collect();
-    show_address(&format!("{}?{}", location.pathname().unwrap_or_default(), query.join("&")));
+    show_address(&format!("?{}", query.join("&")));
 }
 
 /// Hands the experiment over as a file, as the command line reads it.

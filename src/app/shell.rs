@@ -312,18 +312,24 @@ fn Notices() -> impl IntoView {
 #[component]
 fn EmbedFooter() -> impl IntoView {
     let lab = use_lab();
-    let page = window().location().pathname().unwrap_or_default();
-    let bare = page.clone();
     // The link is made when it is followed: to make it at every change would take a millisecond of each frame.
     let on_click = move |event: ev::MouseEvent| {
-        let anchor = event.current_target().and_then(|target| target.dyn_into::<web_sys::Element>().ok());
-        if let (Some(anchor), Some(fragment)) = (anchor, share::fragment(lab)) {
-            let _ = anchor.set_attribute("href", &format!("{page}{fragment}"));
+        let anchor = event.current_target().and_then(|target| target.dyn_into::<web_sys::HtmlAnchorElement>().ok());
+        match share::bare_reference(lab) {
+            Ok(reference) => {
+                if let Some(anchor) = anchor {
+                    anchor.set_href(&reference);
+                }
+            }
+            Err(error) => {
+                event.prevent_default();
+                lab.notice.set(Some(Notice::Refused(error)));
+            }
         }
     };
     view! {
         <footer class="page">
-            <a href=bare target="_blank" rel="noopener" data-testid="full-lab" on:click=handler(on_click)>{say!(lab, app.embedded)}</a>
+            <a href=share::BARE target="_blank" rel="noopener" data-testid="full-lab" on:click=handler(on_click)>{say!(lab, app.embedded)}</a>
         </footer>
     }
 }

@@ -134,3 +134,27 @@ test('a second laboratory on another page does not disturb the first', async ({ 
   expect(await second.number('lambda-11')).toBeCloseTo(-1.32, 2);
   expect(await lab.number('lambda-11')).toBeCloseTo(1.4, 2);
 });
+
+for (const [path, base] of [
+  ['//evil.example/a/', '//evil.example/a/'],
+  ['//evil.example/index.html', '//evil.example/'],
+  ['/%5Cevil.example/', '/%5Cevil.example/'],
+]) {
+  test(`a path that looks like a host (${path}) leads nowhere else`, async ({ lab, page, context }) => {
+    const site = await serve({ base });
+    await page.goto(`${site.origin}${path}?embed=1`);
+    await lab.ready();
+    await lab.type('gamma1-number', '0.52');
+    const target = () => lab.id('full-lab').evaluate((anchor) => anchor.href);
+    expect(await target()).toBe(`${site.origin}${path}?`);
+    const [opened] = await Promise.all([context.waitForEvent('page'), lab.id('full-lab').click()]);
+    const whole = new Lab(opened, site.origin, lab.complaints);
+    await whole.ready();
+    expect(opened.url().split('#')[0]).toBe(`${site.origin}${path}?`);
+    expect(await whole.value('gamma1-number')).toBe(0.52);
+    // The address follows to another bench under such a path as well.
+    await whole.id('bench-relay-tuning').click();
+    expect(opened.url()).toBe(`${site.origin}${path}?bench=relay-tuning`);
+    site.close();
+  });
+}
