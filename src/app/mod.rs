@@ -21,6 +21,7 @@ mod share;
 mod shell;
 mod shown;
 mod start;
+mod stopped;
 mod storage;
 mod texts;
 mod timing;

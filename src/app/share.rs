@@ -76,15 +76,22 @@ pub fn go_to(lab: Lab, bench: Bench) {
     show_address(&format!("?{}", query.join("&")));
 }
 
-/// Hands the experiment over as a file, as the command line reads it.
-pub fn save(lab: Lab) {
-    let text = match lab.bench.get_untracked() {
+/// Name of the file of an experiment.
+pub const FILE: &str = "quadtank-experiment.json";
+
+/// The document of the bench that is shown, as a file and the command line have it.
+pub fn json_of(lab: Lab) -> Result<String, ScenarioError> {
+    match lab.bench.get_untracked() {
         Bench::QuadrupleTank => lab.scenario.with_untracked(to_json),
         Bench::RelayTuning => lab.tuning.with_untracked(tuning_to_json),
         Bench::ModelFree => lab.model_free.with_untracked(model_free_to_json),
-    };
-    match text {
-        Ok(text) => download_text("quadtank-experiment.json", "application/json", &text),
+    }
+}
+
+/// Hands the experiment over as a file.
+pub fn save(lab: Lab) {
+    match json_of(lab) {
+        Ok(text) => download_text(FILE, "application/json", &text),
         Err(error) => lab.notice.set(Some(Notice::Refused(error))),
     }
 }

@@ -12,6 +12,7 @@ use super::quadruple::QuadrupleTankBench;
 use super::relay::RelayTuningBench;
 use super::share;
 use super::start::{Bench, StartFlags};
+use super::stopped::Stopped;
 use super::storage::{LANGUAGE, THEME};
 use super::texts::{Language, say, tr};
 use super::widgets::{effect, handler};
@@ -73,6 +74,7 @@ pub fn Laboratory() -> impl IntoView {
             } else {
                 view! { <Header /> }.into_any()
             }}
+            <Stopped />
             <Notices />
             {Vec::from(Bench::ALL.map(|bench| view! { <KeptBench bench /> }.into_any()))}
             {embed.then(|| view! { <EmbedFooter /> }.into_any())}
