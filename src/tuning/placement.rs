@@ -65,3 +65,81 @@ impl ParallelPid {
 pub fn integral_action_may_be_stable(dc_gain: &Matrix2<f64>, integral: [f64; 2]) -> bool {
     dc_gain.determinant() * integral[0] * integral[1] > 0.0
 }
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+
+    /// A G(jω) without symmetry, and a target in the third quadrant.
+    fn example() -> (Matrix2<Complex>, Complex) {
+        let c = Complex::new;
+        (Matrix2::new(c(2.0, -1.0), c(0.3, 0.4), c(-0.7, 0.2), c(1.5, -0.6)), c(-0.6, -0.3))
+    }
+
+    /// Trace and determinant of `G diag(p1, p2)`: sum and product of its characteristic loci at the frequency of `g`.
+    fn loci(g: &Matrix2<Complex>, [p1, p2]: ControllerPair) -> [Complex; 2] {
+        let placed = g * Matrix2::from_diagonal(&nalgebra::Vector2::new(p1, p2));
+        [placed.trace(), placed.determinant()]
+    }
+
+    #[test]
+    fn one_locus_passes_through_the_target_with_the_ratio_asked_for() {
+        let (g, target) = example();
+        for ratio in [0.4, -2.5] {
+            let [first, second] = place_one_locus(&g, target, ratio);
+            assert!(first[0].norm() > second[0].norm());
+            for pair in [first, second] {
+                let [trace, determinant] = loci(&g, pair);
+                assert!((target * target - target * trace + determinant).norm() < 1e-14);
+                assert!((pair[1] - pair[0] * ratio).norm() < 1e-15);
+            }
+        }
+    }
+
+    #[test]
+    fn both_loci_pass_through_the_target() {
+        let (g, target) = example();
+        let [first, second] = place_both_loci(&g, target);
+        assert!(first[0].norm() > second[0].norm());
+        for pair in [first, second] {
+            let [trace, determinant] = loci(&g, pair);
+            assert!((trace - target * 2.0).norm() < 1e-14 && (determinant - target * target).norm() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn controllers_are_what_they_have_to_be_at_the_frequency() {
+        let frequency = 0.7;
+        for p in [(2.0, -0.5), (2.0, 3.0), (-1.5, 0.4), (-1.5, -4.0), (1.0, 0.0)].map(|(re, im)| Complex::new(re, im)) {
+            let pi = ParallelPid::pi_through(p, frequency);
+            assert!((pi.at(frequency) - p).norm() < 1e-14 && pi.derivative == 0.0);
+            let pid = ParallelPid::pid_through(p, frequency).unwrap();
+            assert!((pid.at(frequency) - p).norm() < 1e-14, "{p}");
+            // Td = Ti/4, with a positive Ti.
+            assert_relative_eq!(4.0 * pid.derivative * pid.integral, p.re * p.re, max_relative = 1e-14);
+            assert!(pid.proportional == p.re && pid.integral / p.re > 0.0);
+        }
+        assert_eq!(ParallelPid::pid_through(Complex::new(0.0, 1.0), frequency), None);
+        // The short root beside a long one keeps its digits: x = −Re p/Im p (1 − …) as Im p grows.
+        let short = ParallelPid::pid_through(Complex::new(1e-8, -1.0), frequency).unwrap();
+        assert_relative_eq!(short.proportional / short.integral * frequency, 1e-8, max_relative = 1e-12);
+    }
+
+    #[test]
+    fn integral_action_has_to_have_the_sign_of_the_plant() {
+        let positive = Matrix2::new(2.0, 1.0, 1.0, 3.0);
+        let negative = Matrix2::new(1.0, 2.0, 3.0, 1.0);
+        for (gain, integral, expected) in [
+            (positive, [1.0, 2.0], true),
+            (positive, [-1.0, -2.0], true),
+            (positive, [1.0, -2.0], false),
+            (negative, [1.0, 2.0], false),
+            (negative, [-1.0, 2.0], true),
+            (positive, [0.0, 2.0], false),
+        ] {
+            assert_eq!(integral_action_may_be_stable(&gain, integral), expected, "{integral:?}");
+        }
+    }
+}
