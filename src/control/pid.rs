@@ -2,7 +2,7 @@
 
 use nalgebra::Matrix2;
 
-use crate::linear::Complex;
+use crate::linear::{Complex, LinearError, TransferFunction, TransferMatrix};
 use crate::scalar::larger;
 
 /// The derivative filter is this many times quicker than the derivative time.
@@ -62,6 +62,18 @@ impl ParallelPid {
         let derivative = Complex::new(0.0, self.derivative * frequency);
         let filter = Complex::new(1.0, self.filter_time() * frequency);
         Complex::new(self.proportional, -self.integral / frequency) + derivative / filter
+    }
+
+    /// As a transfer function with the derivative filter, `(ki + (kp + ki Tf) s + (kp Tf + kd) s²)/(s (Tf s + 1))`.
+    ///
+    /// # Errors
+    /// [`LinearError::OutOfRange`] for gains whose products are not finite.
+    pub fn transfer_function(&self) -> Result<TransferFunction, LinearError> {
+        let (kp, ki, kd, filter) = (self.proportional, self.integral, self.derivative, self.filter_time());
+        if ki == 0.0 {
+            return TransferFunction::new(vec![kp, kp * filter + kd], vec![1.0, filter], 0.0);
+        }
+        TransferFunction::new(vec![ki, kp + ki * filter, kp * filter + kd], vec![0.0, 1.0, filter], 0.0)
     }
 
     fn plus(self, other: Self) -> Self {
@@ -170,6 +182,16 @@ impl PidMatrix {
     /// Value at a frequency, with derivative filters.
     pub fn at(&self, frequency: f64) -> Matrix2<Complex> {
         Matrix2::from_fn(|row, column| self.0[row][column].filtered_at(frequency))
+    }
+
+    /// As transfer functions, with derivative filters.
+    ///
+    /// # Errors
+    /// As [`ParallelPid::transfer_function`].
+    pub fn transfer_matrix(&self) -> Result<TransferMatrix, LinearError> {
+        let [[k11, k12], [k21, k22]] = &self.0;
+        let of = ParallelPid::transfer_function;
+        Ok(TransferMatrix([[of(k11)?, of(k12)?], [of(k21)?, of(k22)?]]))
     }
 
     /// The integral gains.

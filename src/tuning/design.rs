@@ -2,11 +2,11 @@
 
 use nalgebra::Matrix2;
 
-use crate::control::{ParallelPid, PidMatrix};
-use crate::linear::{Closure, Complex, Loci, LoopOutline, LoopStability, Margins, TransferFunction, TransferMatrix};
+use crate::control::PidMatrix;
+use crate::linear::{Closure, Complex, Loci, LoopStability, Margins, ReturnRatio, TransferMatrix};
 
 use super::TuningError;
-use super::critical::{frequency_range, least_damping};
+use super::critical::frequency_range;
 use super::experiment::check_stable;
 
 /// Points of the loci where nothing else is asked for.
@@ -17,40 +17,35 @@ const POINTS: usize = 600;
 pub struct Design<'a> {
     plant: &'a TransferMatrix,
     controllers: PidMatrix,
-    range: (f64, f64),
-    damping: f64,
+    ratio: ReturnRatio<'a>,
 }
 
 impl<'a> Design<'a> {
     /// # Errors
-    /// [`TuningError::UnstablePlant`], or as [`frequency_range`].
+    /// [`TuningError::UnstablePlant`], or [`TuningError::Linear`] for gains that are not finite.
     pub fn new(plant: &'a TransferMatrix, controllers: PidMatrix) -> Result<Self, TuningError> {
         check_stable(plant)?;
-        Ok(Self { plant, controllers, range: frequency_range(plant)?, damping: least_damping(plant)? })
+        let ratio = ReturnRatio::new(plant, controllers.transfer_matrix()?, controllers.integrators());
+        Ok(Self { plant, controllers, ratio })
     }
 
     /// Return ratio G(jω) K(jω), with derivative filters.
     pub fn ratio(&self, frequency: f64) -> Matrix2<Complex> {
-        self.plant.at(Complex::new(0.0, frequency)) * self.controllers.at(frequency)
+        self.ratio.at(frequency)
     }
 
     /// Whether the closed loop is stable, dead times included.
     pub fn stability(&self) -> LoopStability {
-        let (low, high) = self.range;
-        let filters = self.controllers.0.as_flattened().iter().map(ParallelPid::filter_time).filter(|&time| time > 0.0);
-        let quickest = filters.map(f64::recip).fold(0.0, f64::max);
-        let dead_time = self.plant.0.as_flattened().iter().map(TransferFunction::dead_time).fold(0.0, f64::max);
-        let integrators = self.controllers.integrators();
-        let damping = self.damping;
-        // Two loops turn at most as quickly as the longest dead time twice.
-        let outline =
-            LoopOutline { low, high: high.max(10.0 * quickest), integrators, damping, dead_time: 2.0 * dead_time };
-        LoopStability::of(|w| self.ratio(w), &outline)
+        LoopStability::of(&self.ratio)
     }
 
     /// Both characteristic loci over the frequencies of the plant.
-    pub fn loci(&self) -> Loci {
-        Loci::along(|w| self.ratio(w), self.range.0, self.range.1, POINTS)
+    ///
+    /// # Errors
+    /// As [`frequency_range`].
+    pub fn loci(&self) -> Result<Loci, TuningError> {
+        let (low, high) = frequency_range(self.plant)?;
+        Ok(self.loci_between(low, high))
     }
 
     /// The loci between two frequencies, for a picture: far beyond the critical one a dead time winds them round the origin.
@@ -58,9 +53,9 @@ impl<'a> Design<'a> {
         Loci::along(|w| self.ratio(w), low, high, POINTS)
     }
 
-    /// Margins of [`loci`](Self::loci).
-    pub fn margins(&self, loci: &Loci) -> Margins {
-        loci.margins(|w| self.ratio(w))
+    /// Margins over all frequencies; `None` where the search is beyond its bound on work.
+    pub fn margins(&self) -> Option<Margins> {
+        Margins::of(&self.ratio)
     }
 
     /// How the loci close, by what the loop is at ω = 0: G(0) Ki with integral action in both loops, else G(0) Kp.

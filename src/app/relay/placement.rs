@@ -175,6 +175,7 @@ fn sentence(session: Session) -> (bool, String) {
             let Ok(margins) = study.as_ref().as_ref().map_err(|&e| e).and_then(|study| study.margins(chosen)) else {
                 return String::new();
             };
+            let Some(margins) = margins else { return tr!(lab, relay.margins_not_computed).to_owned() };
             let distance = style.significant(margins.distance, 3);
             let degrees = margins.phase.map_or_else(|| "–".to_owned(), |p| style.fixed(p.to_degrees(), 0));
             let gain = margins.gain_up.map_or_else(|| "∞".to_owned(), |g| style.significant(g, 3));
@@ -182,6 +183,7 @@ fn sentence(session: Session) -> (bool, String) {
         }),
         LoopStability::Unstable { poles } => tr!(lab, relay.unstable, poles = poles).to_string(),
         LoopStability::Marginal { .. } => tr!(lab, relay.marginal).to_owned(),
+        LoopStability::NotComputed { .. } => tr!(lab, relay.not_computed).to_owned(),
     };
     if chosen.closure == Closure::Joint {
         text = text + " " + tr!(lab, relay.joint);
@@ -225,7 +227,11 @@ fn table(session: Session) -> String {
 
 fn rows_of_root(lab: Lab, number: usize, root: &DesignRoot, chosen: bool) -> String {
     let style = lab.number_style();
-    let verdict = if root.stability == LoopStability::Stable { "✓" } else { "✗" };
+    let verdict = match root.stability {
+        LoopStability::Stable => "✓",
+        LoopStability::NotComputed { .. } => "?",
+        LoopStability::Unstable { .. } | LoopStability::Marginal { .. } => "✗",
+    };
     let row = |(k, pid): (usize, &crate::control::ParallelPid)| {
         let name = format!("{number}, p{} {verdict}", ["₁", "₂"][k]);
         let loop_class = ["loop1", "loop2"][k];

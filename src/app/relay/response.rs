@@ -192,8 +192,12 @@ fn sentence(session: Session) -> (bool, String) {
         text = text + " " + tr!(lab, relay.pump_limit);
     }
     if let Some(comparison) = &design.comparison {
-        let stable = comparison.stability == LoopStability::Stable;
-        text = text + " " + if stable { tr!(lab, relay.rival_stable) } else { tr!(lab, relay.rival_unstable) };
+        let sentence = match comparison.stability {
+            LoopStability::Stable => tr!(lab, relay.rival_stable),
+            LoopStability::NotComputed { .. } => tr!(lab, relay.rival_not_computed),
+            LoopStability::Unstable { .. } | LoopStability::Marginal { .. } => tr!(lab, relay.rival_unstable),
+        };
+        text = text + " " + sentence;
     }
     (good, text)
 }

@@ -199,11 +199,17 @@ fn gains(pid: ParallelPid) -> Value {
     json!({ "kp": pid.proportional, "ki": pid.integral, "kd": pid.derivative })
 }
 
+/// Why stability or margins are not computed.
+const NOT_COMPUTED: &str = "the loci turn too often before the gain of the loop becomes small";
+
 fn stability(of: LoopStability) -> Value {
     match of {
         LoopStability::Stable => json!({ "stable": true }),
         LoopStability::Unstable { poles } => json!({ "stable": false, "right_half_plane_poles": poles }),
         LoopStability::Marginal { frequency } => json!({ "stable": false, "marginal_at": frequency }),
+        LoopStability::NotComputed { frequency } => {
+            json!({ "stable": null, "not_computed": NOT_COMPUTED, "gain_up_to": frequency })
+        }
     }
 }
 
@@ -213,10 +219,11 @@ fn root(study: &Study, root: &DesignRoot) -> Result<Value, TuningError> {
         "controllers": root.controllers.map(gains),
         "warnings": root.warnings,
         "stability": stability(root.stability),
-        "distance_from_minus_one": margins.distance,
-        "gain_margin": margins.gain_up,
-        "lower_gain_margin": margins.gain_down,
-        "phase_margin_rad": margins.phase,
+        "margins_not_computed": margins.is_none().then_some(NOT_COMPUTED),
+        "distance_from_minus_one": margins.map(|m| m.distance),
+        "gain_margin": margins.and_then(|m| m.gain_up),
+        "lower_gain_margin": margins.and_then(|m| m.gain_down),
+        "phase_margin_rad": margins.and_then(|m| m.phase),
         "closure": match root.closure { Closure::Separate => "separate", Closure::Joint => "joint" },
     }))
 }

@@ -54,7 +54,7 @@ pub struct StepResponse {
     /// Its figures.
     pub figures: [StepFigures; 2],
     /// Whether it stays bounded, so that its figures mean something: the loop is stable and the record went to its end. With a
-    /// decoupler, which the count of encirclements does not see, only the record can tell.
+    /// decoupler, which the count of encirclements does not see, or where it is not computed, only the record can tell.
     pub is_bounded: bool,
 }
 
@@ -114,8 +114,8 @@ impl Study {
         };
         let loci = [shown(proportional)?, shown(chosen)?];
         let mut response = self.decoupled_response(chosen, setup)?;
-        let stable = roots[spec.root - 1].stability == LoopStability::Stable;
-        response.is_bounded &= stable || spec.decoupler != DecouplerSpec::None;
+        response.is_bounded &=
+            may_stay_bounded(roots[spec.root - 1].stability) || spec.decoupler != DecouplerSpec::None;
         let comparison = self.comparison(setup, critical_gains, frequency)?;
         Ok(Some(Designed { critical_gains, frequency, g, roots, loci, response, comparison }))
     }
@@ -170,9 +170,14 @@ impl Study {
         };
         let stability = Design::new(&self.plant, controllers)?.stability();
         let mut response = self.response(controllers, setup)?;
-        response.is_bounded &= stability == LoopStability::Stable;
+        response.is_bounded &= may_stay_bounded(stability);
         Ok(Some(Comparison { controllers, stability, response }))
     }
+}
+
+/// Whether a loop is stable, or only its record can tell.
+fn may_stay_bounded(stability: LoopStability) -> bool {
+    matches!(stability, LoopStability::Stable | LoopStability::NotComputed { .. })
 }
 
 fn loops(controllers: PidMatrix, setup: &TuningSetup) -> TwoLoops {

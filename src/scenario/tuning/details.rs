@@ -28,13 +28,12 @@ pub struct Recovered {
 }
 
 impl Study {
-    /// How far from −1 the loci stay with a root.
+    /// How far from −1 the loci stay with a root; `None` where the search is beyond its bound on work.
     ///
     /// # Errors
     /// What is wrong with the plant.
-    pub fn margins(&self, root: &DesignRoot) -> Result<Margins, TuningError> {
-        let design = Design::new(&self.plant, PidMatrix::decentralised(root.controllers))?;
-        Ok(design.margins(&design.loci()))
+    pub fn margins(&self, root: &DesignRoot) -> Result<Option<Margins>, TuningError> {
+        Ok(Design::new(&self.plant, PidMatrix::decentralised(root.controllers))?.margins())
     }
 
     /// All four responses at the ultimate frequency without a model (Campestrini 2006, eqs. 122 and 123): the first column by

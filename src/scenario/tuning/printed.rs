@@ -218,7 +218,7 @@ fn locus_settings(study: &Study, row: usize) -> Result<[f64; 4], TuningError> {
     let unit = ParallelPid { proportional: 1.0, ..ParallelPid::default() };
     let design = Design::new(&study.plant, PidMatrix::decentralised([unit; 2]))?;
     let (printed_gain, printed_period) = [(0.97, 3.54), (-0.37, 10.70)][row - 1];
-    let crossings = design.loci().real_crossings(|w| design.ratio(w));
+    let crossings = design.loci()?.real_crossings(|w| design.ratio(w));
     let points = crossings.iter().map(|at| UltimatePoint { gain: -at.value.re.recip(), period: TAU / at.frequency });
     let same_sign = points.filter(|point| point.gain * printed_gain > 0.0);
     let distance = |point: &UltimatePoint| (point.period - printed_period).abs();

@@ -1,0 +1,204 @@
+//! The return ratio of a loop with two inputs and outputs, with what bounds it over whole ranges of frequency.
+
+use nalgebra::Matrix2;
+
+use super::taylor_model::{Cell, TaylorModel, size_of};
+use super::{Complex, TransferFunction, TransferMatrix};
+
+/// The return ratio `L(s) = G(s) K(s)` of a plant and its controllers, both with two inputs and two outputs.
+#[derive(Clone, Debug)]
+pub struct ReturnRatio<'a> {
+    plant: &'a TransferMatrix,
+    controllers: TransferMatrix,
+    integrators: u32,
+}
+
+/// Frequency at which the search for the high end of the band gives up.
+const BEYOND_ALL: f64 = 1e100;
+
+impl<'a> ReturnRatio<'a> {
+    /// From a plant and controllers without dead time. `integrators` is the order of the pole of det(I + L) at the origin.
+    pub fn new(plant: &'a TransferMatrix, controllers: TransferMatrix, integrators: u32) -> Self {
+        Self { plant, controllers, integrators }
+    }
+
+    /// Order of the pole of det(I + L) at the origin.
+    pub fn integrators(&self) -> u32 {
+        self.integrators
+    }
+
+    /// L(jω).
+    pub fn at(&self, frequency: f64) -> Matrix2<Complex> {
+        let s = Complex::new(0.0, frequency);
+        self.plant.at(s) * self.controllers.at(s)
+    }
+
+    /// A frequency below which every element of G and K is one power of s, to a relative deviation.
+    pub(super) fn low_end(&self, deviation: f64) -> f64 {
+        let mut low = f64::INFINITY;
+        for g in self.plant.0.as_flattened().iter().chain(self.controllers.0.as_flattened()) {
+            if g.dead_time() > 0.0 {
+                low = low.min(deviation / g.dead_time());
+            }
+            low = low.min(settles(g.numerator(), deviation)).min(settles(g.denominator(), deviation));
+        }
+        // A loop of gains alone is the same at all frequencies.
+        if low.is_finite() { low } else { 1.0 }
+    }
+
+    /// A frequency from which on the absolute values of the elements of L stay so small that `is_small` holds of them; `None`
+    /// where there is none. `is_small` must hold of all smaller values too.
+    pub(super) fn high_end(&self, from: f64, is_small: impl Fn(&Matrix2<f64>) -> bool) -> Option<f64> {
+        let doubled = std::iter::successors(Some(from), |w| Some(2.0 * w));
+        doubled.take_while(|&w| w < BEYOND_ALL).find(|&w| is_small(&self.largest_beyond(w)))
+    }
+
+    /// Largest absolute values of the elements of L from a frequency on; infinite where no bound is known.
+    fn largest_beyond(&self, frequency: f64) -> Matrix2<f64> {
+        let of =
+            |matrix: &TransferMatrix| matrix.0.each_ref().map(|row| row.each_ref().map(|g| Tail::of(g, frequency)));
+        let (g, k) = (of(self.plant), of(&self.controllers));
+        Matrix2::from_fn(|row, column| (0..2).map(|i| g[row][i].times(k[i][column]).largest_beyond(frequency)).sum())
+    }
+
+    /// The trace and the determinant of L over a cell.
+    pub(super) fn invariants(&self, cell: Cell) -> Invariants {
+        let (mut g, k) = (over(self.plant, cell), over(&self.controllers, cell));
+        let largest = Matrix2::from_fn(|row, column| {
+            g[row][0].size() * k[0][column].size() + g[row][1].size() * k[1][column].size()
+        });
+        for (model, element) in g.as_flattened_mut().iter_mut().zip(self.plant.0.as_flattened()) {
+            *model = *model * TaylorModel::dead_time(element.dead_time(), cell);
+        }
+        let l = |row: usize, column: usize| g[row][0] * k[0][column] + g[row][1] * k[1][column];
+        let [[a, b], [c, d]] = [[l(0, 0), l(0, 1)], [l(1, 0), l(1, 1)]];
+        let half_difference = (a + -d).scaled(0.5);
+        Invariants {
+            largest,
+            ratio: Matrix2::new(a.value, b.value, c.value, d.value),
+            trace: a + d,
+            determinant: determinant(&g) * determinant(&k),
+            discriminant: half_difference * half_difference + b * c,
+        }
+    }
+
+    /// The terms of det(I + L) = 1 + tr L + det L over a cell, each without its dead time and with it.
+    pub(super) fn return_difference(&self, cell: Cell) -> [(TaylorModel, f64); 7] {
+        let (g, k) = (over(self.plant, cell), over(&self.controllers, cell));
+        let dead_time = |row: usize, column: usize| self.plant.0[row][column].dead_time();
+        let in_trace = |row: usize, column: usize| (g[row][column] * k[column][row], dead_time(row, column));
+        let both = determinant(&k);
+        [
+            (TaylorModel::ONE, 0.0),
+            in_trace(0, 0),
+            in_trace(0, 1),
+            in_trace(1, 0),
+            in_trace(1, 1),
+            (g[0][0] * g[1][1] * both, dead_time(0, 0) + dead_time(1, 1)),
+            (-(g[0][1] * g[1][0] * both), dead_time(0, 1) + dead_time(1, 0)),
+        ]
+    }
+}
+
+/// What the eigenvalues of L follow from, over a cell.
+pub(super) struct Invariants {
+    /// Largest absolute values of the elements of L, whatever the dead times do.
+    pub largest: Matrix2<f64>,
+    /// L in the middle of the cell.
+    pub ratio: Matrix2<Complex>,
+    /// λ1 + λ2.
+    pub trace: TaylorModel,
+    /// λ1 λ2.
+    pub determinant: TaylorModel,
+    /// (λ1 − λ2)²/4.
+    pub discriminant: TaylorModel,
+}
+
+impl Invariants {
+    /// How far from each of its values in the middle, λ1 and λ2, a locus gets in the cell: the smaller one of two bounds.
+    pub fn radii(&self, values: [Complex; 2]) -> [f64; 2] {
+        let by_discriminant = self.radius_by_discriminant();
+        values.map(|value| self.radius_along(value).min(by_discriminant))
+    }
+
+    /// `λ = m ± √q` with the mean m and the discriminant q within r of its value: a root moves by at most √r, and by r/√|q|.
+    /// Good where both loci are nearly the same.
+    fn radius_by_discriminant(&self) -> f64 {
+        let r = self.discriminant.radius();
+        0.5 * self.trace.radius() + r.sqrt().min(r / size_of(self.discriminant.value).sqrt())
+    }
+
+    /// By the tangent of the locus. Where the characteristic polynomial `x² − T x + D` is e at a point x of the tangent, the
+    /// eigenvalues are at distances from x with the product |e|, and they are `|2 x − T| = g` apart to twice the smaller one:
+    /// it is at most the ρ with `ρ (g − ρ) = |e|`. Infinite where no such ρ exists in all the cell.
+    fn radius_along(&self, value: Complex) -> f64 {
+        let (trace, determinant) = (self.trace, self.determinant);
+        let slope = (trace.slope * value - determinant.slope) / (value * 2.0 - trace.value);
+        let tangent = TaylorModel { value, slope, rest: 0.0 };
+        let residual = (tangent * tangent + -(trace * tangent) + determinant).size();
+        let gap = tangent.scaled(2.0) + -trace;
+        let least_gap = size_of(gap.value) - gap.radius();
+        let square = least_gap * least_gap - 4.0 * residual;
+        if least_gap > 0.0 && square >= 0.0 {
+            size_of(slope) + 2.0 * residual / (least_gap + square.sqrt())
+        } else {
+            f64::INFINITY
+        }
+    }
+}
+
+fn over(matrix: &TransferMatrix, cell: Cell) -> [[TaylorModel; 2]; 2] {
+    matrix.0.each_ref().map(|row| row.each_ref().map(|g| TaylorModel::rational(g, cell)))
+}
+
+fn determinant([[a, b], [c, d]]: &[[TaylorModel; 2]; 2]) -> TaylorModel {
+    *a * *d + -(*b * *c)
+}
+
+/// The frequency below which a polynomial is its lowest power, to a relative deviation; infinite for a single power.
+fn settles(coefficients: &[f64], deviation: f64) -> f64 {
+    let mut powers = coefficients.iter().enumerate().filter(|&(_, &c)| c != 0.0);
+    let Some((lowest, first)) = powers.next() else { return f64::INFINITY };
+    powers.map(|(k, c)| (deviation * (first / c).abs()).powf(1.0 / (k - lowest) as f64)).fold(f64::INFINITY, f64::min)
+}
+
+/// A bound `factor ω^exponent` on the absolute value of a function from a frequency on.
+#[derive(Clone, Copy)]
+struct Tail {
+    factor: f64,
+    exponent: i32,
+}
+
+impl Tail {
+    fn of(function: &TransferFunction, frequency: f64) -> Self {
+        let (Some(b), Some(a)) = (leading(function.numerator()), leading(function.denominator())) else {
+            return Self { factor: 0.0, exponent: 0 };
+        };
+        // The lower powers, each relative to the leading one.
+        let lower = |coefficients: &[f64]| {
+            coefficients[..coefficients.len() - 1].iter().fold(0.0, |sum, c| (sum + c.abs()) / frequency)
+        };
+        let least = a[a.len() - 1].abs() - lower(a);
+        let factor = (b[b.len() - 1].abs() + lower(b)) / least;
+        let degree = |coefficients: &[f64]| i32::try_from(coefficients.len()).unwrap_or(i32::MAX);
+        Self { factor: if least > 0.0 { factor } else { f64::INFINITY }, exponent: degree(b) - degree(a) }
+    }
+
+    fn times(self, other: Self) -> Self {
+        let factor = if self.factor == 0.0 || other.factor == 0.0 { 0.0 } else { self.factor * other.factor };
+        Self { factor, exponent: self.exponent + other.exponent }
+    }
+
+    fn largest_beyond(self, frequency: f64) -> f64 {
+        match self {
+            Self { factor: 0.0, .. } => 0.0,
+            Self { exponent: 1.., .. } => f64::INFINITY,
+            Self { factor, exponent } => factor * frequency.powi(exponent),
+        }
+    }
+}
+
+/// The coefficients up to the leading one.
+fn leading(coefficients: &[f64]) -> Option<&[f64]> {
+    coefficients.iter().rposition(|&c| c != 0.0).map(|last| &coefficients[..=last])
+}

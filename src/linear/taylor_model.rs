@@ -1,0 +1,170 @@
+//! Enclosures of functions of frequency over a cell: Taylor models of order one (Makino and Berz 2003, in the form for complex values).
+
+use std::ops::{Add, Mul, Neg};
+
+use super::{Complex, TransferFunction, turn};
+
+/// A cell of frequencies (rad per unit of time of the plant).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Cell {
+    pub low: f64,
+    pub high: f64,
+}
+
+impl Cell {
+    pub fn middle(self) -> f64 {
+        f64::midpoint(self.low, self.high)
+    }
+
+    pub fn half_width(self) -> f64 {
+        0.5 * (self.high - self.low)
+    }
+
+    pub fn halves(self) -> [Self; 2] {
+        let middle = self.middle();
+        [Self { high: middle, ..self }, Self { low: middle, ..self }]
+    }
+}
+
+/// A complex function over a cell: within `rest` of `value + slope x`, where x goes from −1 to 1 across the cell.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct TaylorModel {
+    pub value: Complex,
+    pub slope: Complex,
+    pub rest: f64,
+}
+
+impl TaylorModel {
+    pub const ZERO: Self = Self::constant(Complex::ZERO);
+    pub const ONE: Self = Self::constant(Complex::ONE);
+
+    const fn constant(value: Complex) -> Self {
+        Self { value, slope: Complex::ZERO, rest: 0.0 }
+    }
+
+    /// Largest distance from the value in the middle.
+    pub fn radius(&self) -> f64 {
+        size_of(self.slope) + self.rest
+    }
+
+    /// Largest absolute value.
+    pub fn size(&self) -> f64 {
+        size_of(self.value) + self.radius()
+    }
+
+    pub fn scaled(self, factor: f64) -> Self {
+        Self { value: self.value * factor, slope: self.slope * factor, rest: self.rest * factor.abs() }
+    }
+
+    /// A disc around zero that holds the function, whatever its argument does.
+    pub fn disc(&self) -> Self {
+        Self { rest: self.size(), ..Self::ZERO }
+    }
+
+    /// `e^(−jωθ)`.
+    pub fn dead_time(dead_time: f64, cell: Cell) -> Self {
+        let angle = dead_time * cell.half_width();
+        let value = turn(-dead_time * cell.middle());
+        Self { value, slope: value * Complex::new(0.0, -angle), rest: 0.5 * angle * angle }
+    }
+
+    /// The rational part `b(jω)/a(jω)` of a transfer function. The rest is infinite where a may have a zero in the cell.
+    pub fn rational(function: &TransferFunction, cell: Cell) -> Self {
+        let (b, a) = (polynomial(function.numerator(), cell), polynomial(function.denominator(), cell));
+        let value = b.value / a.value;
+        let slope = (b.slope - value * a.slope) / a.value;
+        let least = size_of(a.value) - a.radius();
+        // b − (value + slope x) a, over a.
+        let rest = b.rest + size_of(value) * a.rest + size_of(slope) * a.radius();
+        Self { value, slope, rest: if least > 0.0 { rest / least } else { f64::INFINITY } }
+    }
+}
+
+/// A polynomial in jω with real coefficients by rising powers; the rest bounds its second derivative over the cell.
+fn polynomial(coefficients: &[f64], cell: Cell) -> TaylorModel {
+    let (s, half) = (Complex::new(0.0, cell.middle()), cell.half_width());
+    let (mut value, mut derivative) = (Complex::ZERO, Complex::ZERO);
+    // The polynomial of the absolute coefficients at the upper end, its derivative and half its second derivative.
+    let mut bound = [0.0; 3];
+    for &c in coefficients.iter().rev() {
+        derivative = derivative * s + value;
+        value = value * s + c;
+        bound = [bound[0] * cell.high + c.abs(), bound[1] * cell.high + bound[0], bound[2] * cell.high + bound[1]];
+    }
+    TaylorModel { value, slope: derivative * Complex::new(0.0, half), rest: bound[2] * half * half }
+}
+
+impl Add for TaylorModel {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self { value: self.value + other.value, slope: self.slope + other.slope, rest: self.rest + other.rest }
+    }
+}
+
+impl Neg for TaylorModel {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        Self { value: -self.value, slope: -self.slope, rest: self.rest }
+    }
+}
+
+impl Mul for TaylorModel {
+    type Output = Self;
+
+    fn mul(self, other: Self) -> Self {
+        Self {
+            value: self.value * other.value,
+            slope: self.value * other.slope + self.slope * other.value,
+            rest: size_of(self.slope) * size_of(other.slope) + self.size() * other.rest + other.size() * self.rest,
+        }
+    }
+}
+
+/// |x| of numbers whose squares are numbers.
+pub(super) fn size_of(x: Complex) -> f64 {
+    x.norm_sqr().sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whether a model holds a function at 200 places of its cell, and how much of its radius is used.
+    fn holds(model: &TaylorModel, cell: Cell, function: impl Fn(f64) -> Complex) -> f64 {
+        let mut used = 0.0_f64;
+        for k in 0..=200 {
+            let x = f64::from(k) / 100.0 - 1.0;
+            let exact = function(cell.middle() + x * cell.half_width());
+            let off = (exact - model.value - model.slope * x).norm();
+            assert!(off <= model.rest + 1e-14 * model.size(), "{off} is more than {}", model.rest);
+            used = used.max((exact - model.value).norm() / model.radius());
+        }
+        used
+    }
+
+    #[test]
+    fn a_model_holds_its_function() {
+        let resonance = TransferFunction::new(vec![1.0, -0.3], vec![1.0, 0.1, 1.0], 0.0).unwrap();
+        let lags = TransferFunction::lags(2.0, &[1.0, 3.0, 0.2], 1.7).unwrap();
+        for (low, high) in [(0.99, 1.0), (0.2, 0.25), (3.0, 3.5), (1e-3, 1.5e-3)] {
+            let cell = Cell { low, high };
+            let at = |g: &TransferFunction, w: f64| g.at(Complex::new(0.0, w));
+            let [one, other] = [&resonance, &lags].map(|g| TaylorModel::rational(g, cell));
+            let delayed = other * TaylorModel::dead_time(1.7, cell);
+            assert!(holds(&one, cell, |w| at(&resonance, w)) > 0.5);
+            assert!(holds(&delayed, cell, |w| at(&lags, w)) > 0.5);
+            holds(&(one * delayed + -one), cell, |w| at(&resonance, w) * (at(&lags, w) - 1.0));
+            holds(&delayed.disc(), cell, |w| at(&lags, w));
+        }
+    }
+
+    #[test]
+    fn a_cell_with_a_pole_has_no_bound() {
+        let integrator = TransferFunction::new(vec![1.0], vec![0.0, 1.0], 0.0).unwrap();
+        assert_eq!(TaylorModel::rational(&integrator, Cell { low: 0.0, high: 1.0 }).rest, f64::INFINITY);
+        let oscillator = TransferFunction::new(vec![1.0], vec![1.0, 0.0, 1.0], 0.0).unwrap();
+        assert_eq!(TaylorModel::rational(&oscillator, Cell { low: 0.9, high: 1.2 }).rest, f64::INFINITY);
+    }
+}
