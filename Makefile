@@ -29,8 +29,9 @@ test: ## run everything: format, lints, native, browser and end-to-end tests
 	@tools/setup.sh 2>&1 || { echo '0 passed, 1 failed'; exit 1; }
 	@tools/run.sh node tools/test.mjs 2>&1
 
-bench: ## measure speed and size (BENCH=--write puts the table into docs/benchmarks.md)
+bench: ## measure speed and size, check margins of 1000 loops (BENCH=--write puts the table into docs/benchmarks.md)
 	@tools/setup.sh >&2
+	@tools/run.sh cargo test --locked --no-default-features --test margins -- --ignored >&2
 	@tools/build.sh >&2
 	@tools/run.sh node tools/bench.mjs $(BENCH)
 
