@@ -1,6 +1,6 @@
 //! Exact simulation of transfer functions with dead time, for inputs that are constant between switches.
 
-use super::lag_chain::{MAX_ORDER, Motion, State};
+use super::lag_chain::{Leap, MAX_ORDER, Motion, State};
 use super::{LinearError, TransferFunction, TransferMatrix};
 
 /// One way from an input to an output; several between the same two add up.
@@ -15,7 +15,7 @@ pub struct Path {
 }
 
 /// A path on its way.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 struct Moving {
     input: usize,
     output: usize,
@@ -40,7 +40,22 @@ pub struct DelayedPlant {
     changes: [Vec<(f64, f64)>; 2],
     time: f64,
     pace: f64,
+    /// The latest durations of a motion, oldest first.
+    regular: Vec<Regular>,
 }
+
+/// A duration that may come again, as those between samples and arrivals do.
+#[derive(Clone, Debug)]
+struct Regular {
+    duration: f64,
+    /// The leap of each path; none until the duration comes for the second time.
+    leaps: Vec<Leap>,
+}
+
+/// Durations that are remembered: more than there are pieces between two samples.
+const REGULAR: usize = 16;
+/// Durations that differ by less than this share of the time are the same, up to the rounding of times.
+const SAME_DURATION: f64 = 4.0 * f64::EPSILON;
 
 impl DelayedPlant {
     /// At rest, with both inputs zero.
@@ -59,7 +74,7 @@ impl DelayedPlant {
         };
         let paths = paths.iter().map(moving).collect::<Result<Vec<_>, LinearError>>()?;
         let pace = paths.iter().map(|path| 0.5 * path.motion.unit()).fold(f64::INFINITY, f64::min);
-        Ok(Self { paths, inputs: [0.0; 2], changes: [Vec::new(), Vec::new()], time: 0.0, pace })
+        Ok(Self { paths, inputs: [0.0; 2], changes: [Vec::new(), Vec::new()], time: 0.0, pace, regular: Vec::new() })
     }
 
     /// Time since the start.
@@ -85,7 +100,15 @@ impl DelayedPlant {
 
     /// Both outputs `duration` from now, which must be no longer than [`quiet`](Self::quiet).
     pub fn outputs_after(&self, duration: f64) -> [f64; 2] {
-        self.sum(|path| path.motion.output(&path.motion.after(&path.state, path.acting, duration)))
+        match self.leaps(duration) {
+            Some(leaps) => {
+                let mut leaps = leaps.iter();
+                self.sum(|path| {
+                    leaps.next().map_or(0.0, |leap| path.motion.output(&leap.after(&path.state, path.acting)))
+                })
+            }
+            None => self.sum(|path| path.motion.output(&path.motion.after(&path.state, path.acting, duration))),
+        }
     }
 
     /// How long nothing arrives: until the next change of an input has passed a dead time. Infinite when none is on its way.
@@ -96,6 +119,14 @@ impl DelayedPlant {
     /// A time within which no path turns there and back: half its mean time constant.
     pub fn pace(&self) -> f64 {
         self.pace
+    }
+
+    /// Multiplications, at most, of a motion over a `duration` without arrivals.
+    pub fn multiplications(&self, duration: f64) -> f64 {
+        match self.leaps(duration) {
+            Some(leaps) => leaps.iter().map(Leap::multiplications).sum(),
+            None => self.paths.iter().map(|path| path.motion.multiplications(duration)).sum(),
+        }
     }
 
     /// Moves on, over any number of arrivals.
@@ -117,9 +148,33 @@ impl DelayedPlant {
     }
 
     fn glide(&mut self, duration: f64) {
+        if let Some(k) = self.regular.iter().position(|known| self.is_same(known.duration, duration)) {
+            let known = &mut self.regular[k];
+            if known.leaps.is_empty() {
+                known.leaps = self.paths.iter().map(|path| path.motion.leap(duration)).collect();
+            }
+            for (path, leap) in self.paths.iter_mut().zip(&known.leaps) {
+                path.state = leap.after(&path.state, path.acting);
+            }
+            return;
+        }
+        if self.regular.len() == REGULAR {
+            self.regular.remove(0);
+        }
+        self.regular.push(Regular { duration, leaps: Vec::new() });
         for path in &mut self.paths {
             path.state = path.motion.after(&path.state, path.acting, duration);
         }
+    }
+
+    /// The leap of each path for a duration that has come more than once.
+    fn leaps(&self, duration: f64) -> Option<&[Leap]> {
+        let known = self.regular.iter().find(|known| self.is_same(known.duration, duration))?;
+        (!known.leaps.is_empty()).then_some(&known.leaps)
+    }
+
+    fn is_same(&self, one: f64, other: f64) -> bool {
+        (one - other).abs() <= SAME_DURATION * (self.time + other)
     }
 
     /// When the awaited change arrives at the end of a path.
@@ -140,7 +195,7 @@ impl DelayedPlant {
         }
     }
 
-    fn sum(&self, of_path: impl Fn(&Moving) -> f64) -> [f64; 2] {
+    fn sum(&self, mut of_path: impl FnMut(&Moving) -> f64) -> [f64; 2] {
         let mut outputs = [0.0; 2];
         for path in &self.paths {
             outputs[path.output] += of_path(path);

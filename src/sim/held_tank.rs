@@ -19,6 +19,25 @@ pub struct HeldTank<'a> {
 
 /// Tanks of a laboratory take longer than this to turn there and back (s).
 const PACE_S: f64 = 1.0;
+/// Longest piece of a motion (s), each of which is up to eight steps of the integration, and most pieces.
+const PIECE_S: f64 = 5.0;
+const MOST_PIECES: f64 = 32.0;
+/// Work of one piece, in multiplications; measured.
+const MULTIPLICATIONS: f64 = 300.0;
+
+fn pieces(duration: f64) -> f64 {
+    (duration / PIECE_S).ceil().clamp(1.0, MOST_PIECES)
+}
+
+/// Lets `duration` seconds pass.
+fn pass(water: &mut Hydraulics, duration: f64) {
+    let pieces = pieces(duration);
+    let mut done = 0.0;
+    while done < pieces {
+        water.advance(0.0, duration / pieces, &mut Unwatched);
+        done += 1.0;
+    }
+}
 
 /// Walls are left to whoever looks at the levels.
 struct Unwatched;
@@ -69,16 +88,20 @@ impl HeldPlant for HeldTank<'_> {
 
     fn outputs_after(&self, duration: f64) -> [f64; 2] {
         let mut water = self.water;
-        water.advance(0.0, duration, &mut Unwatched);
+        pass(&mut water, duration);
         self.signals(&water)
     }
 
     fn advance(&mut self, duration: f64) {
-        self.water.advance(0.0, duration, &mut Unwatched);
+        pass(&mut self.water, duration);
     }
 
     fn pace(&self) -> f64 {
         PACE_S
+    }
+
+    fn multiplications(&self, duration: f64) -> f64 {
+        MULTIPLICATIONS * pieces(duration)
     }
 }
 

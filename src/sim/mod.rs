@@ -38,4 +38,4 @@ pub use response::{NoResponse, Settling};
 pub use step_figures::StepFigures;
 pub use tracking::{TrackingFigures, tracking_figures};
 pub use trajectory::{Event, EventKind, Trajectory};
-pub use two_loops::{Halt, HeldPlant, LoopTrace, TwoLoops, run_two_loops};
+pub use two_loops::{Halt, HeldPlant, LoopTrace, MAX_WORK, TwoLoops, run_two_loops, run_two_loops_within};

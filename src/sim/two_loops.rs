@@ -1,5 +1,7 @@
 //! Relays and PID controllers around a plant with two inputs and outputs, with every switch at its exact instant.
 
+use std::cell::Cell;
+
 use crate::control::{PidMatrix, Relay};
 use crate::linear::DelayedPlant;
 use crate::scalar::root;
@@ -18,6 +20,9 @@ pub trait HeldPlant {
     fn advance(&mut self, duration: f64);
     /// A time within which an output does not turn there and back.
     fn pace(&self) -> f64;
+    /// Multiplications, at most, of [`outputs_after`](Self::outputs_after) and of [`advance`](Self::advance) over a smooth piece
+    /// of at most `duration`.
+    fn multiplications(&self, duration: f64) -> f64;
 }
 
 impl HeldPlant for DelayedPlant {
@@ -44,6 +49,10 @@ impl HeldPlant for DelayedPlant {
 
     fn pace(&self) -> f64 {
         self.pace()
+    }
+
+    fn multiplications(&self, duration: f64) -> f64 {
+        self.multiplications(duration)
     }
 }
 
@@ -88,7 +97,7 @@ pub enum Halt {
         /// When.
         time: f64,
     },
-    /// The record is as long as a record may be.
+    /// The record has as many rows as it may have, or the run took as much work as it may, [`MAX_WORK`].
     Full {
         /// When.
         time: f64,
@@ -111,6 +120,8 @@ pub struct LoopTrace {
     pub switches: [Vec<(f64, bool)>; 2],
     /// Why it ended early.
     pub halt: Option<Halt>,
+    /// Work of the run, in multiplications: an upper bound, the same on every machine.
+    pub work: f64,
 }
 
 /// Switches in a row, each after next to nothing, that are taken for chattering, and what is next to nothing, as a share of the
@@ -119,12 +130,21 @@ const HASTY_SWITCHES: u32 = 12;
 const HASTY: f64 = 1e-6;
 /// Outputs beyond this many times the excitation have diverged.
 const DIVERGED: f64 = 1e12;
-/// Rows at most.
-const MAX_ROWS: usize = 400_000;
+/// Most rows of a record.
+pub const MAX_ROWS: usize = 200_000;
+/// Most work of one run, in multiplications: about 60 ms in WebAssembly.
+pub const MAX_WORK: f64 = 2e7;
+/// What a motion takes besides those of the plant, controllers and rows included; measured.
+const WORK_PER_MOTION: f64 = 100.0;
 
 /// Runs the loops from rest. Relays start with the sign of their first error, and a positive one where that is zero.
 pub fn run_two_loops(plant: &mut dyn HeldPlant, loops: &TwoLoops) -> LoopTrace {
-    let mut run = Run::new(plant, loops);
+    run_two_loops_within(plant, loops, MAX_WORK)
+}
+
+/// The same with another bound on the work than [`MAX_WORK`].
+pub fn run_two_loops_within(plant: &mut dyn HeldPlant, loops: &TwoLoops, most_work: f64) -> LoopTrace {
+    let mut run = Run::new(plant, loops, most_work);
     let mut sample = 0_u32;
     while run.trace.halt.is_none() && run.time < loops.duration {
         run.take_sample();
@@ -132,6 +152,7 @@ pub fn run_two_loops(plant: &mut dyn HeldPlant, loops: &TwoLoops) -> LoopTrace {
         run.pass_until((f64::from(sample) * loops.step).min(loops.duration));
     }
     run.row();
+    run.trace.work = run.work.get();
     run.trace
 }
 
@@ -147,16 +168,50 @@ struct Run<'a> {
     time: f64,
     /// Switches in a row that came at once after the one before.
     hasty: u32,
+    /// Work at most and so far, in multiplications.
+    most_work: f64,
+    work: Cell<f64>,
     trace: LoopTrace,
 }
 
 impl<'a> Run<'a> {
-    fn new(plant: &'a mut dyn HeldPlant, loops: &'a TwoLoops) -> Self {
+    fn new(plant: &'a mut dyn HeldPlant, loops: &'a TwoLoops, most_work: f64) -> Self {
         let outputs = plant.outputs();
         let positive = [0, 1].map(|i| loops.references[i] - outputs[i] >= 0.0);
         let controllers = loops.controllers.start(loops.step);
-        let trace = LoopTrace::default();
-        Self { plant, loops, controllers, held: [0.0; 2], positive, inputs: [0.0; 2], time: 0.0, hasty: 0, trace }
+        Self {
+            plant,
+            loops,
+            controllers,
+            held: [0.0; 2],
+            positive,
+            inputs: [0.0; 2],
+            time: 0.0,
+            hasty: 0,
+            most_work,
+            work: Cell::new(0.0),
+            trace: LoopTrace::default(),
+        }
+    }
+
+    fn count_work(&self, duration: f64) {
+        self.work.set(self.work.get() + WORK_PER_MOTION + self.plant.multiplications(duration));
+    }
+
+    /// Outputs after a smooth piece.
+    fn look_ahead(&self, duration: f64) -> [f64; 2] {
+        self.count_work(duration);
+        self.plant.outputs_after(duration)
+    }
+
+    fn advance(&mut self, duration: f64) {
+        self.count_work(duration);
+        self.plant.advance(duration);
+    }
+
+    /// Whether the run may not go on.
+    fn is_full(&self) -> bool {
+        self.trace.time.len() >= MAX_ROWS || self.work.get() >= self.most_work
     }
 
     fn errors(&self, outputs: [f64; 2]) -> [f64; 2] {
@@ -168,10 +223,6 @@ impl<'a> Run<'a> {
         let bound = DIVERGED * self.loops.excitation();
         if outputs.iter().any(|y| y.is_nan() || y.abs() > bound) {
             self.trace.halt = Some(Halt::Diverged { time: self.time });
-            return;
-        }
-        if self.trace.time.len() >= MAX_ROWS {
-            self.trace.halt = Some(Halt::Full { time: self.time });
             return;
         }
         self.held = self.controllers.step(self.errors(outputs));
@@ -201,14 +252,17 @@ impl<'a> Run<'a> {
     /// Until the next sample, over switches and arrivals.
     fn pass_until(&mut self, end: f64) {
         while self.time < end && self.trace.halt.is_none() {
+            if self.is_full() {
+                self.trace.halt = Some(Halt::Full { time: self.time });
+                return;
+            }
             let (left, quiet) = (end - self.time, self.plant.quiet());
-            let held_back = if self.time < self.loops.release { self.loops.release - self.time } else { f64::INFINITY };
-            let piece = [quiet, self.plant.pace(), held_back].into_iter().fold(left, f64::min);
+            let piece = quiet.min(self.watched()).min(left);
             if let Some((relay, instant)) = self.first_switch(piece) {
                 self.switch(relay, instant);
                 continue;
             }
-            self.plant.advance(piece);
+            self.advance(piece);
             // Exactly, or the last piece would leave a rounding error to go.
             self.time = if piece == left { end } else { self.time + piece };
             if piece == quiet && piece < left {
@@ -217,8 +271,19 @@ impl<'a> Run<'a> {
         }
     }
 
+    /// The longest piece in which no switch is passed over: without relays, and until they are released, there is none.
+    fn watched(&self) -> f64 {
+        if self.loops.relays.iter().all(Option::is_none) {
+            f64::INFINITY
+        } else if self.time < self.loops.release {
+            self.loops.release - self.time
+        } else {
+            self.plant.pace()
+        }
+    }
+
     fn switch(&mut self, relay: usize, instant: f64) {
-        self.plant.advance(instant);
+        self.advance(instant);
         self.time += instant;
         self.positive[relay] = !self.positive[relay];
         self.hasty = if instant <= HASTY * self.plant.pace() { self.hasty + 1 } else { 0 };
@@ -232,10 +297,10 @@ impl<'a> Run<'a> {
 
     /// The relay that switches first within a smooth piece, and after how long.
     fn first_switch(&self, piece: f64) -> Option<(usize, f64)> {
-        if self.time < self.loops.release {
+        if self.time < self.loops.release || self.loops.relays.iter().all(Option::is_none) {
             return None;
         }
-        let ends = self.plant.outputs_after(piece);
+        let ends = self.look_ahead(piece);
         let mut first: Option<(usize, f64)> = None;
         for i in 0..2 {
             let Some(relay) = self.loops.relays[i] else { continue };
@@ -246,11 +311,8 @@ impl<'a> Run<'a> {
             if stay(ends) < 0.0 {
                 let now = stay(self.plant.outputs());
                 // At once, where it is past its threshold already.
-                let instant = if now <= 0.0 {
-                    0.0
-                } else {
-                    root(|h| stay(self.plant.outputs_after(h)), (0.0, now), (piece, stay(ends)))
-                };
+                let instant =
+                    if now <= 0.0 { 0.0 } else { root(|h| stay(self.look_ahead(h)), (0.0, now), (piece, stay(ends))) };
                 if first.is_none_or(|(_, earlier)| instant < earlier) {
                     first = Some((i, instant));
                 }

@@ -2,7 +2,7 @@
 
 use crate::control::{IsaPid, ParallelPid, PidMatrix, Relay};
 use crate::linear::{DelayedPlant, Path, TransferFunction, TransferMatrix};
-use crate::sim::{HeldPlant, LoopTrace, TwoLoops, run_two_loops};
+use crate::sim::{HeldPlant, LoopTrace, MAX_WORK, TwoLoops, run_two_loops_within};
 
 use super::error::positive;
 use super::relay_reading::{Exciter, RelayReading, read_relay_test};
@@ -38,6 +38,17 @@ pub fn relay_test(
     controllers: PidMatrix,
     time: TestTime,
 ) -> Result<RelayTest, TuningError> {
+    relay_test_within(plant, relays, controllers, time, MAX_WORK)
+}
+
+/// The same with another bound on the work.
+fn relay_test_within(
+    plant: &mut dyn HeldPlant,
+    relays: [Option<Relay>; 2],
+    controllers: PidMatrix,
+    time: TestTime,
+    most_work: f64,
+) -> Result<RelayTest, TuningError> {
     positive("duration", time.duration)?;
     positive("step", time.step)?;
     for relay in relays.iter().flatten() {
@@ -51,7 +62,7 @@ pub fn relay_test(
     }
     let TestTime { duration, release, step } = time;
     let loops = TwoLoops { relays, controllers, references: [0.0; 2], release, duration, step };
-    let trace = run_two_loops(plant, &loops);
+    let trace = run_two_loops_within(plant, &loops, most_work);
     let exciters = relays.map(|relay| relay.map(|r| Exciter { amplitude: r.amplitude, reversed: r.reversed }));
     let reading = read_relay_test(&trace, exciters);
     Ok(RelayTest { trace, reading })
@@ -95,7 +106,7 @@ pub fn independent_test(
     relay: Relay,
     time: TestTime,
 ) -> Result<RelayTest, TuningError> {
-    with_one_relay(plant, index, relay, ParallelPid::default(), time)
+    with_one_relay(plant, index, relay, ParallelPid::default(), time, MAX_WORK)
 }
 
 /// A relay in one loop, a controller in the other.
@@ -105,13 +116,15 @@ fn with_one_relay(
     relay: Relay,
     other: ParallelPid,
     time: TestTime,
+    most_work: f64,
 ) -> Result<RelayTest, TuningError> {
     check_stable(plant)?;
     let mut relays = [None; 2];
     relays[index] = Some(relay);
     let mut controllers = [other; 2];
     controllers[index] = ParallelPid::default();
-    relay_test(&mut DelayedPlant::new(&plant.paths())?, relays, PidMatrix::decentralised(controllers), time)
+    let controllers = PidMatrix::decentralised(controllers);
+    relay_test_within(&mut DelayedPlant::new(&plant.paths())?, relays, controllers, time, most_work)
 }
 
 /// Ultimate point of the loop with the relay, by first harmonics; `None` where the test did not end periodically.
@@ -159,7 +172,8 @@ pub struct SequentialStep {
 }
 
 /// Sequential tests (SRF, Campestrini 2006, §3.6): a relay in loop 1, the loop closed by the rule, a relay in loop 2 and so
-/// on, any number of passes. It need not converge; the steps show it.
+/// on, any number of passes. It need not converge; the steps show it. All tests together take at most three times
+/// the work of one: the test in which it is spent is the last, and unfinished.
 ///
 /// # Errors
 /// As [`simultaneous_test`].
@@ -172,9 +186,11 @@ pub fn sequential_tuning(
 ) -> Result<Vec<SequentialStep>, TuningError> {
     let mut steps = Vec::new();
     let mut controllers = [ParallelPid::default(); 2];
+    let mut left = 3.0 * MAX_WORK;
     for pass in 1..=passes {
         for index in [0, 1] {
-            let test = with_one_relay(plant, index, relays[index], controllers[1 - index], time)?;
+            let test = with_one_relay(plant, index, relays[index], controllers[1 - index], time, left)?;
+            left -= test.trace.work;
             let point = ultimate_point(&test, index);
             let settings = point.map(|point| rule.settings(point));
             steps.push(SequentialStep { pass, index, test, point, settings });

@@ -40,6 +40,11 @@ pub enum RelayVerdict {
     NoOscillation,
     /// An output left all bounds.
     Diverged,
+    /// The record ends before its time, see [`Halt::Full`], and its last periods are not alike.
+    Unfinished {
+        /// When (units of time of the plant).
+        time: f64,
+    },
 }
 
 /// Measurements of one loop over the last whole periods.
@@ -112,6 +117,10 @@ pub struct Exciter {
 /// Reads a record of relays.
 pub fn read_relay_test(trace: &LoopTrace, exciters: [Option<Exciter>; 2]) -> RelayReading {
     let nothing = |verdict| RelayReading { verdict, oscillation: None };
+    let otherwise = |verdict| match trace.halt {
+        Some(Halt::Full { time }) => nothing(RelayVerdict::Unfinished { time }),
+        _ => nothing(verdict),
+    };
     match trace.halt {
         Some(Halt::Chattering { relay, .. }) => return nothing(RelayVerdict::Chattering { relay }),
         Some(Halt::Diverged { .. }) => return nothing(RelayVerdict::Diverged),
@@ -119,9 +128,9 @@ pub fn read_relay_test(trace: &LoopTrace, exciters: [Option<Exciter>; 2]) -> Rel
     }
     let active: Vec<usize> = (0..2).filter(|&i| exciters[i].is_some()).collect();
     if active.is_empty() || active.iter().any(|&i| trace.switches[i].len() < 4) {
-        return nothing(RelayVerdict::NoOscillation);
+        return otherwise(RelayVerdict::NoOscillation);
     }
-    let Some((period, end)) = common_period(trace, &active) else { return nothing(RelayVerdict::NotPeriodic) };
+    let Some((period, end)) = common_period(trace, &active) else { return otherwise(RelayVerdict::NotPeriodic) };
     let in_period = |i: usize| {
         let slack = period * TOLERANCE;
         trace.switches[i].iter().filter(|(time, _)| *time > end - period + slack && *time <= end + slack).count()

@@ -17,6 +17,7 @@ use crate::app::widgets::{DataTable, ZoomButtons, figures, handler, html};
 use crate::figure::Frame;
 use crate::linear::LoopStability;
 use crate::scenario::tuning::{CompareSpec, DecouplerSpec, StepResponse, TuningPlant, TuningScenario};
+use crate::sim::Halt;
 use crate::tuning::PublishedPlant;
 
 const DECOUPLERS: [(&str, DecouplerSpec); 5] = [
@@ -182,6 +183,9 @@ fn sentence(session: Session) -> (bool, String) {
             }
             None => (false, tr!(lab, relay.response_never, number = number, other = other, cross = cross).to_string()),
         }
+    } else if let Some(Halt::Full { time }) = design.response.trace.halt {
+        let time = style.significant(time, 3);
+        (false, tr!(lab, relay.response_unfinished, time = time, unit = time_unit(&setup.plant)).to_string())
     } else {
         (false, tr!(lab, relay.response_unstable).to_owned())
     };

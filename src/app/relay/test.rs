@@ -349,6 +349,9 @@ fn sentence(session: Session) -> (bool, String) {
             RelayVerdict::Chattering { relay } => (false, tr!(lab, relay.chattering, number = relay + 1).to_string()),
             RelayVerdict::NoOscillation => (false, tr!(lab, relay.no_oscillation).to_owned()),
             RelayVerdict::Diverged => (false, tr!(lab, relay.diverged).to_owned()),
+            RelayVerdict::Unfinished { time } => {
+                (false, tr!(lab, relay.unfinished, time = style.significant(time, 3), unit = unit).to_string())
+            }
         };
         let good = good
             && match test {

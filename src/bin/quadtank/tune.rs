@@ -31,6 +31,10 @@ pub enum Picture {
     Response,
 }
 
+/// Why a record ends before its time.
+const TOO_MUCH_WORK: &str = "not computed to its end, because the plant is too quick for so long a record: shorten the \
+                             duration, lengthen the step, or leave out quick poles";
+
 fn complex(value: Complex) -> Value {
     json!({ "re": value.re, "im": value.im })
 }
@@ -148,6 +152,7 @@ fn reading(reading: &RelayReading) -> Value {
         RelayVerdict::Chattering { relay } => ("chattering", json!({ "loop": relay + 1 })),
         RelayVerdict::NoOscillation => ("none", Value::Null),
         RelayVerdict::Diverged => ("diverged", Value::Null),
+        RelayVerdict::Unfinished { time } => ("unfinished", json!({ "time": time, "reason": TOO_MUCH_WORK })),
     };
     let oscillation = reading.oscillation.map(|o| {
         json!({
@@ -236,7 +241,7 @@ fn halt(halt: Halt) -> Value {
     match halt {
         Halt::Chattering { relay, time } => json!({ "kind": "chattering", "loop": relay + 1, "time": time }),
         Halt::Diverged { time } => json!({ "kind": "diverged", "time": time }),
-        Halt::Full { time } => json!({ "kind": "full", "time": time }),
+        Halt::Full { time } => json!({ "kind": "full", "time": time, "reason": TOO_MUCH_WORK }),
     }
 }
 
