@@ -143,7 +143,8 @@ pub struct Estimator {
     window: Window,
     /// Weight of the measurement at sample n of a window (1/s) and, with α̂, of the input before it (m/(s V)).
     weights: Vec<[f64; 2]>,
-    /// The measurements (m) and inputs (V) of the window so far, the oldest first.
+    /// The latest measurements (m) and inputs (V), the oldest first: those of the window so far, and with one that slides up to
+    /// as many before it.
     samples: Vec<[f64; 2]>,
     estimate: f64,
 }
@@ -174,15 +175,15 @@ impl Estimator {
     /// Takes the measurement (m) at a sample and the input (V) that acted on the way to it.
     pub fn push(&mut self, level: f64, input: f64) {
         self.samples.push([level, input]);
-        if self.samples.len() < self.weights.len() {
-            return;
-        }
-        let terms = self.weights.iter().zip(&self.samples);
+        let count = self.weights.len();
+        let Some(first) = self.samples.len().checked_sub(count) else { return };
+        let terms = self.weights.iter().zip(&self.samples[first..]);
         self.estimate = terms.map(|(weight, sample)| weight[0] * sample[0] + weight[1] * sample[1]).sum();
         match self.window {
             // The last sample of a window is the first of the next.
-            Window::Block => drop(self.samples.drain(..self.weights.len() - 1)),
-            Window::Sliding => drop(self.samples.remove(0)),
+            Window::Block => drop(self.samples.drain(..count - 1)),
+            Window::Sliding if first == count => drop(self.samples.drain(..=first)),
+            Window::Sliding => (),
         }
     }
 

@@ -8,17 +8,15 @@ use nalgebra::{DMatrix, Matrix6, Vector4};
 use crate::control::{EstimatorError, EstimatorSettings, ModelFree, Window};
 use crate::linear::{Complex, LinearError, eigenvalues};
 use crate::plant::Jacobian;
-use crate::scalar::{power, sort_few};
+use crate::scalar::{power, root, sort_few};
 
 use super::hold::Hold;
 use super::poles::Stability;
 
-/// Samples of a sliding window up to which its poles are computed: each is four states.
+/// Samples of a sliding window up to which its poles are computed: each is two states.
 const MOST_SLIDING_SAMPLES: usize = 30;
 /// What rounding makes of a zero multiplier of a shift register of N samples is `(1e-12)^(1/N)` at most.
 const SHIFTED: f64 = 1e-12;
-/// Halvings of the interval in which α̂ is searched: 1e-9 of it is left.
-const HALVINGS: u32 = 40;
 /// Smallest α̂ that is tried, as a share of the present one.
 const SMALLEST: f64 = 1e-4;
 
@@ -96,28 +94,31 @@ pub fn smallest_model_gain_of_integrator(slope: f64, proportional: f64, integral
 /// # Errors
 /// As [`model_free_poles`].
 pub fn smallest_model_gain(jacobian: &Jacobian, law: &ModelFree, power_gain: f64) -> Result<Option<f64>, LinearError> {
-    let is_stable = |gain: f64| {
+    // Positive where the loop is stable.
+    let slack = |gain: f64| {
         let mut law = *law;
         law.loops.iter_mut().for_each(|settings| settings.model_gain = gain);
-        Ok(model_free_poles(jacobian, &law, power_gain)?.stability == Stability::Stable)
+        let (map, _) = LinearLoop::new(jacobian, &law, power_gain)?.period_map();
+        Ok::<_, LinearError>(Stability::slack(&eigenvalues(&map)?))
     };
     let mut stable = law.loops[0].model_gain;
-    let mut unstable = stable / 2.0;
-    if !is_stable(stable)? {
+    let mut at_stable = slack(stable)?;
+    if at_stable <= 0.0 {
         return Ok(None);
     }
-    while is_stable(unstable)? {
-        stable = unstable;
-        unstable /= 2.0;
-        if unstable < SMALLEST * law.loops[0].model_gain {
+    loop {
+        let smaller = stable / 2.0;
+        let at_smaller = slack(smaller)?;
+        if at_smaller <= 0.0 {
+            // What is no number there has no crossing between.
+            let found = root(|gain| slack(gain).unwrap_or(f64::NAN), (smaller, at_smaller), (stable, at_stable));
+            return Ok(Some(found));
+        }
+        if smaller < SMALLEST * law.loops[0].model_gain {
             return Ok(None);
         }
+        (stable, at_stable) = (smaller, at_smaller);
     }
-    for _ in 0..HALVINGS {
-        let middle = f64::midpoint(stable, unstable);
-        *if is_stable(middle)? { &mut stable } else { &mut unstable } = middle;
-    }
-    Ok(Some(stable))
 }
 
 fn unusable(error: EstimatorError) -> LinearError {
@@ -192,8 +193,8 @@ impl<'a> LinearLoop<'a> {
             None => (0, 1),
             // φ̂ of both loops, just renewed. The output before that has no weight in the window that begins.
             Some((settings, weights)) if settings.window == Window::Block => (2, weights[0].len() - 1),
-            // Measurements and outputs of both loops over the window.
-            Some((_, weights)) => (4 * (weights[0].len() - 1), 1),
+            // What the estimates of both loops for the samples to come already have.
+            Some((_, weights)) => (2 * (weights[0].len() - 1), 1),
         };
         let wet = self.wet.len();
         let before = wet + self.integrating.len();
@@ -252,24 +253,19 @@ impl<'a> LinearLoop<'a> {
         state.memory = next.to_vec();
     }
 
-    /// One sample with a window that slides: the memory holds, for each loop, measurements and then outputs, the oldest first.
+    /// One sample with a window that slides: the memory holds, for each loop, what φ̂ at the next N samples already has of
+    /// measurements and outputs so far, the next one first.
     fn slide(&self, state: &mut State, weights: &[Vec<[f64; 2]>; 2]) {
         let count = weights[0].len() - 1;
-        let part = |i: usize, kind: usize| (2 * i + kind) * count..(2 * i + kind + 1) * count;
-        let phi = from_fn(|i| {
-            let levels = state.memory[part(i, 0)].iter().chain([&state.levels[i]]);
-            // The output before sample n; that before the first has no weight.
-            let outputs = [&0.0].into_iter().chain(&state.memory[part(i, 1)]);
-            let terms = weights[i].iter().zip(levels.zip(outputs));
-            terms.map(|(weight, (level, output))| weight[0] * level + weight[1] * output).sum()
-        });
         let measured = [state.levels[0], state.levels[1]];
+        let phi = from_fn(|i| state.memory[i * count] + weights[i][count][0] * measured[i]);
         let output = self.sample(state, phi);
-        for i in 0..2 {
-            for (kind, newest) in [(0, measured[i]), (1, output[i])] {
-                let column = &mut state.memory[part(i, kind)];
-                column.rotate_left(1);
-                column[count - 1] = newest;
+        for (i, column) in state.memory.chunks_exact_mut(count).enumerate() {
+            column.rotate_left(1);
+            column[count - 1] = 0.0;
+            for (ahead, sum) in column.iter_mut().enumerate() {
+                let (of_level, of_output) = (weights[i][count - 1 - ahead][0], weights[i][count - ahead][1]);
+                *sum += of_level * measured[i] + of_output * output[i];
             }
         }
     }

@@ -26,7 +26,7 @@ pub enum Stability {
 impl Stability {
     /// The verdict on a loop with these poles (z-plane).
     pub(super) fn of(poles_z: &[Complex]) -> Self {
-        let radius = poles_z.iter().map(|z| z.norm()).fold(0.0, f64::max);
+        let radius = spectral_radius(poles_z);
         if radius > 1.0 + UNIT_CIRCLE_TOLERANCE {
             Self::Unstable
         } else if radius < 1.0 - UNIT_CIRCLE_TOLERANCE {
@@ -35,6 +35,15 @@ impl Stability {
             Self::Marginal
         }
     }
+
+    /// How far the poles (z-plane) stay inside the circle of a stable loop; positive for one that is stable.
+    pub(super) fn slack(poles_z: &[Complex]) -> f64 {
+        1.0 - UNIT_CIRCLE_TOLERANCE - spectral_radius(poles_z)
+    }
+}
+
+fn spectral_radius(poles_z: &[Complex]) -> f64 {
+    poles_z.iter().map(|z| z.norm()).fold(0.0, f64::max)
 }
 
 /// The poles of the sampled linear closed loop.
