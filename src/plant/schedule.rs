@@ -123,11 +123,11 @@ impl ValveSchedule {
         }
     }
 
-    /// The time in which γ turns by one radian (s): short against it, it is smooth between its breaks.
-    pub fn smooth_for_s(&self) -> f64 {
+    /// How fast γ turns (rad/s); 0 for what does not swing.
+    pub fn turning(&self) -> f64 {
         match *self {
-            Self::Sine { frequency, amplitude, .. } if amplitude != 0.0 => frequency.abs().recip(),
-            _ => f64::INFINITY,
+            Self::Sine { frequency, amplitude, .. } if amplitude != 0.0 => frequency.abs(),
+            _ => 0.0,
         }
     }
 }

@@ -61,6 +61,8 @@ pub const WINDOW_S: Limits = Limits::new(0.0, 1e5);
 pub const VALVE_AMPLITUDE: Limits = Limits::new(-1.0, 1.0);
 /// Angular frequency of a valve that swings (rad/s).
 pub const VALVE_FREQUENCY: Limits = Limits::new(0.0, 10.0);
+/// How far a valve may turn within one run (rad), ω times the duration: the integration takes four steps for each radian.
+pub const MAX_VALVE_TURN: f64 = 10_000.0;
 /// Phase of a valve that swings (rad).
 pub const VALVE_PHASE: Limits = Limits::new(-100.0, 100.0);
 
@@ -119,6 +121,12 @@ pub fn sampling_time_s(duration_s: f64) -> Limits {
 /// Duration of an experiment (s) at a sampling time (s): what is left of [`DURATION_S`] with [`MAX_SAMPLES`].
 pub fn duration_s(sampling_time_s: f64) -> Limits {
     Limits { max: DURATION_S.max.min(MAX_SAMPLES * sampling_time_s), ..DURATION_S }
+}
+
+/// Angular frequency of a valve that swings (rad/s) in an experiment of a duration (s): what is left of [`VALVE_FREQUENCY`]
+/// with [`MAX_VALVE_TURN`].
+pub fn valve_frequency(duration_s: f64) -> Limits {
+    Limits { max: VALVE_FREQUENCY.max.min(MAX_VALVE_TURN / duration_s), ..VALVE_FREQUENCY }
 }
 
 /// A gain K (V/V) of the same sign as the given one: [`GAIN_MAGNITUDE`] with that sign.

@@ -41,13 +41,17 @@ impl Process for MovingRig<'_> {
         self.water.set_inputs(&self.plant, pump_voltage, disturbance);
     }
 
+    fn steps_taken(&self) -> u64 {
+        self.water.steps_taken()
+    }
+
     /// From break to break of the schedules, so that no step of the integration sees both sides of one.
     fn advance(&mut self, time: f64, duration: f64, events: &mut Events) {
         let Self { plant, valves, water, voltage, disturbance } = self;
         if valves.iter().all(ValveSchedule::is_constant) {
             return water.advance(time, duration, events);
         }
-        let longest = valves.iter().map(|valve| TURN * valve.smooth_for_s()).fold(f64::INFINITY, f64::min);
+        let longest = TURN / valves[0].turning().max(valves[1].turning());
         let end = time + duration;
         let mut now = time;
         while now < end {

@@ -178,6 +178,15 @@ fn valve() -> impl Strategy<Value = ValveSchedule> {
     ]
 }
 
+fn turning_within(valve: ValveSchedule, limits: Limits) -> ValveSchedule {
+    match valve {
+        ValveSchedule::Sine { mean, amplitude, frequency, phase } => {
+            ValveSchedule::Sine { mean, amplitude, frequency: limits.clamp(frequency), phase }
+        }
+        other => other,
+    }
+}
+
 fn law() -> impl Strategy<Value = ModelFree> {
     let settings = || {
         let windup = prop_oneof![
@@ -224,7 +233,7 @@ pub fn model_free_setup(steps: usize) -> impl Strategy<Value = ModelFreeSetup> {
     (plant(), [valve(), valve()], start, law(), prop::option::of(controller()), experiment(steps)).prop_map(
         |(plant, valves, start, controller, compare, experiment)| ModelFreeSetup {
             plant,
-            valves,
+            valves: valves.map(|valve| turning_within(valve, limits::valve_frequency(experiment.duration_s))),
             start,
             controller,
             compare,

@@ -8,7 +8,6 @@ use crate::app::controls::{Knob, knob, segmented};
 use crate::app::start::Control;
 use crate::app::texts::{say, tr};
 use crate::app::widgets::{Scale, card as card_of, handler, remark};
-use crate::scenario::limits;
 use crate::scenario::model_free::{
     LONG_RUN_S, ModelFreeSetup, PublishedExperiment, PublishedValves, published_model_free,
 };
@@ -57,7 +56,7 @@ const DURATION: Knob<ModelFreeSetup> = Knob {
     read: |s, _| s.experiment.duration_s,
     write: |s, _, duration_s| s.experiment.duration_s = duration_s,
     limits: |s, _| {
-        let limits = limits::duration_s(s.controller.sampling_time_s);
+        let limits = s.duration_s();
         (limits.min.max(s.shortest_s()), limits.max)
     },
     scale: Scale::Linear(10.0),

@@ -1,6 +1,6 @@
 use crate::control::{DecentralisedPi, ModelFree};
 use crate::plant::{OperatingPoint, PresetId, QuadrupleTank, ValveSchedule};
-use crate::scenario::{PlantSpec, ScenarioError, fields, setup_of};
+use crate::scenario::{Limits, PlantSpec, ScenarioError, fields, limits, setup_of};
 use crate::sim::{Experiment, SetPointStep};
 
 use super::{PublishedExperiment, PublishedValves, published_model_free};
@@ -72,6 +72,13 @@ impl ModelFreeSetup {
             StartSpec::Empty => 0.0,
         };
         (-start, self.plant_at(0.0).tanks[level].height - start)
+    }
+
+    /// How long the run may last (s), for the samples of its law and the turns of its valves.
+    pub fn duration_s(&self) -> Limits {
+        let Limits { min, max } = limits::duration_s(self.controller.sampling_time_s);
+        let turning = self.valves[0].turning().max(self.valves[1].turning());
+        Limits { min, max: max.min(limits::MAX_VALVE_TURN / turning) }
     }
 
     /// The shortest run in which each reference has stepped for ten samples (s).

@@ -31,6 +31,10 @@ impl Part for ModelFreeSetup {
             f.check("compare.sampling_time_s", compare.sampling_time_s, limits);
         }
         check_duration(f, &self.experiment, sampling_time_s);
+        let limits = limits::valve_frequency(self.experiment.duration_s);
+        for (name, valve) in ["valves[0].sine.frequency", "valves[1].sine.frequency"].into_iter().zip(&self.valves) {
+            f.check(name, valve.turning(), limits);
+        }
     }
 }
 
