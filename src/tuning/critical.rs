@@ -1,12 +1,19 @@
-use std::f64::consts::TAU;
+use std::f64::consts::{LN_10, TAU};
 
 use nalgebra::Matrix2;
 
 use crate::linear::{Complex, LinearError, TransferMatrix, square_root};
-use crate::scalar::{golden_section, root, sort_few};
+use crate::scalar::{golden_section, root};
 
-/// Points of the frequency grid for each decade.
+/// Cells of the frequency grid for each decade, and most cells of all: a wide range has fewer for each decade.
 const PER_DECADE: f64 = 400.0;
+const MOST_CELLS: f64 = 4000.0;
+/// Cells beside a resonance, relative to its half width and, further away, to the distance from it.
+const SHARE_OF_WIDTH: f64 = 0.25;
+/// Most effort for the nearest critical point of one direction: 1 for a cell that is solved, more for a dip. A dead time makes
+/// hundreds of crossings where the plant is flat, whose factors differ little.
+const MOST_EFFORT: u32 = 24;
+const EFFORT_OF_DIP: u32 = 4;
 
 /// Gains of two proportional loops at which the closed loop oscillates, and how.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -155,6 +162,13 @@ impl Sample {
     /// The factor a at a solution: −1/λ for the locus λ of G diag c that is on the negative real axis. `−Im T/Im D` would lose
     /// its digits where D is nearly real. Negative where that locus is positive.
     fn factor(&self, direction: [f64; 2]) -> f64 {
+        let (real, slant) = self.straightest_locus(direction);
+        // T and D may also be real at once with complex loci: then the equation vanishes without a crossing.
+        if slant > SLANT { f64::NAN } else { -real.norm().recip().copysign(real.re) }
+    }
+
+    /// The locus of G diag c that is nearer to the real axis, and the sine of its angle to that.
+    fn straightest_locus(&self, direction: [f64; 2]) -> (Complex, f64) {
         let (t, d) = self.trace_and_determinant(direction);
         let root = square_root(t * t - d * 4.0);
         let [one, two] = [t + root, t - root].map(|double| double * 0.5);
@@ -162,9 +176,13 @@ impl Sample {
         let slant = |locus: Complex| {
             if locus.norm() <= f64::EPSILON * t.norm() { f64::INFINITY } else { (locus.im / locus.norm()).abs() }
         };
-        let real = if slant(one) <= slant(two) { one } else { two };
-        // T and D may also be real at once with complex loci: then the equation vanishes without a crossing.
-        if slant(real) > SLANT { f64::NAN } else { -real.norm().recip().copysign(real.re) }
+        if slant(one) <= slant(two) { (one, slant(one)) } else { (two, slant(two)) }
+    }
+
+    /// Whether a locus is within 30° of the negative real axis.
+    fn is_left(&self, direction: [f64; 2]) -> bool {
+        let (locus, slant) = self.straightest_locus(direction);
+        locus.re < 0.0 && slant <= 0.5
     }
 }
 
@@ -174,70 +192,118 @@ fn is_dip(before: f64, at: f64, after: f64) -> bool {
     before.signum() == at.signum() && at.signum() == after.signum() && at.abs() < before.abs() && at.abs() < after.abs()
 }
 
+/// Where a critical point may be.
+#[derive(Clone, Copy, Debug)]
+struct Candidate {
+    /// Index of the grid point at the upper end of the cell, or of the dip.
+    cell: usize,
+    /// The sign of the equation at a dip.
+    dip: Option<f64>,
+    /// Whether a locus is on the left at one end of the cell.
+    is_left: bool,
+    /// See [`Sample::least_factor`].
+    least_factor: f64,
+}
+
+/// The frequencies of the grid: equal ratios, finer beside the resonances that are too narrow for these.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of cells")]
+fn frequencies(plant: &TransferMatrix, lowest: f64, highest: f64) -> Vec<f64> {
+    let range = (highest / lowest).ln();
+    let damping = least_damping(plant).unwrap_or(1.0).max(LEAST_DAMPING);
+    let per_decade = (LN_10 / (SHARE_OF_WIDTH * damping)).max(PER_DECADE);
+    let cells = (range / LN_10 * per_decade).ceil().clamp(1.0, MOST_CELLS) as usize;
+    let ratio = range / cells as f64;
+    let mut frequencies: Vec<f64> = (0..=cells).map(|k| lowest * (ratio * k as f64).exp()).collect();
+    for pole in plant.0.as_flattened().iter().filter_map(|element| element.poles().ok()).flatten() {
+        let (resonance, damping) = (pole.norm(), (pole.re.abs() / pole.norm()).max(LEAST_DAMPING));
+        if pole.im > 0.0 {
+            let mut away = 0.0;
+            while SHARE_OF_WIDTH * damping.max(away) < ratio {
+                frequencies.extend([-away, away].map(|away: f64| resonance * away.exp()));
+                away += SHARE_OF_WIDTH * damping.max(away);
+            }
+        }
+    }
+    frequencies.retain(|w| (lowest..=highest).contains(w));
+    frequencies.sort_by(f64::total_cmp);
+    frequencies.dedup();
+    frequencies
+}
+
 impl CriticalSearch {
     /// A search from the lowest to the highest frequency (rad per unit of time), both positive.
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of points")]
     pub fn new(plant: &TransferMatrix, lowest: f64, highest: f64) -> Self {
-        // Some cells across the narrowest resonance.
-        let damping = least_damping(plant).unwrap_or(1.0).max(LEAST_DAMPING);
-        let per_decade = (4.0 * std::f64::consts::LN_10 / damping).max(PER_DECADE);
-        let cells = ((highest / lowest).log10() * per_decade).ceil().max(1.0) as usize;
-        let ratio = (highest / lowest).ln() / cells as f64;
-        let grid = (0..=cells).map(|k| Sample::of(plant, lowest * (ratio * k as f64).exp())).collect();
+        let grid = frequencies(plant, lowest, highest).into_iter().map(|w| Sample::of(plant, w)).collect();
         Self { plant: plant.clone(), at_rest: Sample::of(plant, 0.0), grid }
     }
 
     /// All critical points in a direction `(c1, c2)`, nearest first. Only the nearest bounds the stable gains; two at the
     /// same factor are a corner of the curve, where both loci pass through −1.
     pub fn crossings(&self, direction: [f64; 2]) -> Vec<CriticalPoint> {
-        let mut points = Vec::new();
-        self.visit(direction, |point| {
-            points.push(point);
-            f64::INFINITY
-        });
-        sort_few(&mut points, |x, y| x.factor.total_cmp(&y.factor));
+        let mut points: Vec<_> =
+            self.candidates(direction).iter().flat_map(|candidate| self.points_in(candidate, direction)).collect();
+        points.sort_by(|x, y| x.factor.total_cmp(&y.factor));
         points
     }
 
     /// The nearest critical point in a direction; `None` where there is none.
     pub fn nearest(&self, direction: [f64; 2]) -> Option<CriticalPoint> {
+        let mut candidates = self.candidates(direction);
+        candidates.sort_by(|x, y| y.is_left.cmp(&x.is_left).then(x.least_factor.total_cmp(&y.least_factor)));
         let mut nearest: Option<CriticalPoint> = None;
-        self.visit(direction, |point| {
-            let best = nearest.filter(|best| best.factor <= point.factor).unwrap_or(point);
-            nearest = Some(best);
-            best.factor
-        });
+        let mut effort = 0;
+        for candidate in &candidates {
+            if nearest.is_some_and(|best| best.factor < candidate.least_factor) {
+                continue;
+            }
+            if effort >= MOST_EFFORT {
+                break;
+            }
+            effort += if candidate.dip.is_some() { EFFORT_OF_DIP } else { 1 };
+            for point in self.points_in(candidate, direction) {
+                nearest = Some(nearest.filter(|best| best.factor <= point.factor).unwrap_or(point));
+            }
+        }
         nearest
     }
 
-    /// Solves every critical point of a direction by rising frequency. `take` says up to which factor more are wanted, which
-    /// saves those of high frequencies, where a dead time makes many and the gain of the plant is small.
-    fn visit(&self, direction: [f64; 2], mut take: impl FnMut(CriticalPoint) -> f64) {
-        let mut wanted = f64::INFINITY;
-        let mut solve = |low: Sample, high: Sample, wanted: &mut f64| {
-            let solution = self.solve(low, high, direction);
-            let factor = solution.factor(direction);
-            if factor > 0.0 && factor.is_finite() {
-                let gains = direction.map(|c| factor * c);
-                *wanted = take(CriticalPoint { gains, factor, frequency: solution.frequency });
-            }
-        };
+    /// The cells in which the equation changes its sign, and the dips that may, by rising frequency.
+    fn candidates(&self, direction: [f64; 2]) -> Vec<Candidate> {
         let value = |k: usize| self.grid.get(k).map_or(f64::NAN, |sample| sample.equation(direction));
+        let mut candidates = Vec::new();
         let (mut before, mut at) = (value(0), value(1));
         for k in 1..self.grid.len() {
             let after = value(k + 1);
-            let (low, high) = (self.grid[k - 1], self.grid[k]);
             let changes = before != 0.0 && before.signum() != at.signum();
-            if (changes || is_dip(before, at, after)) && high.least_factor(direction) <= wanted {
-                if changes {
-                    solve(low, high, &mut wanted);
-                } else if let Some(between) = self.dip(k, at.signum(), direction) {
-                    solve(low, between, &mut wanted);
-                    solve(between, self.grid[k + 1], &mut wanted);
-                }
+            if changes || is_dip(before, at, after) {
+                let dip = (!changes).then_some(at.signum());
+                candidates.push(Candidate {
+                    cell: k,
+                    dip,
+                    is_left: self.grid[k - 1].is_left(direction) || self.grid[k].is_left(direction),
+                    least_factor: self.grid[k].least_factor(direction),
+                });
             }
             (before, at) = (at, after);
         }
+        candidates
+    }
+
+    /// The critical points in the cell of a candidate, or in both cells beside its dip.
+    fn points_in(&self, candidate: &Candidate, direction: [f64; 2]) -> Vec<CriticalPoint> {
+        let (low, high) = (self.grid[candidate.cell - 1], self.grid[candidate.cell]);
+        let solutions = match candidate.dip {
+            None => vec![self.solve(low, high, direction)],
+            Some(side) => self.dip(candidate.cell, side, direction).map_or_else(Vec::new, |between| {
+                let beyond = self.grid[candidate.cell + 1];
+                vec![self.solve(low, between, direction), self.solve(between, beyond, direction)]
+            }),
+        };
+        let points = solutions.into_iter().map(|solution| {
+            let factor = solution.factor(direction);
+            CriticalPoint { gains: direction.map(|c| factor * c), factor, frequency: solution.frequency }
+        });
+        points.filter(|point| point.factor > 0.0 && point.factor.is_finite()).collect()
     }
 
     /// What bounds the stable gains in a direction: an oscillation or a real pole, whichever is nearer.

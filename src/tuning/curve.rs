@@ -6,8 +6,9 @@ use crate::scalar::sine_cosine;
 
 /// Ratio of the frequencies of neighbours on the curve beyond which there is a corner between them.
 const JUMP: f64 = 1.25;
-/// Halvings of the angle that locate a corner.
-const HALVINGS: u32 = 50;
+/// Halvings of the angle that locate a corner, and most corners that are located.
+const HALVINGS: u32 = 40;
+const MOST_CORNERS: usize = 8;
 
 /// One direction of the curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,7 +33,7 @@ pub struct Corner {
 pub struct CriticalCurve {
     /// Directions from loop 1 alone to loop 2 alone.
     pub points: Vec<CurvePoint>,
-    /// Corners, in the same order.
+    /// Corners, in the same order, up to eight.
     pub corners: Vec<Corner>,
 }
 
@@ -66,6 +67,7 @@ impl CriticalCurve {
                 }
                 _ => None,
             })
+            .take(MOST_CORNERS)
             .collect();
         Self { points, corners }
     }
