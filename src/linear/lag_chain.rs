@@ -47,8 +47,8 @@ impl Leap {
     /// The state after the leap.
     pub(super) fn after(&self, state: &State, input: f64) -> State {
         let mut after = *state;
-        for i in 0..self.order {
-            after[i] += self.input[i] * input + self.row_times(i, state);
+        for (i, entry) in after.iter_mut().enumerate().take(self.order) {
+            *entry += self.input[i] * input + self.row_times(i, state);
         }
         after
     }
@@ -254,9 +254,9 @@ mod tests {
             5.081_545_064_377_683e-6,
         ];
         for (t, expected) in [
-            (1e-3, 5.427_869_579_365_961_5e-9),
+            (1e-3, 5.427_869_579_365_961e-9),
             (0.01, 0.000_030_316_837_231_089_375),
-            (0.5, 0.962_714_312_380_907_06),
+            (0.5, 0.962_714_312_380_907),
             (3.0, 2.639_287_978_191_263),
             (60.0, 2.755_188_461_458_723_8),
             (6000.0, 2.754_027_424_374_769_3),

@@ -23,6 +23,10 @@ impl Process for Rig<'_> {
         self.water.set_inputs(self.plant, pump_voltage, disturbance);
     }
 
+    fn steps_taken(&self) -> u64 {
+        self.water.steps_taken()
+    }
+
     fn advance(&mut self, time: f64, duration: f64, events: &mut Events) {
         self.water.advance(time, duration, events);
     }

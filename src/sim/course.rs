@@ -16,6 +16,8 @@ pub(super) trait Process {
     fn set_inputs(&mut self, pump_voltage: &[f64; 2], disturbance: &Disturbance);
     /// Lets `duration` seconds pass from `time` on.
     fn advance(&mut self, time: f64, duration: f64, events: &mut Events);
+    /// Steps of the integration so far.
+    fn steps_taken(&self) -> u64;
 }
 
 /// Events of a run, each kind once, in order of time.
@@ -257,5 +259,6 @@ pub(super) fn run(
         process.advance(now, end - now, &mut events);
     }
     trajectory.events = events.0;
+    trajectory.steps = process.steps_taken();
     trajectory
 }

@@ -59,6 +59,8 @@ pub(super) struct Hydraulics {
     pumped: [f64; 4],
     /// √h of each tank.
     root_level: [f64; 4],
+    /// Steps of the integration so far.
+    steps: u64,
 }
 
 impl Hydraulics {
@@ -75,7 +77,13 @@ impl Hydraulics {
             drain: outlet,
             pumped: [0.0; 4],
             root_level: from_fn(|i| levels[i].max(0.0).sqrt().min(root_height[i])),
+            steps: 0,
         }
+    }
+
+    /// Steps of the integration so far.
+    pub(super) fn steps_taken(&self) -> u64 {
+        self.steps
     }
 
     /// Sets the inputs that hold from now on.
@@ -204,6 +212,7 @@ impl Hydraulics {
     #[expect(clippy::inline_always, reason = "measured, as above: three equal flows then cost nothing")]
     #[inline(always)]
     fn explicit_step(&mut self, time: f64, step: f64, pumped: [&[f64; 4]; 3], watch: &mut dyn Watch) {
+        self.steps += 1;
         let h = self.levels();
         let from_here = |k: [f64; 4], by: f64| [h[0] + by * k[0], h[1] + by * k[1], h[2] + by * k[2], h[3] + by * k[3]];
         let k1 = self.slopes(h, pumped[0]);
@@ -241,6 +250,7 @@ impl Hydraulics {
     }
 
     fn step(&mut self, time: f64, step: f64, watch: &mut dyn Watch) {
+        self.steps += 1;
         let start = |i: usize| ImplicitStep::new(self.sections[i], self.root_level[i], self.drain[i], step);
         let upper = |i: usize| start(i).root_levels(self.pumped[i], &[0.0; STAGES]);
         let lower = |i: usize, above: &[f64; STAGES]| {

@@ -74,6 +74,10 @@ impl Process for LinearModel<'_> {
         self.push = self.hold.push(&self.forcing);
     }
 
+    fn steps_taken(&self) -> u64 {
+        0
+    }
+
     fn advance(&mut self, _time: f64, duration: f64, _events: &mut Events) {
         if (duration - self.hold_duration).abs() <= SAME_DURATION * self.hold_duration {
             self.deviation = self.hold.pass(&self.deviation, &self.push);

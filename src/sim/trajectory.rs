@@ -45,6 +45,9 @@ pub struct Trajectory {
     pub pump_voltage: [Vec<f64>; 2],
     /// What happened, in order; each kind once, when it first began. Empty for a linear run.
     pub events: Vec<Event>,
+    /// Steps of the integration; 0 for a linear run, which needs none. They count the work of a run, the same on every machine.
+    #[serde(skip)]
+    pub steps: u64,
 }
 
 impl Trajectory {
@@ -59,6 +62,7 @@ impl Trajectory {
             controller_output: pair(),
             pump_voltage: pair(),
             events: Vec::new(),
+            steps: 0,
         }
     }
 

@@ -189,7 +189,8 @@ pub fn sequential_tuning(
     let mut left = 3.0 * MAX_WORK;
     for pass in 1..=passes {
         for index in [0, 1] {
-            let test = with_one_relay(plant, index, relays[index], controllers[1 - index], time, left)?;
+            let most = left.min(MAX_WORK);
+            let test = with_one_relay(plant, index, relays[index], controllers[1 - index], time, most)?;
             left -= test.trace.work;
             let point = ultimate_point(&test, index);
             let settings = point.map(|point| rule.settings(point));
