@@ -68,21 +68,6 @@ pub fn frequency_range(plant: &TransferMatrix) -> Result<(f64, f64), LinearError
     Ok(if quickest > 0.0 { (slowest * 0.01, quickest * 100.0) } else { (0.01, 100.0) })
 }
 
-/// Smallest damping ratio of the poles of a plant, 1 for one without complex poles: how narrow its resonances are, in shares of
-/// their frequency.
-///
-/// # Errors
-/// As [`frequency_range`].
-pub fn least_damping(plant: &TransferMatrix) -> Result<f64, LinearError> {
-    let mut least = 1.0_f64;
-    for element in plant.0.as_flattened() {
-        for pole in element.poles()?.into_iter().filter(|pole| pole.im != 0.0) {
-            least = least.min(pole.re.abs() / pole.norm());
-        }
-    }
-    Ok(least)
-}
-
 /// Direction `(k1, k2)` in which loop 2 has the importance r2 relative to loop 1,
 /// `r2 = kc2 g22(0)/(kc1 g11(0))` (Campestrini 2006, eq. 94).
 pub fn importance_direction(dc_gain: &Matrix2<f64>, importance: f64) -> [f64; 2] {
@@ -111,8 +96,8 @@ pub struct CriticalSearch {
 /// Largest angle to the real axis (rad) at which a locus counts as on it.
 const SLANT: f64 = 1e-6;
 
-/// Resonances narrower than this are taken for so narrow.
-const LEAST_DAMPING: f64 = 1e-3;
+/// Resonances of a smaller damping ratio are searched as if they had this one.
+const LEAST_DAMPING: f64 = 1e-9;
 
 /// What the search needs of G(jω).
 #[derive(Clone, Copy, Debug)]
@@ -209,9 +194,7 @@ struct Candidate {
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of cells")]
 fn frequencies(plant: &TransferMatrix, lowest: f64, highest: f64) -> Vec<f64> {
     let range = (highest / lowest).ln();
-    let damping = least_damping(plant).unwrap_or(1.0).max(LEAST_DAMPING);
-    let per_decade = (LN_10 / (SHARE_OF_WIDTH * damping)).max(PER_DECADE);
-    let cells = (range / LN_10 * per_decade).ceil().clamp(1.0, MOST_CELLS) as usize;
+    let cells = (range / LN_10 * PER_DECADE).ceil().clamp(1.0, MOST_CELLS) as usize;
     let ratio = range / cells as f64;
     let mut frequencies: Vec<f64> = (0..=cells).map(|k| lowest * (ratio * k as f64).exp()).collect();
     for pole in plant.0.as_flattened().iter().filter_map(|element| element.poles().ok()).flatten() {
@@ -338,5 +321,47 @@ impl CriticalSearch {
         let equation = |w: f64| Sample::of(&self.plant, w).equation(direction);
         let ends = [low, high].map(|sample| (sample.frequency, sample.equation(direction)));
         Sample::of(&self.plant, root(equation, ends[0], ends[1]))
+    }
+}
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+    use crate::linear::TransferFunction;
+
+    /// The same element in both loops, without interaction.
+    fn diagonal(element: &TransferFunction) -> TransferMatrix {
+        let none = element.scaled(0.0);
+        TransferMatrix([[element.clone(), none.clone()], [none, element.clone()]])
+    }
+
+    fn search(plant: &TransferMatrix) -> CriticalSearch {
+        let (low, high) = frequency_range(plant).unwrap();
+        CriticalSearch::new(plant, low, high)
+    }
+
+    #[test]
+    fn a_resonance_is_found_however_narrow() {
+        // k/((s² + 2 ζ s + 1)(s + 1)): by Routh's criterion k = 4 ζ + 4 ζ² at ω² = 1 + 2 ζ.
+        for damping in [0.5, 0.05, 1e-3, 1e-5, 1e-7] {
+            let resonance = TransferFunction::new(vec![1.0], vec![1.0, 2.0 * damping, 1.0], 0.0).unwrap();
+            let plant = diagonal(&resonance.times(&TransferFunction::lags(1.0, &[1.0], 0.0).unwrap()));
+            let search = search(&plant);
+            let point = search.nearest([1.0, 0.0]).unwrap();
+            assert_relative_eq!(point.gains[0], 4.0 * damping * (1.0 + damping), max_relative = 1e-6);
+            assert_relative_eq!(point.frequency, (1.0 + 2.0 * damping).sqrt(), max_relative = 1e-9);
+            assert!(search.grid.len() < 3_000, "{}", search.grid.len());
+        }
+    }
+
+    #[test]
+    fn the_grid_is_bounded_whatever_the_plant() {
+        // Time constants over 24 decades and narrow resonances.
+        let lags = TransferFunction::lags(1.0, &[1e12, 1e-12], 1.0).unwrap();
+        let resonance = |w: f64| TransferFunction::new(vec![1.0], vec![1.0, 1e-9 / w, 1.0 / (w * w)], 0.0).unwrap();
+        let plant = diagonal(&lags.times(&resonance(1.0)).times(&resonance(30.0)));
+        let points = search(&plant).grid.len();
+        assert!(points < 12_000, "{points}");
     }
 }

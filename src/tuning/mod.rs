@@ -16,9 +16,7 @@ mod relay_reading;
 mod rules;
 mod usol;
 
-pub use critical::{
-    CriticalPoint, CriticalSearch, GainLimit, frequency_range, importance, importance_direction, least_damping,
-};
+pub use critical::{CriticalPoint, CriticalSearch, GainLimit, frequency_range, importance, importance_direction};
 pub use curve::{Corner, CriticalCurve, CurvePoint};
 pub use design::Design;
 pub use error::TuningError;
