@@ -260,6 +260,59 @@ mod tests {
     }
 
     #[test]
+    fn another_sampling_time_takes_the_nearest_window_of_whole_samples() {
+        let law = |ts: f64| ModelFree::PUBLISHED.with_sampling_time(ts);
+        let window = |ts: f64| law(ts).estimator.unwrap().window_s;
+        assert_eq!([0.005, 0.5, 4.0, 10.0].map(window), [5.0, 10.0, 12.0, 20.0]);
+        assert_eq!(law(0.5).sampling_time_s, 0.5);
+    }
+
+    /// A law without estimator and with samples of half a second, at 6 V.
+    fn half_a_second(windup: ModelFreeWindup) -> RunningModelFree {
+        let law = ModelFree { estimator: None, sampling_time_s: 0.5, ..with(windup) };
+        law.start(LIMITS, [6.0, 5.0], [0.1, 0.1]).unwrap()
+    }
+
+    #[test]
+    fn the_law_is_that_of_the_source_with_any_sampling_time() {
+        let mut law = half_a_second(ModelFreeWindup::Conditional);
+        assert_eq!(law.estimates(), [-6e-3, -5e-3]);
+        for k in 1..=4 {
+            // (−φ̂ + Kp e + Ki Σ e Ts)/α̂ with e = 1 mm.
+            let expected = (6e-3 + 2.0 * 1e-3 + 0.05 * 0.5e-3 * f64::from(k)) / 1e-3;
+            assert_relative_eq!(law.step([0.101, 0.1], [0.1, 0.1])[0], expected, max_relative = 1e-12);
+        }
+    }
+
+    #[test]
+    fn anti_windup_integrates_what_leads_back_and_returns_its_share_of_the_excess() {
+        // An error that leads back from the limit is integrated.
+        let mut law = half_a_second(ModelFreeWindup::Conditional);
+        law.loops[0].integral = 10.0;
+        assert_eq!(law.step([0.09, 0.1], [0.1, 0.1])[0], 12.0);
+        assert_relative_eq!(law.loops[0].integral, 10.0 - 0.5 * 0.01, max_relative = 1e-12);
+        // One that leads further beyond the lower limit is not.
+        let mut law = half_a_second(ModelFreeWindup::Conditional);
+        assert_eq!(law.step([0.0, 0.1], [0.1, 0.1])[0], 0.0);
+        assert_eq!(law.loops[0].integral, 0.0);
+        // A quarter of the excess of 196.5 V goes back within a sample of a quarter of the tracking time.
+        let mut law = half_a_second(ModelFreeWindup::BackCalculation { tracking_time_s: 2.0 });
+        assert_eq!(law.step([0.2, 0.1], [0.1, 0.1])[0], 12.0);
+        assert_relative_eq!(law.loops[0].integral, 0.05 - 0.25 * 196.5 * 1e-3 / 0.05, max_relative = 1e-12);
+    }
+
+    #[test]
+    fn the_estimator_hears_what_the_pump_got_or_what_was_asked_for() {
+        for (fed_with, expected) in [(FedWith::Applied, 12.0), (FedWith::Commanded, 6.0 + 205.0)] {
+            let estimator = Some(EstimatorSettings { fed_with, ..EstimatorSettings::PUBLISHED });
+            let law = ModelFree { estimator, ..ModelFree::PUBLISHED };
+            let mut law = law.start(LIMITS, [6.0, 6.0], [0.1, 0.1]).unwrap();
+            assert_eq!(law.step([0.2, 0.1], [0.1, 0.1])[0], 12.0);
+            assert_relative_eq!(law.loops[0].last.unwrap(), expected, max_relative = 1e-12);
+        }
+    }
+
+    #[test]
     fn what_cannot_work_is_named() {
         let mut law = ModelFree::PUBLISHED;
         law.loops[1].model_gain = 0.0;

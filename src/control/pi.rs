@@ -265,4 +265,14 @@ mod tests {
         let mut pi = Pi::new(SETTINGS, (10.0, 0.0), 1.0, 5.0, 6.0);
         assert_eq!(pi.step(0.0, 6.0, 6.0), 0.0);
     }
+
+    #[test]
+    fn back_calculation_returns_the_share_of_a_sample_in_the_tracking_time() {
+        // Tt = 20 s, Ts = 2 s: a tenth of the excess.
+        let mut pi = Pi::new(SETTINGS, LIMITS, 2.0, 9.0, 5.0);
+        assert_eq!(pi.step(0.0, 7.0, 5.0), 10.0);
+        let integrated = 9.0 + 1.75 * 2.0 / 40.0 * 2.0;
+        let excess = 1.75 * 2.0 + integrated - 10.0;
+        assert_relative_eq!(pi.integral, integrated - 0.1 * excess, max_relative = 1e-14);
+    }
 }

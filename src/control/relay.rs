@@ -58,4 +58,18 @@ mod tests {
         assert_relative_eq!(relay.critical_locus(0.1 * SQRT_2).re, relay.critical_locus(0.1 * SQRT_2).im);
         assert_relative_eq!(Relay::ideal(1.0, 1.0).critical_locus(3.0).re, -3.0 * FRAC_PI_4);
     }
+
+    #[test]
+    fn the_critical_locus_is_the_negative_inverse_of_the_describing_function() {
+        let relay = Relay { amplitude: 2.0, hysteresis: 0.3, bias: 0.0, reversed: false };
+        // N(a) = 4d/(πa) e^(−j asin(ε/a)).
+        let (amplitude, phase) = (0.5, (0.3_f64 / 0.5).asin());
+        let describing = Complex::from_polar(8.0 / (PI * amplitude), -phase);
+        assert_relative_eq!((relay.critical_locus(amplitude) + describing.inv()).norm(), 0.0, epsilon = 1e-15);
+        // Within its hysteresis a relay does not switch: the locus stays at its beginning.
+        assert_eq!(relay.critical_locus(0.1), relay.critical_locus(0.3));
+        assert!(
+            !Relay::ideal(1.0, 2.0).reversed && Relay::ideal(1.0, -2.0).reversed && !Relay::ideal(1.0, 0.0).reversed
+        );
+    }
 }
