@@ -11,8 +11,8 @@ use super::texts::{say, tr};
 use super::widgets::effect;
 use super::widgets::html::{element, escape};
 
-/// The longest time from a change to its being kept (ms). Writing file and link takes one or two milliseconds: too much for
-/// every frame.
+/// The longest time from a change to its being kept (ms). Writing file and link takes 0.3 ms for a short document and 3 ms for
+/// one with four pinned runs (measured in Chromium): too much for every frame.
 const PERIOD_MS: u32 = 1000;
 
 /// The experiment in a form that needs no program; nothing where it is too long for that form.
