@@ -10,9 +10,7 @@ const PER_DECADE: f64 = 400.0;
 const MOST_CELLS: f64 = 4000.0;
 /// Cells beside a resonance, relative to its half width and, further away, to the distance from it.
 const SHARE_OF_WIDTH: f64 = 0.25;
-/// Most effort for the nearest critical point of one direction: 1 for a cell that is solved, more for a dip. A dead time makes
-/// hundreds of crossings where the plant is flat, whose factors differ little.
-const MOST_EFFORT: u32 = 24;
+/// Effort of a dip, where that of a cell which is solved is 1.
 const EFFORT_OF_DIP: u32 = 4;
 
 /// Gains of two proportional loops at which the closed loop oscillates, and how.
@@ -231,6 +229,12 @@ impl CriticalSearch {
 
     /// The nearest critical point in a direction; `None` where there is none.
     pub fn nearest(&self, direction: [f64; 2]) -> Option<CriticalPoint> {
+        self.nearest_within(direction, u32::MAX)
+    }
+
+    /// The nearest of the critical points that are found in as many cells, the likely ones first. A dead time makes hundreds of
+    /// crossings where the plant is flat, whose factors differ little.
+    pub(super) fn nearest_within(&self, direction: [f64; 2], most_effort: u32) -> Option<CriticalPoint> {
         let mut candidates = self.candidates(direction);
         candidates.sort_by(|x, y| y.is_left.cmp(&x.is_left).then(x.least_factor.total_cmp(&y.least_factor)));
         let mut nearest: Option<CriticalPoint> = None;
@@ -239,7 +243,7 @@ impl CriticalSearch {
             if nearest.is_some_and(|best| best.factor < candidate.least_factor) {
                 continue;
             }
-            if effort >= MOST_EFFORT {
+            if effort >= most_effort {
                 break;
             }
             effort += if candidate.dip.is_some() { EFFORT_OF_DIP } else { 1 };
@@ -291,7 +295,12 @@ impl CriticalSearch {
 
     /// What bounds the stable gains in a direction: an oscillation or a real pole, whichever is nearer.
     pub fn limit(&self, direction: [f64; 2]) -> GainLimit {
-        let point = self.nearest(direction);
+        self.limit_within(direction, u32::MAX)
+    }
+
+    /// The same by [`nearest_within`](Self::nearest_within).
+    pub(super) fn limit_within(&self, direction: [f64; 2], most_effort: u32) -> GainLimit {
+        let point = self.nearest_within(direction, most_effort);
         let real = self.real_pole(direction).filter(|&factor| point.is_none_or(|point| factor < point.factor));
         match (real, point) {
             (Some(factor), _) => GainLimit::RealPole { gains: direction.map(|c| factor * c), factor },

@@ -10,6 +10,9 @@ const JUMP: f64 = 1.25;
 const HALVINGS: u32 = 40;
 const MOST_CORNERS: usize = 8;
 
+/// Cells in which one direction is solved for at most.
+const MOST_EFFORT: u32 = 60;
+
 /// One direction of the curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CurvePoint {
@@ -56,7 +59,7 @@ impl CriticalCurve {
                     k if k == last => [0.0, direction(FRAC_PI_2)[1]],
                     _ => direction(angle),
                 };
-                CurvePoint { angle, limit: search.limit(along) }
+                CurvePoint { angle, limit: search.limit_within(along, MOST_EFFORT) }
             })
             .collect();
         let corners = points
@@ -88,7 +91,7 @@ fn corner(
     let mut last = None;
     for _ in 0..HALVINGS {
         let middle = f64::midpoint(low, high);
-        let point = search.nearest(direction(middle))?;
+        let point = search.nearest_within(direction(middle), MOST_EFFORT)?;
         if jumps(&first, &point) {
             (high, last) = (middle, Some(point));
         } else {
