@@ -5,7 +5,7 @@ use crate::plant::{Disturbance, OperatingPoint, QuadrupleTank};
 
 use super::course::{self, Events, Process};
 use super::experiment::Experiment;
-use super::integrate::Hydraulics;
+use super::hydraulics::Hydraulics;
 use super::trajectory::Trajectory;
 
 /// The plant with its water.
@@ -24,7 +24,7 @@ impl Process for Rig<'_> {
     }
 
     fn steps_taken(&self) -> u64 {
-        self.water.steps_taken()
+        self.water.steps
     }
 
     fn advance(&mut self, time: f64, duration: f64, events: &mut Events) {

@@ -4,9 +4,9 @@ use crate::control::{DecentralisedPi, Pairing, RunningPi};
 use crate::plant::{Disturbance, OperatingPoint, QuadrupleTank};
 
 use super::experiment::{Experiment, Load, LoadStep, SetPointStep};
-use super::integrate::Watch;
 use super::noise::Noise;
 use super::trajectory::{Event, EventKind, Trajectory};
+use super::walls::Watch;
 
 /// What the loops act on: the nonlinear plant or its linear model.
 pub(super) trait Process {

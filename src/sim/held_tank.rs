@@ -4,8 +4,9 @@ use crate::control::Pairing;
 use crate::plant::{Disturbance, OperatingPoint, QuadrupleTank};
 use crate::scalar::{larger, smaller};
 
-use super::integrate::{Hydraulics, Watch};
+use super::hydraulics::Hydraulics;
 use super::two_loops::HeldPlant;
+use super::walls::Watch;
 
 /// The quadruple tank as a [`HeldPlant`]: inputs are deviations of the voltages (V) of the pumps that loops 1 and 2 drive,
 /// outputs deviations of the measured levels 1 and 2 (V). Voltages beyond the limits of a pump are cut there; levels stay within the walls.

@@ -1,7 +1,11 @@
 //! One step of the implicit method for one tank.
 
+use std::array::from_fn;
+
 use crate::plant::CrossSection;
 use crate::scalar::larger;
+
+use super::hydraulics::{Hydraulics, emptying_volume};
 
 /// Stages of the method.
 pub(super) const STAGES: usize = 5;
@@ -19,14 +23,57 @@ const BELOW_DIAGONAL: [[f64; STAGES - 1]; STAGES] = [
     [25.0 / 24.0, -49.0 / 48.0, 125.0 / 16.0, -85.0 / 12.0],
 ];
 
+/// Weights of the embedded method of order 3 in the same table less those of the result.
+const EMBEDDED_DIFFERENCE: [f64; STAGES] = [3.0 / 16.0, 27.0 / 32.0, -25.0 / 32.0, 0.0, -1.0 / 4.0];
+
 /// Where in the step each stage is: the sums of the rows of the tableau.
-const NODES: [f64; STAGES] = [1.0 / 4.0, 3.0 / 4.0, 11.0 / 20.0, 1.0 / 2.0, 1.0];
+pub(super) const NODES: [f64; STAGES] = [1.0 / 4.0, 3.0 / 4.0, 11.0 / 20.0, 1.0 / 2.0, 1.0];
 
 /// A correction of √h this small, as a fraction, leaves an error below rounding.
 const NEWTON_TOLERANCE: f64 = 1e-8;
 
 /// Newton's iteration needs three or four; this only bounds it when numbers are not sane.
 const MOST_ITERATIONS: u32 = 30;
+
+/// The result of a step for one tank.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stages {
+    /// √h at the stages, the last of which is the end of the step.
+    pub(super) root_level: [f64; STAGES],
+    /// Distance of the level at the end of the step from that of the embedded method of order 3 (m).
+    pub(super) error: f64,
+}
+
+impl Stages {
+    /// A level that does not move.
+    pub(super) fn standing(root_level: f64) -> Self {
+        Self { root_level: [root_level; STAGES], error: 0.0 }
+    }
+
+    /// A tank that receives nothing, exactly, by Torricelli's law.
+    pub(super) fn emptying(section: CrossSection, root_level: f64, drain: f64, step: f64) -> Self {
+        let there = emptying_volume(section, root_level);
+        Self { root_level: NODES.map(|node| root_of_emptying(section, there - node * step * drain)), error: 0.0 }
+    }
+}
+
+/// The √h at which [`emptying_volume`] has a given value; 0 where that is not positive.
+fn root_of_emptying(section: CrossSection, volume: f64) -> f64 {
+    if volume <= 0.0 {
+        return 0.0;
+    }
+    // Newton's iteration is monotone from here: beyond the solution of a convex function where the tank widens upwards,
+    // short of that of a concave one where it narrows.
+    let mut root = volume / (2.0 * section.area_at_empty);
+    for _ in 0..MOST_ITERATIONS {
+        let correction = (emptying_volume(section, root) - volume) / (2.0 * section.area(root * root));
+        root -= correction;
+        if correction.abs() <= NEWTON_TOLERANCE * root {
+            break;
+        }
+    }
+    root
+}
 
 /// A tank during a step of the integration.
 ///
@@ -65,24 +112,28 @@ impl ImplicitStep {
         Self { section, level, passed, passed_squared, four_areas, offset, start, scale, drain: scale * drain }
     }
 
-    /// √h at the stages, the last of which is the end of the step. The tank receives the flow `pumped`, and `above` at
-    /// the stages (m³/s). A result beyond the wall is an overflow.
-    pub(super) fn root_levels(&self, pumped: f64, above: &[f64; STAGES]) -> [f64; STAGES] {
-        let pumped = self.scale * pumped;
+    /// The step with the flow into the tank at the stages (m³/s). A result beyond the wall is that of a tank without.
+    pub(super) fn stages(&self, inflow: &[f64; STAGES]) -> Stages {
         let half_over_area = 2.0 / self.four_areas;
-        let mut root = [0.0; STAGES];
+        let mut root_level = [0.0; STAGES];
         let mut net = [0.0; STAGES];
+        let mut slope = 0.0;
         for stage in 0..STAGES {
-            let above = self.scale * above[stage];
-            let mut square = self.start + NODES[stage] * pumped + DIAGONAL * above;
+            let inflow = self.scale * inflow[stage];
+            let mut square = self.start + DIAGONAL * inflow;
             for past in 0..stage {
                 square += BELOW_DIAGONAL[stage][past] * net[past];
             }
-            let slope = larger(square, self.passed_squared).sqrt();
-            root[stage] = self.leave_tangent((slope - self.passed) * half_over_area, slope);
-            net[stage] = above - self.drain * root[stage];
+            slope = larger(square, self.passed_squared).sqrt();
+            root_level[stage] = self.leave_tangent((slope - self.passed) * half_over_area, slope);
+            net[stage] = inflow - self.drain * root_level[stage];
         }
-        root
+        let difference: f64 = (0..STAGES).map(|stage| EMBEDDED_DIFFERENCE[stage] * net[stage]).sum();
+        // As an implicit stage would damp it, which a stiff tank needs (Hairer and Wanner 1996, section IV.8); from `4 A × volume` to
+        // a level.
+        let damping = 1.0 - self.passed / slope;
+        let error = 4.0 * (damping * difference / (self.four_areas * self.four_areas)).abs();
+        Stages { root_level, error }
     }
 
     /// From the solution on the tangent, where the left-hand side rises by `slope` per √h, to that on V, which is
@@ -116,5 +167,30 @@ impl ImplicitStep {
             }
         }
         root
+    }
+}
+
+impl Hydraulics {
+    /// √h after a step (s), with the flows from the pumps (m³/s) at its [`NODES`], and the largest
+    /// [`error`](Stages::error) (m). A tank that meets its wall goes on as if it were higher.
+    pub(super) fn implicit_step(&self, step: f64, pumped: &[[f64; 4]; STAGES]) -> ([f64; 4], f64) {
+        let stages = |i: usize, inflow: [f64; STAGES]| {
+            let (section, root, drain) = (self.sections[i], self.root_level[i], self.drain[i]);
+            if self.is_full[i] {
+                Stages::standing(root)
+            } else if inflow == [0.0; STAGES] {
+                Stages::emptying(section, root, drain, step)
+            } else {
+                ImplicitStep::new(section, root, drain, step).stages(&inflow)
+            }
+        };
+        let upper = |i: usize| stages(i, from_fn(|stage| pumped[stage][i]));
+        let lower = |i: usize, above: &Stages| {
+            stages(i, from_fn(|stage| pumped[stage][i] + self.outlet[i + 2] * above.root_level[stage]))
+        };
+        let (third, fourth) = (upper(2), upper(3));
+        let tanks = [lower(0, &third), lower(1, &fourth), third, fourth];
+        let error = tanks.iter().fold(0.0, |largest, tank| larger(tank.error, largest));
+        (tanks.map(|tank| tank.root_level[STAGES - 1]), error)
     }
 }

@@ -3,9 +3,11 @@
 mod closed_loop;
 mod course;
 mod experiment;
+mod explicit;
 mod held_outputs;
 mod held_tank;
 mod hold;
+mod hydraulics;
 mod implicit;
 mod integrate;
 mod linear_loop;
@@ -20,6 +22,7 @@ mod step_figures;
 mod tracking;
 mod trajectory;
 mod two_loops;
+mod walls;
 
 pub use closed_loop::simulate;
 pub use course::MAX_ROWS;

@@ -7,7 +7,7 @@ use crate::plant::{Disturbance, OperatingPoint, QuadrupleTank, ValveSchedule};
 
 use super::course::{self, Events, Law, Loads, Process, Sampled, TIME_SLACK};
 use super::experiment::Experiment;
-use super::integrate::Hydraulics;
+use super::hydraulics::Hydraulics;
 use super::trajectory::Trajectory;
 
 /// Longest step of the integration, in the time in which a valve turns by one radian. About a part in a million of the
@@ -42,7 +42,7 @@ impl Process for MovingRig<'_> {
     }
 
     fn steps_taken(&self) -> u64 {
-        self.water.steps_taken()
+        self.water.steps
     }
 
     /// From break to break of the schedules, so that no step of the integration sees both sides of one.
