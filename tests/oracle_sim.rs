@@ -2,7 +2,7 @@
 //! outputs and integrated errors. The bar is 1e-6 of the set-point step.
 //!
 //! The reference cuts levels to the wall at samples only, which lets a full tank drain too fast between them. So it counts
-//! until a tank is full; `full_and_dry.rs` has what follows.
+//! until a tank is full; `full_and_dry` has what follows.
 #![cfg(not(target_arch = "wasm32"))]
 
 use quadtank::control::{AntiWindup, DecentralisedPi, LoopMode, Pairing, PiSettings};

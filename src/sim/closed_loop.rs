@@ -36,8 +36,8 @@ impl Process for Rig<'_> {
 ///
 /// The run starts at the operating point, its levels clipped to the walls, with the controllers at rest there. Samples
 /// are at `k Ts`; pump voltages are held between them. A reference steps at the first sample at or after its time, a
-/// load begins at its exact time. Levels stay between bottom and wall: what stands above the wall at the end of a step
-/// of the integration, at most one sample, is lost. There is a row per sample, and rows in between where samples are
+/// load begins at its exact time. A tank that receives more than drains at the top of its wall stays full, and the excess
+/// leaves the plant. There is a row per sample, and rows in between where samples are
 /// further apart than 1/1500 of the duration. A run of more than [`MAX_ROWS`](super::MAX_ROWS) rows is cut there.
 pub fn simulate(
     plant: &QuadrupleTank,

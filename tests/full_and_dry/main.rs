@@ -2,165 +2,18 @@
 //! largest excursion of a level, as for every other run.
 #![cfg(not(target_arch = "wasm32"))]
 
-mod tank_reference;
+mod open_loop;
+mod reference;
 
 use approx::assert_abs_diff_eq;
+use open_loop::{BAR, OpenLoop, johansson, with_heights};
 use proptest::prelude::*;
 use quadtank::control::{AntiWindup, DecentralisedPi, LoopMode, Pairing, PiSettings};
-use quadtank::plant::{OperatingPoint, PresetId, QuadrupleTank, ValveSchedule};
-use quadtank::sim::{
-    EventKind, Experiment, HeldPlant, HeldTank, Load, LoadStep, Measurement, SetPointStep, Trajectory, simulate,
-    simulate_with_valves,
-};
-use tank_reference::{Reference, pumped};
+use quadtank::plant::{PresetId, ValveSchedule};
+use quadtank::sim::{EventKind, Experiment, HeldPlant, HeldTank, Measurement, SetPointStep, simulate};
+use reference::{Reference, pumped};
 
-/// Allowed deviation, as a fraction of the largest excursion of a level.
-const BAR: f64 = 1e-6;
-/// Allowed deviation of the time of an event (s), beside the time in which the level moves by its own allowed deviation.
-const TIME_BAR: f64 = 1e-6;
 const SAMPLING_TIMES: [f64; 4] = [0.1, 1.0, 10.0, 60.0];
-
-/// Pumps at fixed voltages from given levels on, with loads at their times.
-#[derive(Clone, Debug)]
-struct OpenLoop {
-    plant: QuadrupleTank,
-    start: OperatingPoint,
-    loads: Vec<LoadStep>,
-    duration_s: f64,
-}
-
-impl OpenLoop {
-    fn new(plant: &QuadrupleTank, levels: [f64; 4], pump_voltage: [f64; 2], duration_s: f64) -> Self {
-        Self { plant: *plant, start: OperatingPoint { levels, pump_voltage }, loads: vec![], duration_s }
-    }
-
-    fn pump_flow(mut self, time_s: f64, flow: [f64; 2]) -> Self {
-        let step = |pump: usize| LoadStep { time_s, load: Load::PumpFlow { pump, flow: flow[pump] } };
-        self.loads.extend([step(0), step(1)]);
-        self
-    }
-
-    fn leak(mut self, time_s: f64, tank: usize, area: f64) -> Self {
-        self.loads.push(LoadStep { time_s, load: Load::Leak { tank, area } });
-        self
-    }
-
-    fn experiment(&self) -> Experiment {
-        Experiment {
-            duration_s: self.duration_s,
-            set_point_steps: vec![],
-            load_steps: self.loads.clone(),
-            measurement: Measurement { noise_std: 0.0, seed: 1, quantised: false },
-        }
-    }
-
-    fn by_hand(&self, sampling_time_s: f64) -> DecentralisedPi {
-        let by_hand = |pump: usize| PiSettings {
-            gain: 1.0,
-            integral_time_s: 100.0,
-            set_point_weight: 1.0,
-            anti_windup: AntiWindup::Off,
-            mode: LoopMode::Manual {
-                output: self.start.pump_voltage[pump] / self.plant.power_gain,
-                until_s: f64::INFINITY,
-            },
-        };
-        DecentralisedPi { pairing: Pairing::Diagonal, loops: [by_hand(0), by_hand(1)], sampling_time_s }
-    }
-
-    fn run(&self, sampling_time_s: f64) -> Trajectory {
-        simulate(&self.plant, &self.start, &self.by_hand(sampling_time_s), &self.experiment())
-    }
-
-    fn run_with(&self, valves: &[ValveSchedule; 2], sampling_time_s: f64) -> Trajectory {
-        simulate_with_valves(&self.plant, valves, &self.start, &self.by_hand(sampling_time_s), &self.experiment()).0
-    }
-
-    /// The reference at given times, over every load at its time and every break of the valves.
-    fn reference(&self, valves: &[ValveSchedule; 2], times: &[f64]) -> (Vec<[f64; 4]>, Reference) {
-        let plant = self.plant.with_valves(valves.map(|valve| valve.at(0.0)));
-        let mut water = Reference::new(&plant, self.start.levels);
-        let mut rows = vec![];
-        for &time in times {
-            while water.time < time {
-                let breaks = valves.iter().flat_map(ValveSchedule::breaks_s).flatten();
-                let begins = self.loads.iter().map(|load| load.time_s).chain(breaks);
-                let next = begins.filter(|&at| at > water.time).fold(time, f64::min);
-                let (flow, leaks) = self.acting(water.time);
-                let last = next.next_down();
-                let flows = |t: f64| {
-                    let plant = plant.with_valves(valves.map(|valve| valve.at(t.min(last))));
-                    pumped(&plant, self.start.pump_voltage, flow)
-                };
-                water.run_until(next, flows, &leaks);
-            }
-            rows.push(water.levels);
-        }
-        (rows, water)
-    }
-
-    /// Flows added to the pumps and leaks from a time on.
-    fn acting(&self, time: f64) -> ([f64; 2], [f64; 4]) {
-        let (mut flow, mut leaks) = ([0.0; 2], [0.0; 4]);
-        for step in self.loads.iter().filter(|step| step.time_s <= time) {
-            match step.load {
-                Load::PumpFlow { pump, flow: size } => flow[pump] += size,
-                Load::Leak { tank, area } => leaks[tank] += area,
-            }
-        }
-        (flow, leaks)
-    }
-
-    fn standing_valves(&self) -> [ValveSchedule; 2] {
-        self.plant.valves.map(|gamma| ValveSchedule::Constant { gamma })
-    }
-
-    /// Compares all levels and the times of all events; gives back the reference at the end.
-    fn check(&self, name: &str, sampling_time_s: f64) -> Reference {
-        self.compare(name, &self.standing_valves(), &self.run(sampling_time_s))
-    }
-
-    fn compare(&self, name: &str, valves: &[ValveSchedule; 2], run: &Trajectory) -> Reference {
-        let (rows, end) = self.reference(valves, &run.time_s);
-        let start = rows[0];
-        let excursion = rows.iter().flat_map(|h| (0..4).map(|i| (h[i] - start[i]).abs())).fold(0.0, f64::max);
-        let mut worst = (0.0, 0, 0.0);
-        for (row, expected) in rows.iter().enumerate() {
-            for (tank, (column, expected)) in run.levels.iter().zip(expected).enumerate() {
-                let error = (column[row] - expected).abs() / excursion;
-                if error > worst.0 {
-                    worst = (error, tank, run.time_s[row]);
-                }
-            }
-        }
-        for i in 0..4 {
-            for (kind, expected) in [
-                (EventKind::Overflow { tank: i }, end.first_overflow[i]),
-                (EventKind::Empty { tank: i }, end.first_empty[i]),
-            ] {
-                let found = run.events.iter().find(|event| event.kind == kind).map(|event| event.time_s);
-                assert_eq!(found.is_some(), expected.is_some(), "{name}: {kind:?} at {found:?}, not {expected:?}");
-                if let (Some(found), Some((expected, slope))) = (found, expected) {
-                    assert_abs_diff_eq!(found, expected, epsilon = TIME_BAR + BAR * excursion / slope);
-                }
-            }
-        }
-        let (error, tank, time) = worst;
-        assert!(error <= BAR, "{name}: {error:.1e} of {excursion:.3} m in tank {} at {time} s", tank + 1);
-        end
-    }
-}
-
-fn johansson(valves: [f64; 2], heights: [f64; 4]) -> QuadrupleTank {
-    with_heights(PresetId::JohanssonMinimumPhase.preset().plant.with_valves(valves), heights)
-}
-
-fn with_heights(mut plant: QuadrupleTank, heights: [f64; 4]) -> QuadrupleTank {
-    for (tank, height) in plant.tanks.iter_mut().zip(heights) {
-        tank.height = height;
-    }
-    plant
-}
 
 #[test]
 fn two_full_upper_tanks_pass_on_what_drains_at_their_walls() {
@@ -275,6 +128,25 @@ fn trapezoidal_tanks_have_walls_too() {
         let end = set.check(&format!("trapezoids, {sampling_time_s} s"), sampling_time_s);
         assert!(end.overflow.iter().all(|&v| v > 0.0));
     }
+}
+
+#[test]
+fn what_comes_in_goes_out_overflows_or_stays() {
+    let plant = johansson([0.3, 0.3], [0.14, 1.0, 0.1, 0.08]);
+    let levels = plant.free_equilibrium([2.5, 2.5]).levels;
+    let (more, time_s) = ([7e-6, 8e-6], 100.0);
+    let set = OpenLoop::new(&plant, levels, [2.5, 2.5], 1000.0).pump_flow(time_s, more);
+    let run = set.run(0.1);
+    let (_, end) = set.reference(&set.standing_valves(), &[1000.0]);
+    let overflow: f64 = end.overflow.iter().sum();
+    let water = |row: usize| (0..4).map(|i| plant.tanks[i].section.volume(run.levels[i][row])).sum::<f64>();
+    let outflow = |row: usize| plant.outflows(&[0, 1, 2, 3].map(|i| run.levels[i][row]))[..2].iter().sum::<f64>();
+    let last = run.time_s.len() - 1;
+    let drained: f64 = (0..last).map(|row| 0.1 * f64::midpoint(outflow(row), outflow(row + 1))).sum();
+    let of_pumps: f64 = (0..2).map(|i| 1000.0 * plant.pumps[i].gain * 2.5 + (1000.0 - time_s) * more[i]).sum();
+    assert!([0, 2, 3].into_iter().all(|i| end.overflow[i] > 0.0));
+    let stayed = water(last) - water(0);
+    assert_abs_diff_eq!(of_pumps - drained - overflow, stayed, epsilon = 1e-6 * of_pumps);
 }
 
 #[test]
