@@ -82,13 +82,18 @@ impl QuadrupleTank {
     /// Solves the flow balance of the lower tanks for the pump voltages (V), without any check.
     pub(super) fn balancing_voltages(&self, levels: [f64; 2]) -> [f64; 2] {
         let ([gamma_1, gamma_2], [above_1, above_2]) = (self.valves, complements(self.valves));
-        let q1 = self.tanks[0].outflow(levels[0], self.gravity);
-        let q2 = self.tanks[1].outflow(levels[1], self.gravity);
+        let [k1, k2] = self.pumps.map(|pump| pump.gain);
         let determinant = excess_over_one(self.valves);
-        [
-            (gamma_2 * q1 - above_2 * q2) / (determinant * self.pumps[0].gain),
-            (gamma_1 * q2 - above_1 * q1) / (determinant * self.pumps[1].gain),
-        ]
+        let solve = |[q1, q2]: [f64; 2]| {
+            [(gamma_2 * q1 - above_2 * q2) / (determinant * k1), (gamma_1 * q2 - above_1 * q1) / (determinant * k2)]
+        };
+        let outflow = [0, 1].map(|tank| self.tanks[tank].outflow(levels[tank], self.gravity));
+        let [v1, v2] = solve(outflow);
+        // A step of iterative refinement: near the singular line Cramer's rule leaves more of the balance than rounding.
+        let left =
+            [outflow[0] - gamma_1 * k1 * v1 - above_2 * k2 * v2, outflow[1] - gamma_2 * k2 * v2 - above_1 * k1 * v1];
+        let [more_1, more_2] = solve(left);
+        [v1 + more_1, v2 + more_2]
     }
 
     fn checked(&self, operating_point: OperatingPoint) -> Result<OperatingPoint, PlantError> {
