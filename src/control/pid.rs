@@ -331,6 +331,12 @@ mod tests {
     }
 
     #[test]
+    fn a_series_controller_has_the_isa_form_of_eq_11() {
+        let isa = IsaPid::from(SeriesPid { gain: 3.0, integral_time: 6.0, derivative_time: 2.0 });
+        assert_eq!(isa, IsaPid { gain: 4.0, integral_time: 8.0, derivative_time: 1.5 });
+    }
+
+    #[test]
     fn a_detuned_controller_is_weaker_and_slower() {
         let isa = IsaPid { gain: 3.0, integral_time: 8.0, derivative_time: 2.0 };
         let expected = IsaPid { gain: 2.0, integral_time: 12.0, derivative_time: 3.0 };

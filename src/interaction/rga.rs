@@ -114,6 +114,13 @@ mod tests {
             );
         }
         assert!(relative_gain_array(&dmatrix![1e-9, 0.0; 0.0, 1e9]).is_ok());
+        // Singular values 2 and δ/2 of a matrix of ones but for one δ.
+        let Err(LinearError::SingularGain { reciprocal_condition }) =
+            relative_gain_array(&dmatrix![1.0, 1.0; 1.0, 1.0 - 2.0_f64.powi(-42)])
+        else {
+            panic!("a singular gain expected")
+        };
+        assert_relative_eq!(reciprocal_condition, 2.0_f64.powi(-44), max_relative = 1e-3);
     }
 
     #[test]

@@ -200,11 +200,8 @@ where
 
 /// The vector brought to unit length, its largest entry (the first of equals) real and positive.
 fn unit(mut vector: DVector<Complex>) -> Option<DVector<Complex>> {
-    let largest = vector.iter().map(|x| x.norm()).fold(0.0, f64::max);
-    if largest == 0.0 || !largest.is_finite() {
-        return None;
-    }
-    vector.unscale_mut(largest);
+    // A vector that is zero or infinite has no entry of size 1 after the scaling.
+    vector.unscale_mut(vector.iter().map(|x| x.norm()).fold(0.0, f64::max));
     let leading = vector.iter().find(|x| x.norm() >= 1.0 - SAME_SIZE)?;
     let turn = leading.conj() / (leading.norm() * vector.norm());
     Some(vector * turn)
@@ -356,5 +353,6 @@ mod tests {
         assert!(real(&almost(-1.0, 1.0 + 1e-15))[0] > 0.0);
         assert!(real(&almost(-1.0 - 1e-15, 1.0))[0] > 0.0);
         assert!(unit(DVector::zeros(2)).is_none());
+        assert!(unit(DVector::from_vec(vec![Complex::from(f64::INFINITY), Complex::ONE])).is_none());
     }
 }
