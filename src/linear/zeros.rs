@@ -346,6 +346,15 @@ mod tests {
     }
 
     #[test]
+    fn a_direction_has_unit_length_and_a_real_largest_entry() {
+        let phase = Complex::from_polar(1.0, 2.0);
+        let direction = unit(DVector::from_vec(vec![phase * 3.0, phase * -4.0])).unwrap();
+        for (found, expected) in direction.iter().zip([-0.6, 0.8]) {
+            assert!((found - expected).norm() < 1e-15, "{direction}");
+        }
+    }
+
+    #[test]
     fn equally_large_entries_do_not_turn_a_direction_by_rounding() {
         let almost = |first: f64, second: f64| {
             unit(DVector::from_vec(vec![Complex::from(first), Complex::from(second)])).unwrap()
