@@ -124,6 +124,11 @@ mod tests {
     }
 
     #[test]
+    fn no_loops_have_no_relative_gains() {
+        assert_eq!(relative_gain_array(&DMatrix::zeros(0, 0)), Ok(DMatrix::zeros(0, 0)));
+    }
+
+    #[test]
     fn gains_that_are_not_square_or_not_finite() {
         let error = LinearError::NotSquare { inputs: 2, outputs: 1 };
         assert_eq!(relative_gain_array(&dmatrix![1.0, 2.0]), Err(error));

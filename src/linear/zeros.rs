@@ -121,11 +121,10 @@ impl Scaled {
         };
         let value = value * self.rate;
         let direction = |null_vector: &DVector<Complex>, scales: &[f64]| {
-            let part = null_vector.rows_range(system.order()..);
-            let hidden = part.norm() <= HIDDEN * null_vector.norm();
-            if hidden {
+            if is_hidden(null_vector, system.order()) {
                 Ok(None)
             } else {
+                let part = null_vector.rows_range(system.order()..);
                 unit(part.zip_map(&DVector::from_column_slice(scales), |x, scale| x * scale)).map(Some).ok_or(failure)
             }
         };
@@ -142,6 +141,11 @@ impl Scaled {
 /// Whether two zeros are one zero twice.
 fn are_same(one: Complex, other: Complex) -> bool {
     (one - other).norm() <= SAME_ZERO * other.norm()
+}
+
+/// Whether inputs (or outputs), which stand behind the states in a null vector of the pencil, have no part in it.
+fn is_hidden(null_vector: &DVector<Complex>, order: usize) -> bool {
+    null_vector.rows_range(order..).norm() <= HIDDEN * null_vector.norm()
 }
 
 /// Sizes below this are rounding errors of the (scaled) model.
@@ -321,6 +325,24 @@ mod tests {
             let at = |share: f64| Complex::new(0.6, 0.8 + share) * size;
             assert!(are_same(at(0.9e-7), at(0.0)) && !are_same(at(1.1e-7), at(0.0)));
         }
+    }
+
+    #[test]
+    fn a_mode_is_hidden_relative_to_its_size() {
+        for size in [1e-6, 1.0, 1e6] {
+            let vector = |share: f64| DVector::from_vec([0.6, 0.8, share].map(|x| Complex::from(x * size)).to_vec());
+            assert!(is_hidden(&vector(0.9e-12), 2) && !is_hidden(&vector(1.1e-12), 2));
+        }
+    }
+
+    #[test]
+    fn the_zero_nearest_to_the_origin_is_placed_there() {
+        let a = dmatrix![0.0, 1.0, 0.0; 0.0, 0.0, 1.0; -6.0, -11.0, -6.0];
+        let (b, c) = (dmatrix![0.0; 0.0; 1.0], dmatrix![1e-14, 1.0, 0.25]);
+        let mut zeros = transmission_zeros(&StateSpace::strictly_proper(a, b, c).unwrap()).unwrap();
+        place_nearest_at_origin(&mut zeros);
+        assert!(zeros.len() == 2 && (zeros[0].value + 4.0).norm() < 1e-13 && zeros[1].value == Complex::ZERO);
+        place_nearest_at_origin(&mut []);
     }
 
     #[test]
