@@ -113,18 +113,19 @@ pub const LEAST_SENSOR_RESOLUTION: f64 = 1e-9;
 /// Acceleration of gravity (m/s²).
 pub const GRAVITY: Limits = Limits::new(0.1, 100.0);
 
-/// Sampling time (s) in an experiment of a duration (s): what is left of [`SAMPLING_TIME_S`] with [`MAX_SAMPLES`].
+/// Allowed sampling times (s) in an experiment of a duration (s): those of [`SAMPLING_TIME_S`] with at most [`MAX_SAMPLES`]
+/// samples.
 pub fn sampling_time_s(duration_s: f64) -> Limits {
     Limits { min: SAMPLING_TIME_S.min.max(duration_s / MAX_SAMPLES), ..SAMPLING_TIME_S }
 }
 
-/// Duration of an experiment (s) at a sampling time (s): what is left of [`DURATION_S`] with [`MAX_SAMPLES`].
+/// Allowed durations of an experiment (s) at a sampling time (s): those of [`DURATION_S`] with at most [`MAX_SAMPLES`] samples.
 pub fn duration_s(sampling_time_s: f64) -> Limits {
     Limits { max: DURATION_S.max.min(MAX_SAMPLES * sampling_time_s), ..DURATION_S }
 }
 
-/// Angular frequency of a valve that swings (rad/s) in an experiment of a duration (s): what is left of [`VALVE_FREQUENCY`]
-/// with [`MAX_VALVE_TURN`].
+/// Allowed angular frequencies of a swinging valve (rad/s) in an experiment of a duration (s): those of [`VALVE_FREQUENCY`] at
+/// which the phase grows by at most [`MAX_VALVE_TURN`].
 pub fn valve_frequency(duration_s: f64) -> Limits {
     Limits { max: VALVE_FREQUENCY.max.min(MAX_VALVE_TURN / duration_s), ..VALVE_FREQUENCY }
 }

@@ -3,8 +3,8 @@
 //! Each tank is in one of three modes, each with its own equation:
 //!
 //! - *free*: `A(h) dh/dt = inflow − drain √h`;
-//! - *full*: the level stands at the top of the wall as long as at least as much comes in as drains there. What comes in
-//!   beyond that overflows and leaves the plant; the outlet passes on what it lets through at this level;
+//! - *full*: the level stays at the top of the wall while the inflow is at least the drain at that level. The excess
+//!   overflows and leaves the plant; the flow through the outlet is constant;
 //! - *dry*: the level is 0 as long as nothing comes in. This is the free equation at level 0.
 
 use std::array::from_fn;
@@ -154,7 +154,7 @@ impl Hydraulics {
         (self.root_level[i], self.level[i]) = (0.0, 0.0);
     }
 
-    /// Whether each tank, to rounding, loses just what it receives.
+    /// Whether the inflow of each tank equals its outflow to rounding.
     pub(super) fn is_at_rest(&self) -> bool {
         (0..4).all(|i| {
             let (inflow, outflow) =

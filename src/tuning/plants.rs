@@ -43,8 +43,8 @@ pub fn wood_berry_full_controller() -> PidMatrix {
 }
 
 /// The linear model of the quadruple tank as transfer functions, from pump voltages (V) to measured levels (V), in seconds:
-/// one lag where a pump feeds a lower tank, two where its water passes an upper one (Johansson 2000, eq. 2). A
-/// quasi-steady tank passes on what it receives at once.
+/// one lag where a pump feeds a lower tank, two where its water passes an upper one (Johansson 2000, eq. 2). The
+/// outflow of a quasi-steady tank equals its inflow.
 ///
 /// # Errors
 /// None for a model of a plant; the type is that of [`TransferFunction::new`].

@@ -165,7 +165,7 @@ pub fn main() -> ExitCode {
     }
 }
 
-/// Prints the help that was asked for, or what is wrong with the arguments in one line.
+/// Prints the requested help, or one line that names the error in the arguments.
 fn wrong_command(error: &clap::Error) -> ExitCode {
     if matches!(
         error.kind(),
