@@ -57,7 +57,7 @@ fn a_decimal_comma_is_pointed_at() {
     // More numbers than a pair has, as 0,7 and 0,6 make.
     let said = broken("0.7,", "0,7,").to_string();
     assert_eq!(said, "setup.valves: invalid length 3, expected 2 elements; a number has a decimal point");
-    // What is wrong before a decimal comma is told first, and a comma in a name is none.
+    // An error before the decimal comma has priority, and a comma inside a name is text.
     assert!(matches!(broken("\"gain\": 3.0", "\"gain\" 1, \"x\": 3,0"), ScenarioError::Malformed { .. }));
     assert!(matches!(broken("\"gain\": 3.0", "\"gain\": 3.0, \"1,5\": 1"), ScenarioError::Malformed { .. }));
 }
