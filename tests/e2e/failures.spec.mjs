@@ -36,7 +36,8 @@ async function allowTraps(page) {
 }
 
 /** What Chromium says of a file that is missing or blocked, and of what was loaded ahead and is not used after all. */
-const NOT_LOADED = /^console error: Failed to load resource|^failed: .*\.js$|^console warning: The resource .* was preloaded/;
+const NOT_YET_USED = /^console warning: The resource .* was preloaded/;
+const NOT_LOADED = new RegExp(`^console error: Failed to load resource|^failed: .*\\.js$|${NOT_YET_USED.source}`);
 const TRAP = /^error: .*unreachable/;
 
 /** The page has stopped: the notice is there, and nothing else takes the focus or a click. */
@@ -78,6 +79,8 @@ for (const file of ['*.wasm', 'quadtank-lab*.js']) {
     release();
     await lab.ready();
     await expect(page.locator('#late')).toHaveCount(0);
+    // The wait is long enough for Chromium to wonder about the part that did arrive, on some machines.
+    lab.tolerate(NOT_YET_USED);
   });
 }
 

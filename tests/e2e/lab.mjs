@@ -134,6 +134,11 @@ export class Lab {
     }
   }
 
+  /** Takes away complaints that the browser may or may not utter, depending on its pace. */
+  tolerate(pattern) {
+    this.complaints.splice(0, this.complaints.length, ...this.complaints.filter((complaint) => !pattern.test(complaint)));
+  }
+
   async axe() {
     // In the middle of a transition a button has a colour that it does not keep.
     await this.page.evaluate(() => Promise.allSettled(document.getAnimations().map((animation) => animation.finished)));
