@@ -34,6 +34,9 @@ pub fn of_error(lab: Lab, unit: DisplayUnit, error: &ScenarioError) -> String {
         }
         ScenarioError::TooLong { length, max } => tr!(lab, refused.long, length = *length, max = *max).to_string(),
         ScenarioError::DamagedLink => tr!(lab, refused.damaged).to_string(),
+        ScenarioError::TooMuchWork { time_s, .. } => {
+            tr!(lab, refused.too_much_work, time = lab.number_style().significant(*time_s, 3)).to_string()
+        }
         ScenarioError::Plant(error) | ScenarioError::Start(error) => of_plant_error(lab, unit, error),
         ScenarioError::Law { field, error } => match *error {
             EstimatorError::WindowTooShort { window_s, sampling_time_s }

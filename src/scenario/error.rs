@@ -73,6 +73,16 @@ pub enum ScenarioError {
     /// A link that is cut off or damaged.
     #[error("the link is damaged or cut off")]
     DamagedLink,
+    /// A run whose integration takes more work than any experiment is given.
+    #[error(
+        "{field}: not computed beyond {time_s} s, because tanks that are almost dry or at their walls ask for too many steps"
+    )]
+    TooMuchWork {
+        /// Where in the document.
+        field: String,
+        /// How far the run came (s).
+        time_s: f64,
+    },
     /// The plant has no such operating point.
     #[error("setup.operating_point: {0}")]
     Plant(#[from] PlantError),

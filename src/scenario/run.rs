@@ -24,12 +24,12 @@ pub struct Run {
 /// would have to be higher than its walls at the start: such a run does not begin at rest.
 ///
 /// # Errors
-/// [`ScenarioError::Plant`] when levels are given and no input holds them.
+/// [`ScenarioError::Plant`] when levels are given and no input holds them; [`ScenarioError::TooMuchWork`].
 pub fn run(setup: &Setup) -> Result<Run, ScenarioError> {
     let plant = setup.plant();
     let start = setup.operating_point()?;
     let Setup { controller, experiment, .. } = setup;
-    let nonlinear = simulate(&plant, &start, controller, experiment);
+    let nonlinear = whole(simulate(&plant, &start, controller, experiment), "setup.experiment.duration_s")?;
     let jacobian = plant.linearise(&start);
     let linear = simulate_linear(&plant, &start, &jacobian, controller, experiment);
     let is_unstable =
@@ -42,6 +42,14 @@ pub fn run(setup: &Setup) -> Result<Run, ScenarioError> {
         reason.map_or(metrics, |reason| metrics.map(|metrics| metrics.without_response(reason)))
     };
     Ok(Run { metrics: metrics(&nonlinear), linear_metrics: metrics(&linear), nonlinear, linear })
+}
+
+/// A run that went to its end; the field of the document that says how long it is meant to be.
+pub(super) fn whole(run: Trajectory, field: &str) -> Result<Trajectory, ScenarioError> {
+    match run.halted_at_s {
+        None => Ok(run),
+        Some(time_s) => Err(ScenarioError::TooMuchWork { field: field.to_owned(), time_s }),
+    }
 }
 
 #[cfg(test)]

@@ -23,8 +23,8 @@ impl Process for Rig<'_> {
         self.water.set_inputs(self.plant, pump_voltage, disturbance);
     }
 
-    fn steps_taken(&self) -> u64 {
-        self.water.steps
+    fn work(&self) -> u64 {
+        self.water.work
     }
 
     fn advance(&mut self, time: f64, duration: f64, events: &mut Events) {

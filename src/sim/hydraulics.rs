@@ -39,8 +39,8 @@ pub(super) struct Hydraulics {
     pub(super) root_level: [f64; 4],
     /// Tanks in the mode *full*.
     pub(super) is_full: [bool; 4],
-    /// Steps of the integration so far, those tried in vain included.
-    pub(super) steps: u64,
+    /// Work of the integration so far, in explicit steps: those tried in vain and those of the search for events count too.
+    pub(super) work: u64,
 }
 
 impl Hydraulics {
@@ -62,7 +62,7 @@ impl Hydraulics {
             level,
             root_level: level.map(f64::sqrt),
             is_full: [false; 4],
-            steps: 0,
+            work: 0,
         }
     }
 

@@ -10,6 +10,8 @@
 //!
 //! A step ends where a tank becomes full, leaves its wall or runs dry; the next one begins there in the new mode.
 
+use std::cell::Cell;
+
 use crate::scalar::{larger, smaller};
 
 use super::hydraulics::Hydraulics;
@@ -36,6 +38,8 @@ const EXPLICIT_SHARE: f64 = 1.0 / 15.0;
 
 /// With more explicit steps than this the implicit method is cheaper.
 const MOST_EXPLICIT_STEPS: f64 = 8.0;
+/// Work of an implicit step, in explicit ones.
+const IMPLICIT_WORK: u64 = 8;
 
 /// How the implicit steps of a stretch of time go on.
 struct Pace {
@@ -88,7 +92,6 @@ impl Hydraulics {
         pumped: &impl Fn(f64) -> [f64; 4],
         watch: &mut dyn Watch,
     ) -> f64 {
-        self.steps += 1;
         let flows = [0.0, 0.5, 1.0].map(|share| pumped(begin + share * longest));
         self.pumped = flows[1];
         let length = longest * self.fastest_rate() / EXPLICIT_SHARE;
@@ -131,13 +134,19 @@ impl Hydraulics {
         watch: &mut dyn Watch,
     ) -> f64 {
         let ends = self.explicit_step(step, at_stages);
+        self.work += 1;
         if self.may_meet_walls(step, &at_stages[0], &ends) {
-            let water = *self;
+            let (water, tries) = (*self, Cell::new(0));
             let flows = |length: f64| [0.0, 0.5, 1.0].map(|share| pumped(begin + share * length));
-            let root_levels = |length: f64| water.explicit_step(length, &flows(length));
+            let root_levels = |length: f64| {
+                tries.update(|tries| tries + 1);
+                water.explicit_step(length, &flows(length))
+            };
             let pumped = |at: f64| pumped(begin + at);
-            return self
-                .take_to_event(&Attempt { begin, step, ends, root_levels: &root_levels, pumped: &pumped }, watch);
+            let attempt = Attempt { begin, step, ends, root_levels: &root_levels, pumped: &pumped };
+            let passed = self.take_to_event(&attempt, watch);
+            self.work += tries.get();
+            return passed;
         }
         self.take(ends);
         step
@@ -153,13 +162,18 @@ impl Hydraulics {
     ) -> f64 {
         let spare_tries = pace.spare_tries;
         let (step, ends) = self.controlled_step(begin, longest, pace, pumped);
-        self.steps += u64::from(spare_tries - pace.spare_tries);
+        self.work += IMPLICIT_WORK * (1 + u64::from(spare_tries - pace.spare_tries));
         if self.may_meet_walls(step, &pumped(begin), &ends) {
-            let water = *self;
-            let root_levels = |length: f64| water.implicit_course(begin, length, pumped);
+            let (water, tries) = (*self, Cell::new(0));
+            let root_levels = |length: f64| {
+                tries.update(|tries| tries + 1);
+                water.implicit_course(begin, length, pumped)
+            };
             let pumped = |at: f64| pumped(begin + at);
-            return self
-                .take_to_event(&Attempt { begin, step, ends, root_levels: &root_levels, pumped: &pumped }, watch);
+            let attempt = Attempt { begin, step, ends, root_levels: &root_levels, pumped: &pumped };
+            let passed = self.take_to_event(&attempt, watch);
+            self.work += IMPLICIT_WORK * tries.get();
+            return passed;
         }
         self.take(ends);
         step

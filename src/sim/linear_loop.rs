@@ -74,7 +74,7 @@ impl Process for LinearModel<'_> {
         self.push = self.hold.push(&self.forcing);
     }
 
-    fn steps_taken(&self) -> u64 {
+    fn work(&self) -> u64 {
         0
     }
 

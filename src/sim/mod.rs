@@ -25,7 +25,7 @@ mod two_loops;
 mod walls;
 
 pub use closed_loop::simulate;
-pub use course::MAX_ROWS;
+pub use course::{MAX_ROWS, MAX_RUN_WORK};
 pub use experiment::{Experiment, Load, LoadStep, Measurement, SetPointStep};
 pub use held_outputs::{HeldOutputs, HoldingEnds};
 pub use held_tank::HeldTank;

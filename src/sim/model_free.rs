@@ -41,8 +41,8 @@ impl Process for MovingRig<'_> {
         self.water.set_inputs(&self.plant, pump_voltage, disturbance);
     }
 
-    fn steps_taken(&self) -> u64 {
-        self.water.steps
+    fn work(&self) -> u64 {
+        self.water.work
     }
 
     /// From break to break of the schedules, so that no step of the integration sees both sides of one.

@@ -45,9 +45,12 @@ pub struct Trajectory {
     pub pump_voltage: [Vec<f64>; 2],
     /// What happened, in order; each kind once, when it first began. Empty for a linear run.
     pub events: Vec<Event>,
-    /// Steps of the integration; 0 for a linear run, which needs none. They count the work of a run, the same on every machine.
+    /// Work of the integration in explicit steps, the same on every machine; 0 for a linear run, which needs none.
     #[serde(skip)]
-    pub steps: u64,
+    pub work: u64,
+    /// When the run ended early because it had reached [`MAX_RUN_WORK`](super::MAX_RUN_WORK) (s); `None` for a whole run.
+    #[serde(skip)]
+    pub halted_at_s: Option<f64>,
 }
 
 impl Trajectory {
@@ -62,7 +65,8 @@ impl Trajectory {
             controller_output: pair(),
             pump_voltage: pair(),
             events: Vec::new(),
-            steps: 0,
+            work: 0,
+            halted_at_s: None,
         }
     }
 
@@ -70,6 +74,12 @@ impl Trajectory {
     pub fn row_at(&self, time_s: f64) -> Option<usize> {
         let after = self.time_s.partition_point(|&t| t <= time_s);
         (!self.time_s.is_empty()).then(|| after.saturating_sub(1))
+    }
+
+    /// Drops the rows from one on.
+    pub(super) fn truncate(&mut self, rows: usize) {
+        let pairs = self.references.iter_mut().chain(&mut self.controller_output).chain(&mut self.pump_voltage);
+        pairs.chain(&mut self.levels).chain([&mut self.time_s]).for_each(|column| column.truncate(rows));
     }
 
     /// Fills a row, which must be there.

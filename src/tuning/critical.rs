@@ -157,7 +157,8 @@ impl Sample {
         let [one, two] = [t + root, t - root].map(|double| double * 0.5);
         // With one loop open one locus is zero.
         let slant = |locus: Complex| {
-            if locus.norm() <= f64::EPSILON * t.norm() { f64::INFINITY } else { (locus.im / locus.norm()).abs() }
+            let size = size_of(locus);
+            if size <= f64::EPSILON * size_of(t) { f64::INFINITY } else { (locus.im / size).abs() }
         };
         if slant(one) <= slant(two) { (one, slant(one)) } else { (two, slant(two)) }
     }

@@ -7,11 +7,11 @@ use crate::scalar::sine_cosine;
 /// Ratio of the frequencies of neighbours on the curve beyond which there is a corner between them.
 const JUMP: f64 = 1.25;
 /// Halvings of the angle that locate a corner, and most corners that are located.
-const HALVINGS: u32 = 40;
-const MOST_CORNERS: usize = 8;
+const HALVINGS: u32 = 30;
+const MOST_CORNERS: usize = 4;
 
 /// Cells in which one direction is solved for at most.
-const MOST_EFFORT: u32 = 60;
+const MOST_EFFORT: u32 = 30;
 
 /// One direction of the curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,7 +36,7 @@ pub struct Corner {
 pub struct CriticalCurve {
     /// Directions from loop 1 alone to loop 2 alone.
     pub points: Vec<CurvePoint>,
-    /// Corners, in the same order, up to eight.
+    /// Corners, in the same order, up to four.
     pub corners: Vec<Corner>,
 }
 

@@ -6,23 +6,24 @@ mod draw;
 
 use draw::Draw;
 use quadtank::plant::ValveSchedule;
-use quadtank::scenario::model_free::{ModelFreeScenario, analyse_model_free, run_model_free};
+use quadtank::scenario::model_free::{ModelFreeScenario, StartSpec, analyse_model_free, run_model_free};
 use quadtank::scenario::tuning::{StepResponse, Study, TestKind, Tested, TuningPlant, TuningScenario};
-use quadtank::scenario::{Document, analyse, document_from_json, limits, run};
-use quadtank::sim::{Halt, LoopTrace, MAX_WORK};
+use quadtank::scenario::{Document, ScenarioError, analyse, document_from_json, run};
+use quadtank::sim::{Halt, LoopTrace, MAX_RUN_WORK, MAX_WORK};
 use quadtank::tuning::{PublishedPlant, RelayVerdict};
 
 /// Documents of each version.
 const DOCUMENTS: usize = 2000;
 /// Sessions with the same plant, whose critical curve takes longest.
 const SESSIONS: usize = 40;
-/// Most steps of the integration in one run: eight for each row, and for each quarter of a radian that a valve turns.
-const MOST_STEPS: f64 = 8.0 * (limits::MAX_SAMPLES + 2.0 * 1500.0 + 4.0 * limits::MAX_VALVE_TURN);
 /// Work of the last motion of a run, which may begin just within the bound.
 const LAST_MOTION: f64 = 1e5;
 
-fn assert_bounded(steps: u64, document: &impl std::fmt::Debug) {
-    assert!(steps as f64 <= MOST_STEPS, "{steps} steps: {document:?}");
+/// What a row may take beyond the bound: it is checked before each.
+const LAST_ROW: u64 = 20_000;
+
+fn assert_bounded(work: u64, document: &impl std::fmt::Debug) {
+    assert!(work <= MAX_RUN_WORK + LAST_ROW, "{work}: {document:?}");
 }
 
 #[test]
@@ -32,7 +33,7 @@ fn runs_of_the_quadruple_tank_have_a_bound() {
     for scenario in valid.take(DOCUMENTS) {
         let _ = analyse(&scenario.setup);
         if let Ok(run) = run(&scenario.setup) {
-            assert_bounded(run.nonlinear.steps, &scenario);
+            assert_bounded(run.nonlinear.work, &scenario);
         }
     }
 }
@@ -44,9 +45,9 @@ fn model_free_runs_have_a_bound() {
     for scenario in valid.take(DOCUMENTS) {
         let _ = analyse_model_free(&scenario.model_free);
         if let Ok(answer) = run_model_free(&scenario.model_free) {
-            assert_bounded(answer.run.trajectory.steps, &scenario);
+            assert_bounded(answer.run.trajectory.work, &scenario);
             if let Some((comparison, _)) = &answer.comparison {
-                assert_bounded(comparison.steps, &scenario);
+                assert_bounded(comparison.work, &scenario);
             }
         }
     }
@@ -135,4 +136,20 @@ fn a_valve_that_turns_too_often_is_named() {
     };
     assert_eq!(text(0.5), Ok(()));
     assert_eq!(text(10.0), Err("model_free.valves[1].sine.frequency: 10 is outside 0 to 0.5".to_owned()));
+}
+
+/// Two upper tanks that a valve fills a little and lets run dry ten times in six seconds.
+#[test]
+fn a_run_that_is_too_much_work_names_its_duration() {
+    let mut scenario = ModelFreeScenario::default();
+    let setup = &mut scenario.model_free;
+    (setup.start, setup.experiment.duration_s) = (StartSpec::Empty, 1000.0);
+    setup.valves[0] = ValveSchedule::Sine { mean: 1e-4, amplitude: 9e-5, frequency: 10.0, phase: 0.0 };
+    setup.valves[1] = ValveSchedule::Constant { gamma: 1e-5 };
+    assert_eq!(scenario.validate(), Ok(()));
+    let refused = run_model_free(&scenario.model_free).unwrap_err();
+    assert!(matches!(refused, ScenarioError::TooMuchWork { time_s, .. } if (500.0..1000.0).contains(&time_s)), "{refused}");
+    assert!(refused.to_string().starts_with("model_free.experiment.duration_s: not computed beyond "), "{refused}");
+    scenario.model_free.experiment.duration_s = 500.0;
+    assert!(run_model_free(&scenario.model_free).is_ok());
 }
