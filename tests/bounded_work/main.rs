@@ -148,7 +148,10 @@ fn a_run_that_is_too_much_work_names_its_duration() {
     setup.valves[1] = ValveSchedule::Constant { gamma: 1e-5 };
     assert_eq!(scenario.validate(), Ok(()));
     let refused = run_model_free(&scenario.model_free).unwrap_err();
-    assert!(matches!(refused, ScenarioError::TooMuchWork { time_s, .. } if (500.0..1000.0).contains(&time_s)), "{refused}");
+    assert!(
+        matches!(refused, ScenarioError::TooMuchWork { time_s, .. } if (500.0..1000.0).contains(&time_s)),
+        "{refused}"
+    );
     assert!(refused.to_string().starts_with("model_free.experiment.duration_s: not computed beyond "), "{refused}");
     scenario.model_free.experiment.duration_s = 500.0;
     assert!(run_model_free(&scenario.model_free).is_ok());

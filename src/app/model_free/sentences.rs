@@ -6,6 +6,7 @@ use crate::app::shown::{to_metres, to_shown};
 use crate::app::texts::tr;
 use crate::control::Pairing;
 use crate::plant::DisplayUnit;
+use crate::scenario::ScenarioError;
 use crate::scenario::model_free::{LossBy, ModelFreeVerdict};
 use crate::sim::{HoldingEnds, Stability, TrackingFigures};
 
@@ -31,7 +32,8 @@ pub fn of_run(session: Session) -> (bool, String) {
         Ok(answer) => answer,
         Err(error) => {
             let reason = of_error(lab, DisplayUnit::Cm, error);
-            return (false, tr!(lab, free.no_run, reason = reason).to_string());
+            let begins = matches!(error, ScenarioError::TooMuchWork { .. });
+            return (false, if begins { reason } else { tr!(lab, free.no_run, reason = reason).to_string() });
         }
     };
     let end = |by: HoldingEnds, ends_s: f64| match by {

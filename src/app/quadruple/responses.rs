@@ -5,6 +5,7 @@ use leptos::prelude::*;
 use super::moment::{Moment, use_moment};
 use super::set_points::SetPoints;
 use super::{metrics, pictures};
+use crate::app::errors::of_error;
 use crate::app::lab::{Lab, use_lab};
 use crate::app::shown::{length_digits, to_shown, unit_name};
 use crate::app::texts::{say, tr};
@@ -13,7 +14,7 @@ use crate::app::widgets::{
     ChartCanvas, ChartMenu, DataTable, TimeAxis, TimeSurface, ZoomButtons, card, figures, handler,
 };
 use crate::figure::Frame;
-use crate::scenario::Scenario;
+use crate::scenario::{Scenario, ScenarioError};
 use crate::sim::{EventKind, LoopMetrics, Settling, Stability};
 
 /// The shortest stretch of time that can be shown (s).
@@ -150,7 +151,11 @@ fn spoken(lab: Lab, m: &Moment) -> String {
 /// What the run says, in words: how each stepped level did, then what went wrong first.
 fn sentence(lab: Lab) -> String {
     lab.words.run.with(|outcome| {
-        let Ok(run) = outcome.as_ref() else { return tr!(lab, responses.none).to_string() };
+        let run = match outcome.as_ref() {
+            Ok(run) => run,
+            Err(error @ ScenarioError::TooMuchWork { .. }) => return of_error(lab, lab.unit.get(), error),
+            Err(_) => return tr!(lab, responses.none).to_string(),
+        };
         let mut parts: Vec<String> =
             run.metrics.iter().enumerate().filter_map(|(k, m)| of_metrics(lab, k, m)).collect();
         let unstable = lab.words.with_analysis(|a| a.closed_loop.stability == Stability::Unstable);
