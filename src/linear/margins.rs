@@ -46,7 +46,7 @@ impl Margins {
     /// Searches all frequencies; `None` beyond the bound on work, as with many turns of a dead time at high gain.
     ///
     /// Cells of frequency are halved, widest first, until the enclosures of both loci say that they hold nothing nearer to −1
-    /// than what was found, to [`PRECISION`]. The search ends where the loop is too small for any.
+    /// than what was found, to one part in ten thousand. The search ends where the loop is too small for any.
     pub fn of(ratio: &ReturnRatio) -> Option<Self> {
         Search::new(ratio).run()
     }

@@ -17,7 +17,7 @@ pub enum Settling {
         /// Seconds after the step.
         time_s: f64,
     },
-    /// It is still outside the band at the end of its window (see [`loop_metrics`]).
+    /// It is still outside the band at the end of its window (see [`loop_metrics`](super::loop_metrics)).
     Never,
 }
 
