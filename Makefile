@@ -1,5 +1,5 @@
 # Every goal sets up what it needs; the logic is in tools/.
-.PHONY: help setup serve dev build single test bench fmt
+.PHONY: help setup serve dev build single check test bench fmt
 
 PORT ?= 8080
 
@@ -24,6 +24,10 @@ build: ## build the site into dist/, with the single file beside it
 
 single: build ## the whole laboratory as one file: dist/quadtank.html
 
+check: ## format, lints and native tests: what is quick enough to run before every commit
+	@tools/setup.sh build 2>&1
+	@tools/run.sh node tools/test.mjs --quick 2>&1
+
 # What a step says on stderr goes to stdout, so that the total stays in the right place.
 test: ## run everything: format, lints, native, browser and end-to-end tests
 	@tools/setup.sh 2>&1 || { echo '0 passed, 1 failed'; exit 1; }
@@ -31,7 +35,7 @@ test: ## run everything: format, lints, native, browser and end-to-end tests
 
 bench: ## measure speed and size, check margins of 1000 loops (BENCH=--write puts the table into docs/benchmarks.md)
 	@tools/setup.sh >&2
-	@tools/run.sh cargo test --locked --no-default-features --test margins -- --ignored >&2
+	@tools/run.sh cargo test --locked -p quadtank-scenario --test margins -- --ignored >&2
 	@tools/build.sh >&2
 	@tools/run.sh node tools/bench.mjs $(BENCH)
 

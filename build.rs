@@ -2,8 +2,7 @@
 //!
 //! Each key becomes a type: a unit struct whose `text` is a `&'static str`, or a struct with a field for each `{{ value }}`
 //! of the text, whose `text` is a `String`. The texts themselves are one string for each language, cut when the first is
-//! asked for: 386 pointers for each language between the texts were 4 KB of transfer. All languages must have the same keys and values. The core has no texts; without
-//! the feature `app` there is nothing to do.
+//! asked for: 386 pointers for each language between the texts were 4 KB of transfer. All languages must have the same keys and values.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::error::Error;
@@ -11,7 +10,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::{env, fs};
 
-/// The languages, in the order of `Language` in `src/app/texts.rs`.
+/// The languages, in the order of `Language` in `src/texts.rs`.
 const LANGUAGES: [&str; 2] = ["en", "pt-BR"];
 const FOLDER: &str = "assets/locales";
 
@@ -21,9 +20,6 @@ type Texts = BTreeMap<String, BTreeMap<String, String>>;
 fn main() -> Result<(), Box<dyn Error>> {
     println!("cargo::rerun-if-changed=build.rs");
     println!("cargo::rerun-if-changed={FOLDER}");
-    if env::var_os("CARGO_FEATURE_APP").is_none() {
-        return Ok(());
-    }
     let [english, portuguese] = LANGUAGES.map(read);
     let (english, portuguese) = (english?, portuguese?);
     let mut code = String::new();
@@ -80,8 +76,8 @@ fn with_places(text: &str, names: &BTreeSet<&str>) -> String {
 fn write_key(code: &mut String, key: &str, number: usize, names: &BTreeSet<&str>) -> std::fmt::Result {
     if names.is_empty() {
         writeln!(code, "pub struct {key};\nimpl {key} {{\npub const NUMBER: usize = {number};")?;
-        writeln!(code, "pub fn text(self, in_language: crate::app::texts::Language) -> &'static str {{")?;
-        return writeln!(code, "crate::app::texts::text({number}, in_language) }} }}");
+        writeln!(code, "pub fn text(self, in_language: crate::texts::Language) -> &'static str {{")?;
+        return writeln!(code, "crate::texts::text({number}, in_language) }} }}");
     }
     let (mut fields, mut values) = (String::new(), String::new());
     for name in names {
@@ -89,6 +85,6 @@ fn write_key(code: &mut String, key: &str, number: usize, names: &BTreeSet<&str>
         write!(values, "self.{name}, ")?;
     }
     writeln!(code, "pub struct {key}<'a> {{ {fields} }}\nimpl {key}<'_> {{")?;
-    writeln!(code, "pub fn text(&self, in_language: crate::app::texts::Language) -> String {{")?;
-    writeln!(code, "crate::app::texts::fill(crate::app::texts::text({number}, in_language), &[{values}]) }} }}")
+    writeln!(code, "pub fn text(&self, in_language: crate::texts::Language) -> String {{")?;
+    writeln!(code, "crate::texts::fill(crate::texts::text({number}, in_language), &[{values}]) }} }}")
 }

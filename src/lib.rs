@@ -1,34 +1,29 @@
-//! Quadtank: a laboratory for multivariable control around Johansson's quadruple-tank process.
+//! The Leptos user interface: benches, charts on screen, widgets, the drawing of the plant, texts.
 //!
-//! The crate is a house of floors; each room imports only from the floors below its own. In reading order:
-//!
-//! | floor | room | what it is for |
-//! |---|---|---|
-//! | 1 | [`plant`] | what is really there: tanks, outlets, pumps, valves, sensors, and their nonlinear equations |
-//! | 1 | [`linear`] | what a linear model says: poles, transmission zeros and directions, frequency response |
-//! | 2 | [`interaction`] | what couples the loops: relative gain array, Niederlinski index, pairing |
-//! | 2 | [`control`] | what acts: sampled PI and PID controllers, alone, decentralised or as a matrix; relays |
-//! | 3 | [`sim`] | plant + controller + experiment → trajectories, events, metrics |
-//! | 4 | [`tuning`] | how gains are found: relay tests, ultimate points, critical curve, rules, placement |
-//! | 5 | [`scenario`] | the document that describes an experiment (`fields`: one table per type), its links, and what follows from it |
-//! | 5 | [`figure`] | charts as data, and how to paint them on any plotters backend |
-//! | 6 | `app` | the Leptos user interface (feature `app`) |
-//!
-//! Under all of them lies `scalar`, a few private operations on numbers.
-//!
-//! Everything below `app` compiles without a browser, holds no text for people, and is in SI units (m, m², m³/s, s,
-//! V, rad/s) unless a name says otherwise. Tanks 1 and 2 are the lower ones; indices in code start at 0.
+//! `lab` holds the state, `pace` the way of one change from an event to pixels; `quadruple` is the home bench, `relay` the
+//! one for relay tuning, `model_free` the one for model-free control; `widgets` are the parts that any bench is made of. There is no control arithmetic here: every number comes from
+//! [`quadtank_scenario`].
 
-mod scalar;
+mod canvas;
+mod controls;
+mod download;
+mod errors;
+mod format;
+mod lab;
+mod model_free;
+mod pace;
+mod preset;
+mod quadruple;
+mod relay;
+mod results;
+mod share;
+mod shell;
+mod shown;
+mod start;
+mod stopped;
+mod storage;
+mod texts;
+mod timing;
+mod widgets;
 
-pub mod control;
-pub mod figure;
-pub mod interaction;
-pub mod linear;
-pub mod plant;
-pub mod scenario;
-pub mod sim;
-pub mod tuning;
-
-#[cfg(feature = "app")]
-pub mod app;
+pub use shell::{Laboratory, mount};

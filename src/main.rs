@@ -1,5 +1,5 @@
 //! Mounts the laboratory into the page.
 
 fn main() {
-    quadtank::app::mount();
+    quadtank_lab::mount();
 }

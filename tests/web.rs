@@ -1,11 +1,12 @@
 //! The core in the browser that it is made for: the same figures as on the host, compiled to wasm.
 #![cfg(target_arch = "wasm32")]
 
+#[path = "../crates/quadtank-scenario/tests/seeded/mod.rs"]
 mod seeded;
 
 use quadtank::plant::PresetId;
-use quadtank::scenario::model_free::{PublishedExperiment, PublishedValves, published_model_free, run_model_free};
-use quadtank::scenario::{Document, Scenario, ScenarioError, analyse, document_from_link, run, setup_of, to_link};
+use quadtank_scenario::model_free::{PublishedExperiment, PublishedValves, published_model_free, run_model_free};
+use quadtank_scenario::{Document, Scenario, ScenarioError, analyse, document_from_link, run, setup_of, to_link};
 use wasm_bindgen_test::{wasm_bindgen_test, wasm_bindgen_test_configure};
 
 wasm_bindgen_test_configure!(run_in_browser);

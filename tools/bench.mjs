@@ -29,7 +29,7 @@ async function nativeFigures() {
   progress('the core, natively (cargo bench)');
   const start = Date.now();
   await new Promise((resolve, reject) => {
-    const args = ['bench', '--locked', '--quiet', '--no-default-features', '--bench', 'core'];
+    const args = ['bench', '--locked', '--quiet', '--package', 'quadtank-scenario', '--bench', 'core'];
     const child = spawn('cargo', args, { stdio: ['ignore', 'ignore', 'inherit'] });
     child.on('close', (code) => (code === 0 ? resolve() : reject(new Error(`cargo bench ended with ${code}`))));
   });

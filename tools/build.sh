@@ -3,12 +3,9 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . tools/env.sh
-release_flags
 
 # A failure is told by its message; a stack of Trunk itself helps nobody.
 RUST_BACKTRACE=0 trunk --quiet build --release --offline
-node tools/order.mjs
-node tools/names.mjs
 node tools/release.mjs
 node tools/single.mjs
-node tools/minify.mjs
+esbuild dist/*.js dist/*.css --minify --log-level=warning --outdir=dist --allow-overwrite

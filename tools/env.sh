@@ -9,15 +9,6 @@ NODE_MAJOR=20
 E2E=tests/e2e
 export PATH="$PWD/.tools/bin:$PWD/$E2E/node_modules/.bin:$PATH"
 
-# What the release is compiled with, beside Cargo.toml: the standard library along with the rest and for size, and panics that
-# stop without a message. That is a twelfth of the transfer. The flags are unstable; the compiler is pinned, so they stand still.
-release_flags() {
-  export RUSTC_BOOTSTRAP=1 CARGO_UNSTABLE_BUILD_STD=std,panic_abort CARGO_UNSTABLE_BUILD_STD_FEATURES=optimize_for_size
-  # Set here, flags replace those of .cargo/config.toml.
-  RUSTFLAGS=$(sed -n 's/^rustflags = \["\(.*\)"\]$/\1/p' .cargo/config.toml)
-  export RUSTFLAGS="$RUSTFLAGS -Zunstable-options -Cpanic=immediate-abort -Zlocation-detail=none -Zfmt-debug=none"
-}
-
 first_of() {
   local name
   for name in "$@"; do command -v "$name" && return; done

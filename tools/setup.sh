@@ -24,10 +24,10 @@ toolchain() {
   local installed
   installed=$({ rustup component list --toolchain "$RUST" --installed; } 2>/dev/null || true)
   local part
-  for part in rustfmt clippy rust-src rust-std-wasm32-unknown-unknown; do
+  for part in rustfmt clippy rust-std-wasm32-unknown-unknown; do
     grep -q "^$part" <<<"$installed" && continue
-    say "Rust $RUST with clippy, rustfmt, its own source and the wasm32 target"
-    rustup toolchain install "$RUST" --no-self-update --profile minimal --component clippy,rustfmt,rust-src \
+    say "Rust $RUST with clippy, rustfmt and the wasm32 target"
+    rustup toolchain install "$RUST" --no-self-update --profile minimal --component clippy,rustfmt \
       --target wasm32-unknown-unknown
     return
   done
@@ -52,17 +52,12 @@ build_tools() {
   rm -rf target/tools
 }
 
-fetch() { RUSTC_BOOTSTRAP=1 cargo fetch --quiet --locked --manifest-path "$manifest" "$@"; }
-
 crates() {
-  # Trunk builds offline, so everything in the lock file has to be here, and what the standard library is made of.
-  local library=$(rustc --print sysroot)/lib/rustlib/src/rust/library/Cargo.toml manifest
-  for manifest in Cargo.toml "$library"; do
-    fetch --offline 2>/dev/null || {
-      say "the crates of $manifest"
-      fetch
-    }
-  done
+  # Trunk builds offline, so everything in the lock file has to be here.
+  cargo fetch --quiet --locked --offline 2>/dev/null || {
+    say "the crates of Cargo.lock"
+    cargo fetch --quiet --locked
+  }
 }
 
 node_modules() {

@@ -1,4 +1,5 @@
-// Runs every suite, also after one has failed, and ends with the total that the suites themselves report.
+// Runs every suite, also after one has failed, and ends with the total that the suites themselves report and the time of each.
+// `--quick` runs format, lints and native tests only.
 import { spawn } from 'node:child_process';
 import { mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { resolve } from 'node:path';
@@ -19,28 +20,29 @@ function playwrightCounts() {
 
 const CARGO = ['--locked', '--color', 'never'];
 
-// A step without `counts` is a check: it can fail, but it holds no tests.
+// A step without `counts` is a check: it can fail, but it holds no tests. `quick` steps are those of `make check`.
 const STEPS = [
-  { name: 'format', run: ['cargo', 'fmt', '--all', '--check'] },
+  { name: 'format', quick: true, run: ['cargo', 'fmt', '--all', '--check'] },
   {
-    name: 'lints of the core',
-    run: ['cargo', 'clippy', ...CARGO, '--quiet', '--no-default-features', '--all-targets', '--', '-D', 'warnings'],
+    name: 'lints',
+    quick: true,
+    run: ['cargo', 'clippy', ...CARGO, '--quiet', '--workspace', '--all-targets', '--', '-D', 'warnings'],
   },
-  { name: 'lints of the app', run: ['cargo', 'clippy', ...CARGO, '--quiet', '--all-targets', '--', '-D', 'warnings'] },
-  // The core alone: proof that it needs no web dependency.
   {
-    name: 'native tests of the core',
-    run: ['cargo', 'test', ...CARGO, '--quiet', '--no-default-features', '--no-fail-fast'],
+    name: 'native tests',
+    quick: true,
+    run: ['cargo', 'test', ...CARGO, '--quiet', '--workspace', '--no-fail-fast'],
     counts: cargoCounts,
   },
   {
-    name: 'native tests of the app',
-    run: ['cargo', 'test', ...CARGO, '--quiet', '--lib', '--', 'app::'],
-    counts: cargoCounts,
+    name: 'documentation',
+    run: ['cargo', 'doc', ...CARGO, '--quiet', '--workspace', '--no-deps'],
+    variables: { RUSTDOCFLAGS: '-D warnings' },
   },
+  { name: 'licences', run: ['node', 'tools/licences.mjs'] },
   {
     name: 'tests in headless Chromium',
-    run: ['cargo', 'test', ...CARGO, '--no-default-features', '--target', 'wasm32-unknown-unknown', '--test', 'web'],
+    run: ['cargo', 'test', ...CARGO, '--target', 'wasm32-unknown-unknown', '--test', 'web'],
     counts: cargoCounts,
   },
   { name: 'release build', run: ['tools/build.sh'] },
@@ -51,14 +53,15 @@ const STEPS = [
     counts: playwrightCounts,
   },
 ];
+const chosen = process.argv.includes('--quick') ? STEPS.filter((step) => step.quick) : STEPS;
 
 const none = () => ({ passed: 0, failed: 0 });
 const add = (one, other) => ({ passed: one.passed + other.passed, failed: one.failed + other.failed });
 
 /** Runs a step; its output is shown as it comes and returned without colours. */
-function execute({ run: [program, ...args], in: folder = '.' }) {
+function execute({ run: [program, ...args], in: folder = '.', variables = {} }) {
   return new Promise((done) => {
-    const child = spawn(program, args, { cwd: folder, stdio: ['ignore', 'pipe', 'pipe'], env: environment });
+    const child = spawn(program, args, { cwd: folder, stdio: ['ignore', 'pipe', 'pipe'], env: { ...environment, ...variables } });
     let output = '';
     for (const stream of [child.stdout, child.stderr]) {
       stream.setEncoding('utf8').on('data', (text) => {
@@ -101,7 +104,7 @@ if (process.env.CHROMIUM && !process.env.CHROMIUM.startsWith('/usr/bin/')) {
 
 let total = none();
 const report = [];
-for (const step of STEPS) {
+for (const step of chosen) {
   console.log(`\n== ${step.name}: ${step.run.join(' ')}`);
   const start = Date.now();
   const result = await execute(step);

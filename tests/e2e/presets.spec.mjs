@@ -1,8 +1,8 @@
-// Every published rig, held against the figures its source prints and against the independent oracle of tests/data.
+// Every published rig, held against the figures its source prints and against the independent oracle of the core.
 import { readFileSync } from 'node:fs';
 import { expect, numberIn, test } from './lab.mjs';
 
-const { cases } = JSON.parse(readFileSync(new URL('../data/quadruple-tank.json', import.meta.url), 'utf8'));
+const { cases } = JSON.parse(readFileSync(new URL('../../crates/quadtank/tests/data/quadruple-tank.json', import.meta.url), 'utf8'));
 const oracle = (name) => cases.find((one) => one.name === name);
 
 // Printed: Johansson 2000, operating points P− and P+ (levels in cm); Cocota 2009, tables of ch. 3, eqs. 3.25, 3.26, 4.11,
@@ -128,7 +128,7 @@ test('the run of Cocota P+ is as slow as published', async ({ lab }) => {
   const [first, second] = [await metrics(lab, 0), await metrics(lab, 1)];
   expect([first[3], second[3]]).toEqual([0, 0]);
   expect(Math.abs(first[1] - 3230)).toBeLessThanOrEqual(10);
-  // The 2620 s of level 2 hold for a step at 5000 s; tests/published_closed_loop.rs runs that one.
+  // The 2620 s of level 2 hold for a step at 5000 s; the published tests of the core run that one.
   expect(second[1]).toBeGreaterThan(2500);
 });
 

@@ -1,0 +1,346 @@
+use std::fmt::Write as _;
+use std::fs::File;
+use std::io::{self, Read, Write as _};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::error::ErrorKind;
+use clap::{Parser, Subcommand, ValueEnum};
+use quadtank::plant::PresetId;
+use quadtank::tuning::TuningError;
+use quadtank_scenario::model_free::{ModelFreeScenario, ModelFreeSetup, published_model_free};
+use quadtank_scenario::tuning::{PublishedCase, TuningSetup};
+use quadtank_scenario::{
+    AnalysisReport, DOCUMENT_LIMIT, Document, Scenario, ScenarioError, Setup, analyse, check_length,
+    document_from_bytes, model_free_to_json, run, schema_of, setup_of, to_json, tuning_to_json,
+};
+use serde::Serialize;
+use thiserror::Error;
+
+mod message;
+mod model_free;
+mod plot;
+mod tune;
+
+/// The quadruple-tank laboratory without a screen.
+///
+/// Units are SI: levels in m, flows in m³/s, times in s, poles and zeros in 1/s. A file is JSON in UTF-8 or UTF-16. Coefficients
+/// of transfer functions (elements of a relay-tuning session) are by rising powers of s: [1, 10] is 1 + 10 s. Exit status: 0 when
+/// all went well, 1 when a file cannot be read or written, 2 for a broken scenario or a wrong command; messages, and warnings of
+/// what may not be meant, are single lines on standard error.
+#[derive(Parser)]
+#[command(name = "quadtank", version)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Print what linear theory says about a scenario, as JSON
+    ///
+    /// Of a relay-tuning session (version 2): steady-state gain, relative gain, critical curve. The coefficients of its elements
+    /// are by rising powers of s: [1, 10] is 1 + 10 s.
+    Analyse {
+        /// Scenario file (JSON), or - for standard input
+        file: PathBuf,
+    },
+    /// Run the experiment of a scenario on the nonlinear plant and on its linear model
+    Simulate {
+        /// Scenario file (JSON), or - for standard input
+        file: PathBuf,
+        /// csv: trajectories; json: trajectories, events and metrics
+        #[arg(long, value_enum, default_value_t = Format::Csv)]
+        format: Format,
+    },
+    /// Draw a chart of a scenario
+    Plot {
+        /// Scenario file (JSON), or - for standard input
+        file: PathBuf,
+        /// File to write, or - for standard output
+        #[arg(long, value_name = "OUT")]
+        svg: PathBuf,
+        /// What to draw of a run of the quadruple tank (version 1)
+        #[arg(long, value_enum, default_value_t = plot::Chart::Responses)]
+        chart: plot::Chart,
+        /// What to draw of a relay-tuning session (version 2)
+        #[arg(long, value_enum, default_value_t = tune::Picture::Loci)]
+        picture: tune::Picture,
+        /// Colours
+        #[arg(long, value_enum, default_value_t = plot::Colours::Light)]
+        theme: plot::Colours,
+    },
+    /// List the published rigs, or print the scenario of one
+    Presets {
+        /// Name of a rig
+        #[arg(value_parser = preset_parser())]
+        name: Option<PresetId>,
+    },
+    /// Run the relay test and the design of a relay-tuning session (version 2)
+    ///
+    /// The coefficients of its elements are by rising powers of s: [1, 10] is 1 + 10 s. What it compares its response with is in
+    /// the report too.
+    Tune {
+        /// Scenario file (JSON), or - for standard input
+        file: PathBuf,
+        /// json: readings, both roots, stability and margins; csv: the record of the relay test
+        #[arg(long, value_enum, default_value_t = Format::Json)]
+        format: Format,
+    },
+    /// List the published cases of Campestrini (2006) and of Junqueira et al., or print the scenario of one
+    Cases {
+        /// Name of a case
+        #[arg(value_parser = case_of)]
+        name: Option<Case>,
+    },
+    /// Print the JSON Schema of the scenario
+    Schema {
+        /// Version of the document: 1 for the quadruple tank, 2 for relay tuning, 3 for model-free control
+        #[arg(long, default_value_t = Scenario::VERSION, value_parser = clap::value_parser!(u32).range(1..=3))]
+        version: u32,
+    },
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Format {
+    Csv,
+    Json,
+}
+
+fn preset_parser() -> impl TypedValueParser<Value = PresetId> {
+    PossibleValuesParser::new(PresetId::ALL.map(PresetId::name))
+        .try_map(|name| PresetId::from_name(&name).ok_or("unknown rig"))
+}
+
+/// A published case of either kind.
+#[derive(Clone, Debug)]
+enum Case {
+    Tuning(PublishedCase),
+    ModelFree(Box<ModelFreeSetup>),
+}
+
+fn case_of(name: &str) -> Result<Case, &'static str> {
+    let model_free = || model_free::published().find(|(known, ..)| known == name);
+    PublishedCase::from_name(name)
+        .map(Case::Tuning)
+        .or_else(|| model_free().map(|(_, valves, run)| Case::ModelFree(Box::new(published_model_free(valves, run)))))
+        .ok_or("unknown case; `quadtank cases` lists them")
+}
+
+/// Why a command was not carried out.
+#[derive(Debug, Error)]
+enum Failure {
+    #[error("{file}: {error}")]
+    Scenario { file: String, error: ScenarioError },
+    #[error("{file}: tuning: {error}")]
+    Tuning { file: String, error: TuningError },
+    #[error("{file}: this command needs a relay-tuning session, version 2; a run of the quadruple tank is version 1")]
+    NoTuning { file: String },
+    #[error("{file}: {error}")]
+    File { file: String, error: io::Error },
+}
+
+impl Failure {
+    fn exit_code(&self) -> ExitCode {
+        match self {
+            Self::Scenario { .. } | Self::Tuning { .. } | Self::NoTuning { .. } => ExitCode::from(2),
+            Self::File { .. } => ExitCode::from(1),
+        }
+    }
+}
+
+/// Reads the arguments and does what they say.
+pub fn main() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => return wrong_command(&error),
+    };
+    match execute(cli.command) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            message::tell(&failure);
+            failure.exit_code()
+        }
+    }
+}
+
+/// Prints the requested help, or one line that names the error in the arguments.
+fn wrong_command(error: &clap::Error) -> ExitCode {
+    if matches!(
+        error.kind(),
+        ErrorKind::DisplayHelp | ErrorKind::DisplayVersion | ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand
+    ) {
+        error.exit();
+    }
+    let text = error.to_string();
+    let lines: Vec<&str> = text.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
+    message::tell(lines.join("; ").trim_start_matches("error: "));
+    ExitCode::from(2)
+}
+
+fn execute(command: Command) -> Result<(), Failure> {
+    match command {
+        Command::Analyse { file } => answer(
+            &file,
+            |setup| print_json(&AnalysisReport::from(&told(&file, analyse(setup))?)),
+            |session| print_json(&tuned(&file, tune::analysis(session))?),
+            |setup| print_json(&model_free::analysis(setup)),
+        ),
+        Command::Simulate { file, format } => answer(
+            &file,
+            |setup| {
+                let run = told(&file, run(setup))?;
+                match format {
+                    Format::Csv => print(&run.to_csv()),
+                    Format::Json => print_json(&run),
+                }
+            },
+            |session| match format {
+                Format::Csv => print(&tuned(&file, tune::response_csv(session))?),
+                Format::Json => print_json(&tuned(&file, tune::report(session))?),
+            },
+            |setup| match format {
+                Format::Csv => print(&told(&file, model_free::csv(setup))?),
+                Format::Json => print_json(&told(&file, model_free::report(setup))?),
+            },
+        ),
+        Command::Plot { file, svg, chart, picture, theme } => {
+            let style = theme.style();
+            let write = |drawing: String| {
+                if is_standard_stream(&svg) { print(&drawing) } else { write_file(&svg, &drawing) }
+            };
+            answer(
+                &file,
+                |setup| write(told(&file, plot::svg(setup, chart, &style))?),
+                |session| write(tuned(&file, tune::svg(session, picture, &style))?),
+                |setup| write(told(&file, model_free::svg(setup, &style))?),
+            )
+        }
+        Command::Tune { file, format } => answer(
+            &file,
+            |_| Err(Failure::NoTuning { file: file_name(&file) }),
+            |session| match format {
+                Format::Json => print_json(&tuned(&file, tune::report(session))?),
+                Format::Csv => print(&tuned(&file, tune::test_csv(session))?),
+            },
+            |_| Err(Failure::NoTuning { file: file_name(&file) }),
+        ),
+        Command::Cases { name: None } => print(&list_of_cases()),
+        Command::Cases { name: Some(Case::Tuning(case)) } => {
+            print_document(&case.name(), tuning_to_json(&case.scenario()))
+        }
+        Command::Cases { name: Some(Case::ModelFree(setup)) } => {
+            print_document("this case", model_free_to_json(&ModelFreeScenario::from(*setup)))
+        }
+        Command::Presets { name: None } => print(&list_of_presets()),
+        Command::Presets { name: Some(id) } => print_document(id.name(), to_json(&Scenario::from(setup_of(id)))),
+        Command::Schema { version } => print_json(&schema_of(version)),
+    }
+}
+
+/// Reads a document and answers for its kind.
+fn answer(
+    file: &Path,
+    of_run: impl Fn(&Setup) -> Result<(), Failure>,
+    of_session: impl Fn(&TuningSetup) -> Result<(), Failure>,
+    of_model_free: impl Fn(&ModelFreeSetup) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    match document(file)? {
+        Document::Quadruple(scenario) => of_run(&scenario.setup),
+        Document::Tuning(scenario) => {
+            of_session(&scenario.tuning)?;
+            for warning in scenario.tuning.warnings() {
+                message::tell(format!("{}: warning: {warning}", file_name(file)));
+            }
+            Ok(())
+        }
+        Document::ModelFree(scenario) => of_model_free(&scenario.model_free),
+    }
+}
+
+fn told<T>(file: &Path, result: Result<T, ScenarioError>) -> Result<T, Failure> {
+    result.map_err(|error| Failure::Scenario { file: file_name(file), error })
+}
+
+fn tuned<T>(file: &Path, result: Result<T, TuningError>) -> Result<T, Failure> {
+    result.map_err(|error| Failure::Tuning { file: file_name(file), error })
+}
+
+/// Reads a document from a file or from standard input. A file that is too long is refused by its size; of what has no size,
+/// such as a pipe, not more is read than a document may have, and a byte that tells that there is more.
+fn document(file: &Path) -> Result<Document, Failure> {
+    let failed = |error| Failure::File { file: file_name(file), error };
+    let mut bytes = Vec::new();
+    let limit = DOCUMENT_LIMIT as u64 + 1;
+    if is_standard_stream(file) {
+        io::stdin().lock().take(limit).read_to_end(&mut bytes).map_err(failed)?;
+    } else {
+        let opened = File::open(file).map_err(failed)?;
+        let length = opened.metadata().map_err(failed)?.len();
+        told(file, check_length(usize::try_from(length).unwrap_or(usize::MAX)))?;
+        opened.take(limit).read_to_end(&mut bytes).map_err(failed)?;
+    }
+    told(file, document_from_bytes(&bytes))
+}
+
+/// Writes to standard output. A reader that has seen enough (`quadtank … | head`) is no failure.
+fn print(text: &str) -> Result<(), Failure> {
+    let mut output = io::stdout().lock();
+    match output.write_all(text.as_bytes()).and_then(|()| output.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(cannot_print(error)),
+        _ => Ok(()),
+    }
+}
+
+fn cannot_print(error: io::Error) -> Failure {
+    Failure::File { file: "standard output".to_owned(), error }
+}
+
+fn write_file(file: &Path, text: &str) -> Result<(), Failure> {
+    std::fs::write(file, text).map_err(|error| Failure::File { file: file_name(file), error })
+}
+
+fn is_standard_stream(file: &Path) -> bool {
+    file.as_os_str() == "-"
+}
+
+fn file_name(file: &Path) -> String {
+    if is_standard_stream(file) { "standard input".to_owned() } else { file.display().to_string() }
+}
+
+fn print_json<T: Serialize>(value: &T) -> Result<(), Failure> {
+    let text = serde_json::to_string_pretty(value).map_err(|error| cannot_print(error.into()))?;
+    print(&(text + "\n"))
+}
+
+fn print_document(name: &str, text: Result<String, ScenarioError>) -> Result<(), Failure> {
+    print(&(told(Path::new(name), text)? + "\n"))
+}
+
+fn list_of_presets() -> String {
+    PresetId::ALL.map(PresetId::preset).iter().fold(String::new(), |mut list, preset| {
+        let [gamma_1, gamma_2] = preset.plant.valves;
+        let name = preset.id.name();
+        // Writing to a String cannot fail.
+        let _ = writeln!(list, "{name:<33} γ = {gamma_1:.2}, {gamma_2:.2}   {}, {}", preset.source, preset.table);
+        list
+    })
+}
+
+fn list_of_cases() -> String {
+    let tuning = PublishedCase::all().fold(String::new(), |mut list, case| {
+        let place = match case.table {
+            0 => "§6.4, solvents column".to_owned(),
+            88 => "eq. 88".to_owned(),
+            table => format!("Table {table}, row {}", case.row),
+        };
+        // Writing to a String cannot fail.
+        let _ = writeln!(list, "{:<16} Campestrini (2006), {place}", case.name());
+        list
+    });
+    model_free::published().fold(tuning, |mut list, (name, valves, experiment)| {
+        let _ = writeln!(list, "{name:<16} Junqueira, Neves and Angelico, case {valves:?}, experiment {experiment:?}");
+        list
+    })
+}

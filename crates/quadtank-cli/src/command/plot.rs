@@ -1,0 +1,143 @@
+use clap::ValueEnum;
+use quadtank::plant::{DisplayUnit, PresetId};
+use quadtank_figure::{
+    self, Palette, PoleZero, PoleZeroTexts, ResponseTexts, Responses, RunColumns, Size, Style, ValvePlane,
+    ValvePlaneTexts, to_svg,
+};
+use quadtank_scenario::{PlantSpec, ScenarioError, Setup, ValveMap, analyse, run};
+
+/// What can be drawn.
+#[derive(Clone, Copy, ValueEnum)]
+pub enum Chart {
+    /// Levels, references and pump voltages over time
+    Responses,
+    /// The right-most zero over the valves
+    ValvePlane,
+    /// Poles and zeros, open and closed loop
+    PoleZero,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+pub enum Colours {
+    Light,
+    Dark,
+}
+
+impl Colours {
+    /// How charts are painted with these.
+    pub fn style(self) -> Style {
+        let palette = match self {
+            Self::Light => Palette::LIGHT,
+            Self::Dark => Palette::DARK,
+        };
+        Style { palette, decimal: '.', scale: 8 }
+    }
+}
+
+/// Draws a chart of a setup as an SVG document.
+pub fn svg(setup: &Setup, chart: Chart, style: &Style) -> Result<String, ScenarioError> {
+    match chart {
+        Chart::Responses => responses(setup, style),
+        Chart::ValvePlane => valve_plane(setup, style),
+        Chart::PoleZero => pole_zero(setup, style),
+    }
+}
+
+fn responses(setup: &Setup, style: &Style) -> Result<String, ScenarioError> {
+    let run = run(setup)?;
+    let plant = setup.plant();
+    let (level, level_scale) = match setup.display_unit() {
+        DisplayUnit::Cm => ("level (cm)", 100.0),
+        DisplayUnit::Mm => ("level (mm)", 1000.0),
+    };
+    let [pump_1, pump_2] = plant.pumps;
+    let charts = quadtank_figure::responses(&Responses {
+        nonlinear: RunColumns::of(&run.nonlinear),
+        references: run.nonlinear.references.each_ref().map(Vec::as_slice),
+        linear: Some(RunColumns::of(&run.linear)),
+        pinned: Vec::new(),
+        level_scale,
+        walls: [plant.tanks[0].height, plant.tanks[1].height],
+        voltage_limits: (pump_1.voltage_min.min(pump_2.voltage_min), pump_1.voltage_max.max(pump_2.voltage_max)),
+        window_s: None,
+        held_levels: None,
+        texts: ResponseTexts {
+            time: "time (s)",
+            level,
+            voltage: "pump voltage (V)",
+            levels: ["level 1", "level 2"],
+            references: ["reference 1", "reference 2"],
+            voltages: ["pump 1", "pump 2"],
+            reference: "reference",
+            linear: "linear model",
+            pinned: "",
+        },
+    });
+    let size = Size { width: 840.0, height: 560.0 };
+    let description = "Levels of tanks 1 and 2 with their references, and the voltages of pumps 1 and 2.";
+    Ok(to_svg(&charts, size, style, "Responses", description))
+}
+
+fn valve_plane(setup: &Setup, style: &Style) -> Result<String, ScenarioError> {
+    let map = ValveMap::of(setup)?;
+    let published = published_settings(setup);
+    let [t3, t4] = map.upper_time_constants_s([0.5, 0.5]);
+    let chart = quadtank_figure::valve_plane(&ValvePlane {
+        right_most_zero: &|valves| map.rightmost_zero(valves),
+        halfway_zero: (t3 * t4).sqrt().recip(),
+        published: &published,
+        setting: Some(setup.valves),
+        texts: ValvePlaneTexts {
+            gamma_1: "γ1",
+            gamma_2: "γ2",
+            boundary: "γ1 + γ2 = 1",
+            minimum_phase: "minimum phase",
+            right_half_plane: "zero in the right half-plane",
+        },
+    });
+    let size = Size { width: 560.0, height: 560.0 };
+    let description = "The valve fractions, shaded by the right-most transmission zero, with the published settings.";
+    Ok(to_svg(&[chart], size, style, "Valve plane", description))
+}
+
+/// The settings in which the rig of a setup was published; none for a rig of one's own.
+fn published_settings(setup: &Setup) -> Vec<(&'static str, [f64; 2])> {
+    let source = |id: PresetId| id.preset().source;
+    let PlantSpec::Preset(rig) = setup.plant else { return Vec::new() };
+    let published = PresetId::ALL.into_iter().filter(|id| source(*id) == source(rig));
+    published.map(|id| (label(id), id.preset().plant.valves)).collect()
+}
+
+fn label(id: PresetId) -> &'static str {
+    match id {
+        PresetId::JohanssonMinimumPhase | PresetId::CocotaMinimumPhase => "P−",
+        PresetId::JohanssonNonMinimumPhase | PresetId::CocotaNonMinimumPhase => "P+",
+        PresetId::JunqueiraA => "case a",
+        PresetId::JunqueiraB => "case b",
+    }
+}
+
+fn pole_zero(setup: &Setup, style: &Style) -> Result<String, ScenarioError> {
+    /// Points along the way of a zero.
+    const POINTS: usize = 200;
+    let analysis = analyse(setup)?;
+    let zeros: Vec<_> = analysis.zeros.iter().flatten().map(|zero| zero.value).collect();
+    let chart = quadtank_figure::pole_zero(&PoleZero {
+        poles: &analysis.poles,
+        zeros: &zeros,
+        zero_paths: &ValveMap::of(setup)?.zero_paths(POINTS),
+        closed_loop: &analysis.closed_loop.poles_s,
+        decimal: '.',
+        texts: PoleZeroTexts {
+            real: "real part (1/s)",
+            imaginary: "imaginary part (1/s)",
+            poles: "poles",
+            zeros: "zeros",
+            closed_loop: "closed loop",
+            beyond: "further out",
+        },
+    });
+    let size = Size { width: 720.0, height: 480.0 };
+    let description = "Poles and transmission zeros of the linear model, and the poles of the closed loop.";
+    Ok(to_svg(&[chart], size, style, "Poles and zeros", description))
+}

@@ -1,0 +1,236 @@
+use std::borrow::Cow;
+
+use quadtank::sim::Trajectory;
+
+use super::{Axis, Chart, Course, Entry, Layer, Pen, Role, Sample, Series};
+
+/// A level chart never shows less than this share of the height of the walls, so that noise does not look like a step.
+const LEAST_SHARE: f64 = 0.05;
+/// Least range of a voltage chart (V).
+const LEAST_VOLTAGE: f64 = 1.0;
+/// How far runs beside the main one may stretch the range, in ranges of the main one, to either side.
+const STRETCH: f64 = 1.0;
+/// Room above and below the curves, as a share of their range.
+const ROOM: f64 = 0.06;
+
+/// The columns of a run, all of the length of `time_s`.
+#[derive(Clone, Copy, Debug)]
+pub struct RunColumns<'a> {
+    /// Time (s), rising.
+    pub time_s: &'a [f64],
+    /// Levels 1 and 2 (m).
+    pub levels: [&'a [f64]; 2],
+    /// Pump voltages 1 and 2, each held until the next time (V).
+    pub voltages: [&'a [f64]; 2],
+}
+
+impl<'a> RunColumns<'a> {
+    /// The columns of a run that responses show.
+    pub fn of(run: &'a Trajectory) -> Self {
+        let Trajectory { time_s, levels: [level_1, level_2, ..], pump_voltage, .. } = run;
+        Self { time_s, levels: [level_1, level_2], voltages: pump_voltage.each_ref().map(Vec::as_slice) }
+    }
+}
+
+/// What the response charts show.
+#[derive(Clone, Debug)]
+pub struct Responses<'a> {
+    /// The nonlinear plant.
+    pub nonlinear: RunColumns<'a>,
+    /// References 1 and 2 at the times of the nonlinear run (m).
+    pub references: [&'a [f64]; 2],
+    /// The linear model.
+    pub linear: Option<RunColumns<'a>>,
+    /// Pinned runs.
+    pub pinned: Vec<RunColumns<'a>>,
+    /// Levels are shown in metres times this: 100 for centimetres.
+    pub level_scale: f64,
+    /// Height of the walls of tanks 1 and 2 (m).
+    pub walls: [f64; 2],
+    /// Lowest and highest voltage of the pumps (V).
+    pub voltage_limits: (f64, f64),
+    /// The time that is shown (s); all of it if `None`.
+    pub window_s: Option<(f64, f64)>,
+    /// What the level axis shows at least, in the shown unit: while something is dragged its scale should not run away.
+    pub held_levels: Option<(f64, f64)>,
+    /// Words.
+    pub texts: ResponseTexts<'a>,
+}
+
+/// The words of the response charts. The legend shows those that are not empty.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ResponseTexts<'a> {
+    /// Name and unit of the time axis.
+    pub time: &'a str,
+    /// Name and unit of the level axis.
+    pub level: &'a str,
+    /// Name and unit of the voltage axis.
+    pub voltage: &'a str,
+    /// Names of levels 1 and 2, for the table.
+    pub levels: [&'a str; 2],
+    /// Names of references 1 and 2, for the table.
+    pub references: [&'a str; 2],
+    /// Names of pumps 1 and 2, for the table.
+    pub voltages: [&'a str; 2],
+    /// What a dashed line is.
+    pub reference: &'a str,
+    /// What a dotted line is.
+    pub linear: &'a str,
+    /// What a faded line is.
+    pub pinned: &'a str,
+}
+
+/// Two charts for one figure with a common time axis: levels with their references above, pump voltages below.
+///
+/// The level range is that of the nonlinear run and its references; the other runs may stretch it once over to either
+/// side, but not beyond the walls. A run that diverges therefore leaves the chart instead of flattening the rest.
+pub fn responses<'a>(spec: &Responses<'a>) -> [Chart<'a>; 2] {
+    let texts = &spec.texts;
+    let time = spec.window_s.or_else(|| extent(spec.nonlinear.time_s)).unwrap_or((0.0, 1.0));
+    let (low, high) = level_range(spec, time);
+    let level_range = (low * spec.level_scale, high * spec.level_scale);
+    let mut level = Axis::rounded(texts.level, level_range, 6);
+    level.range = spec.held_levels.map_or(level.range, |held| join(held, level.range));
+    let mut levels = Chart::new(Axis::new("", time), level);
+    levels.x.numbered = false;
+    levels.weight = 2.2;
+    levels.layers = level_layers(spec);
+    levels.legend = legend(spec);
+    let voltage = Axis::rounded(texts.voltage, voltage_range(spec, time), 3);
+    let mut voltages = Chart::new(Axis::new(texts.time, time), voltage);
+    voltages.layers = voltage_layers(spec, voltages.y.span());
+    [levels, voltages]
+}
+
+/// The runs with their pens, from the back to the front.
+fn runs<'a>(spec: &Responses<'a>) -> impl Iterator<Item = (RunColumns<'a>, Pen, &'a str)> {
+    let pinned = spec.pinned.iter().map(|&run| (run, Pen::Faded, spec.texts.pinned));
+    let linear = spec.linear.map(|run| (run, Pen::Dotted, spec.texts.linear));
+    pinned.chain([(spec.nonlinear, Pen::Solid, "")]).chain(linear)
+}
+
+fn level_layers<'a>(spec: &Responses<'a>) -> Vec<Layer<'a>> {
+    let line = |index: usize, pen, course, x: &'a [f64], y: &'a [f64], name| {
+        let role = Role::of_loop(index);
+        Layer::Line(Series { name, role, pen, course, x: x.into(), y: y.into(), y_scale: spec.level_scale })
+    };
+    let mut layers = Vec::new();
+    for (run, pen, which) in runs(spec) {
+        if pen == Pen::Solid {
+            for (index, reference) in spec.references.into_iter().enumerate() {
+                let name = spec.texts.references[index].into();
+                layers.push(line(index, Pen::Dashed, Course::Held, run.time_s, reference, name));
+            }
+        }
+        for (index, level) in run.levels.into_iter().enumerate() {
+            let name = qualified(spec.texts.levels[index], which, pen);
+            layers.push(line(index, pen, Course::Straight, run.time_s, level, name));
+        }
+    }
+    layers
+}
+
+fn voltage_layers<'a>(spec: &Responses<'a>, (bottom, top): (f64, f64)) -> Vec<Layer<'a>> {
+    let limits = [spec.voltage_limits.0, spec.voltage_limits.1];
+    // At the edge of the plot a limit would only look like a smudge.
+    let limits = limits.into_iter().filter(|&limit| bottom < limit && limit < top);
+    let mut layers: Vec<_> = limits.map(|y| Layer::Level { y, role: Role::Muted, pen: Pen::Dashed }).collect();
+    for (run, pen, which) in runs(spec) {
+        for (index, voltage) in run.voltages.into_iter().enumerate() {
+            layers.push(Layer::Line(Series {
+                name: qualified(spec.texts.voltages[index], which, pen),
+                role: Role::of_loop(index),
+                pen,
+                course: Course::Held,
+                x: run.time_s.into(),
+                y: voltage.into(),
+                y_scale: 1.0,
+            }));
+        }
+    }
+    layers
+}
+
+/// The name of a curve, with the run in parentheses unless it is the main one; without a word for the run, none.
+fn qualified<'a>(name: &'a str, which: &str, pen: Pen) -> Cow<'a, str> {
+    match (pen, which) {
+        (Pen::Solid, _) => name.into(),
+        (_, "") => "".into(),
+        _ => format!("{name} ({which})").into(),
+    }
+}
+
+/// The runs that stretch a range but do not make it.
+fn beside<'a>(spec: &Responses<'a>) -> impl Iterator<Item = RunColumns<'a>> {
+    spec.linear.into_iter().chain(spec.pinned.iter().copied())
+}
+
+/// Range of the levels (m).
+fn level_range(spec: &Responses, time: (f64, f64)) -> (f64, f64) {
+    let main = spec.nonlinear.levels.into_iter().chain(spec.references);
+    let wall = spec.walls.into_iter().filter(|wall| wall.is_finite()).fold(0.0, f64::max);
+    let beside = beside(spec).map(|run| (run.time_s, run.levels));
+    range(time, spec.nonlinear.time_s, main, beside, (0.0, wall), LEAST_SHARE * wall)
+}
+
+/// Range of the voltages (V).
+fn voltage_range(spec: &Responses, time: (f64, f64)) -> (f64, f64) {
+    let beside = beside(spec).map(|run| (run.time_s, run.voltages));
+    let main = spec.nonlinear.voltages.into_iter();
+    range(time, spec.nonlinear.time_s, main, beside, spec.voltage_limits, LEAST_VOLTAGE)
+}
+
+/// The range of the main columns, at least `least` wide, stretched by the columns beside them within `limits`.
+fn range<'a>(
+    window: (f64, f64),
+    time_s: &[f64],
+    main: impl Iterator<Item = &'a [f64]>,
+    beside: impl Iterator<Item = (&'a [f64], [&'a [f64]; 2])>,
+    limits: (f64, f64),
+    least: f64,
+) -> (f64, f64) {
+    let main = main.filter_map(|column| extent(part(time_s, column, window))).reduce(join).unwrap_or(limits);
+    let lacking = (least - (main.1 - main.0)).max(0.0) / 2.0;
+    let main = (main.0 - lacking, main.1 + lacking);
+    let stretch = STRETCH * (main.1 - main.0);
+    let floor = (main.0 - stretch).max(limits.0).min(main.0);
+    let ceiling = (main.1 + stretch).min(limits.1).max(main.1);
+    let all = beside
+        .flat_map(|(time_s, columns)| columns.map(|column| extent(part(time_s, column, window))))
+        .flatten()
+        // Not `clamp`, which panics where a main column is so large that the stretch is not finite.
+        .map(|(low, high)| (low.max(floor).min(ceiling), high.max(floor).min(ceiling)))
+        .fold(main, join);
+    let room = ROOM * (all.1 - all.0);
+    (all.0 - room, all.1 + room)
+}
+
+fn join(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
+    (a.0.min(b.0), a.1.max(b.1))
+}
+
+/// Lowest and highest finite value.
+fn extent(values: &[f64]) -> Option<(f64, f64)> {
+    values.iter().filter(|value| value.is_finite()).map(|&value| (value, value)).reduce(join)
+}
+
+/// The part of a column at times inside the window.
+fn part<'a>(time_s: &[f64], column: &'a [f64], (from, to): (f64, f64)) -> &'a [f64] {
+    let first = time_s.partition_point(|&time| time < from);
+    let end = time_s.partition_point(|&time| time <= to).max(first);
+    column.get(first..end.min(column.len())).unwrap_or_default()
+}
+
+fn legend(spec: &Responses) -> Vec<Entry> {
+    let texts = &spec.texts;
+    let entry = |pen, role, text: &str| Entry { sample: Sample::Line(pen), role, text: text.into() };
+    let mut legend = vec![
+        entry(Pen::Solid, Role::Loop1, texts.levels[0]),
+        entry(Pen::Solid, Role::Loop2, texts.levels[1]),
+        entry(Pen::Dashed, Role::Muted, texts.reference),
+    ];
+    legend.extend(spec.linear.map(|_| entry(Pen::Dotted, Role::Muted, texts.linear)));
+    legend.extend(spec.pinned.first().map(|_| entry(Pen::Faded, Role::Muted, texts.pinned)));
+    legend.retain(|entry| !entry.text.is_empty());
+    legend
+}

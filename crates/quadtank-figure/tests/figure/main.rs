@@ -1,0 +1,7 @@
+//! The charts as they reach a backend and an SVG file.
+
+mod fixture;
+mod painting;
+mod properties;
+mod recorder;
+mod svg;

@@ -1,0 +1,122 @@
+use thiserror::Error;
+
+use quadtank::control::EstimatorError;
+use quadtank::linear::LinearError;
+use quadtank::plant::PlantError;
+
+use super::tuning::ElementFault;
+
+/// Why a document is not a scenario, or a scenario cannot be computed.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum ScenarioError {
+    /// Not JSON, or not of the right shape; `path` names the field (`setup.controller.loops[0].gain`).
+    #[error("{path}: {reason}")]
+    Malformed {
+        /// Where in the document.
+        path: String,
+        /// What the parser says.
+        reason: String,
+    },
+    /// A number with a decimal comma, which ends a number in JSON.
+    #[error("{path}: `{number}` has a decimal comma (line {line}, column {column}); a number has a decimal point")]
+    DecimalComma {
+        /// Where in the document.
+        path: String,
+        /// The number as it is written.
+        number: String,
+        /// Line of the comma, from 1.
+        line: usize,
+        /// Column of the comma in characters, from 1.
+        column: usize,
+    },
+    /// Bytes that are no text.
+    #[error("not UTF-8 text, nor UTF-16, so not JSON")]
+    NotText,
+    /// A number that is outside its limits or not finite.
+    #[error("{field}: {value} is outside {min} to {max}")]
+    OutOfRange {
+        /// Where in the document.
+        field: String,
+        /// The value found.
+        value: f64,
+        /// Smallest allowed value.
+        min: f64,
+        /// Largest allowed value.
+        max: f64,
+    },
+    /// Too many of something.
+    #[error("{field}: {count} entries, at most {max}")]
+    TooMany {
+        /// Where in the document.
+        field: String,
+        /// How many there are.
+        count: usize,
+        /// How many are allowed.
+        max: usize,
+    },
+    /// A version that this program does not know.
+    #[error("version: {found} is unknown, this program reads 1 to {newest}")]
+    UnknownVersion {
+        /// The version found.
+        found: u64,
+        /// The newest version that is read.
+        newest: u32,
+    },
+    /// A document or link longer than any scenario.
+    #[error("the document is longer than {max} bytes")]
+    TooLong {
+        /// Its length, as far as it was read.
+        length: usize,
+        /// The limit.
+        max: usize,
+    },
+    /// A link that is cut off or damaged.
+    #[error("the link is damaged or cut off")]
+    DamagedLink,
+    /// A run whose integration takes more work than any experiment is given.
+    #[error(
+        "{field}: not computed beyond {time_s} s, because tanks that are almost dry or at their walls ask for too many steps"
+    )]
+    TooMuchWork {
+        /// Where in the document.
+        field: String,
+        /// How far the run came (s).
+        time_s: f64,
+    },
+    /// The plant has no such operating point.
+    #[error("setup.operating_point: {0}")]
+    Plant(#[from] PlantError),
+    /// Nothing holds the levels that a run under the model-free law is to begin with.
+    #[error("model_free.start: {0}")]
+    Start(PlantError),
+    /// The model-free law cannot work with such settings.
+    #[error("{field}: {error}")]
+    Law {
+        /// Where in the document.
+        field: String,
+        /// What is wrong.
+        error: EstimatorError,
+    },
+    /// An element of a plant that relay tuning does not work with.
+    #[error("{field}: {fault}; its coefficients are read by rising powers of s: [1, 10] is 1 + 10 s")]
+    Element {
+        /// Where in the document.
+        field: String,
+        /// What is wrong.
+        fault: ElementFault,
+    },
+    /// The linear model does not answer.
+    #[error(transparent)]
+    Linear(#[from] LinearError),
+}
+
+/// Longest quotation of a document in an error (characters).
+const LONGEST_QUOTATION: usize = 40;
+
+/// A name or text of a document as errors quote it: its beginning, if it is long.
+pub(super) fn quoted(text: &str) -> String {
+    match text.char_indices().nth(LONGEST_QUOTATION) {
+        Some((end, _)) => format!("{}…", &text[..end]),
+        None => text.to_owned(),
+    }
+}

@@ -1,0 +1,162 @@
+//! Between which values every number of a scenario lies: the one table that validation, sliders and number fields share.
+//!
+//! The limits are wide on purpose: they keep a document computable (no overflow, no endless run), not sensible. What a
+//! rig can really do is a matter of its walls and pumps, which [`quadtank::plant::QuadrupleTank::violations`] checks.
+
+/// A closed interval of allowed values.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// Smallest allowed value.
+    pub min: f64,
+    /// Largest allowed value.
+    pub max: f64,
+}
+
+impl Limits {
+    /// The interval from `min` to `max`.
+    pub const fn new(min: f64, max: f64) -> Self {
+        Self { min, max }
+    }
+
+    /// Whether `value` is allowed; never true of NaN.
+    pub fn contains(self, value: f64) -> bool {
+        self.min <= value && value <= self.max
+    }
+
+    /// The allowed value nearest to `value`; the smallest one for NaN.
+    pub fn clamp(self, value: f64) -> f64 {
+        if value.is_nan() { self.min } else { value.max(self.min).min(self.max) }
+    }
+}
+
+/// Valve fraction γ.
+pub const VALVE: Limits = Limits::new(0.0, 1.0);
+/// Pump voltage at the operating point (V), and the voltage limits of a pump.
+pub const PUMP_VOLTAGE: Limits = Limits::new(0.0, 1000.0);
+/// Level at the operating point (m).
+pub const LEVEL: Limits = Limits::new(0.0, 10.0);
+
+/// A loop gain K (V/V) of either sign; see also [`gain_like`].
+pub const GAIN: Limits = Limits::new(-GAIN_MAGNITUDE.max, GAIN_MAGNITUDE.max);
+/// Magnitude of a loop gain K (V/V); its sign is free.
+pub const GAIN_MAGNITUDE: Limits = Limits::new(1e-3, 1e3);
+/// Integral time Ti (s).
+pub const INTEGRAL_TIME_S: Limits = Limits::new(0.1, 1e5);
+/// Set-point weight b.
+pub const SET_POINT_WEIGHT: Limits = Limits::new(0.0, 1.0);
+/// Tracking time of the anti-windup over the integral time, Tt/Ti.
+pub const TRACKING_RATIO: Limits = Limits::new(0.01, 100.0);
+/// Controller output in manual mode (V).
+pub const MANUAL_OUTPUT: Limits = Limits::new(0.0, 1000.0);
+/// Sampling time Ts (s).
+pub const SAMPLING_TIME_S: Limits = Limits::new(0.05, 60.0);
+
+/// Gain α̂ of the ultra-local model (m/(s V)).
+pub const MODEL_GAIN: Limits = Limits::new(1e-7, 1.0);
+/// Kp (1/s) and Ki (1/s²) of the model-free law.
+pub const MODEL_FREE_FEEDBACK: Limits = Limits::new(0.0, 1e3);
+/// Length T of the window of the estimator (s); how many samples it has is limited too.
+pub const WINDOW_S: Limits = Limits::new(0.0, 1e5);
+/// Amplitude of a valve fraction that swings; see also [`VALVE`].
+pub const VALVE_AMPLITUDE: Limits = Limits::new(-1.0, 1.0);
+/// Angular frequency of a valve that swings (rad/s).
+pub const VALVE_FREQUENCY: Limits = Limits::new(0.0, 10.0);
+/// How far a valve may turn within one run (rad), ω times the duration: the integration takes four steps for each radian.
+pub const MAX_VALVE_TURN: f64 = 10_000.0;
+/// Phase of a valve that swings (rad).
+pub const VALVE_PHASE: Limits = Limits::new(-100.0, 100.0);
+
+/// Duration of an experiment (s).
+pub const DURATION_S: Limits = Limits::new(10.0, 20_000.0);
+/// Samples of one run; see [`duration_s`].
+pub const MAX_SAMPLES: f64 = 20_000.0;
+/// Time of a step, of the hand-over to automatic, or of the cursor (s).
+pub const TIME_S: Limits = Limits::new(0.0, DURATION_S.max);
+/// Size of a set-point step (m).
+pub const SET_POINT_STEP: Limits = Limits::new(-LEVEL.max, LEVEL.max);
+/// Flow added to that of a pump (m³/s).
+pub const LOAD_FLOW: Limits = Limits::new(-0.01, 0.01);
+/// Area of a leak (m²).
+pub const LEAK_AREA: Limits = Limits::new(0.0, 0.01);
+/// Standard deviation of the measurement noise (m).
+pub const NOISE_STD: Limits = Limits::new(0.0, 1.0);
+/// Seed of the measurement noise: any whole number of 32 bits.
+pub const SEED: Limits = Limits::new(0.0, u32::MAX as f64);
+/// Steps in one list of an experiment.
+pub const MAX_STEPS: usize = 8;
+
+/// Cross-section of a tank at any level (m²).
+pub const TANK_AREA: Limits = Limits::new(1e-5, 10.0);
+/// Growth of the cross-section per metre of level (m²/m).
+pub const TANK_AREA_SLOPE: Limits = Limits::new(-10.0, 10.0);
+/// Height of the walls (m).
+pub const TANK_HEIGHT: Limits = Limits::new(0.01, 10.0);
+/// Outlet area (m²); see also [`OUTLET_SHARE`].
+pub const OUTLET_AREA: Limits = Limits::new(1e-8, 0.01);
+/// Largest outlet area as a share of the cross-section of its tank, so that Torricelli's law holds (Cocota 2009, eq. 2.22).
+pub const OUTLET_SHARE: f64 = 0.1;
+/// Loss coefficient of an outlet.
+pub const LOSS_COEFFICIENT: Limits = Limits::new(0.01, 1.0);
+/// Flow of a pump per volt (m³/(s V)).
+pub const PUMP_GAIN: Limits = Limits::new(1e-9, 1e-3);
+/// Gain of the power module.
+pub const POWER_GAIN: Limits = Limits::new(0.01, 100.0);
+/// Sensor gain (V/m).
+pub const SENSOR_GAIN: Limits = Limits::new(0.01, 1e4);
+/// Range of a sensor (m).
+pub const SENSOR_RANGE: Limits = Limits::new(0.01, 10.0);
+/// Resolution of a sensor (V), 0 for an ideal one; see also [`LEAST_SENSOR_RESOLUTION`].
+pub const SENSOR_RESOLUTION: Limits = Limits::new(0.0, 10.0);
+/// Least resolution of a sensor that is not ideal (V), far below that of any converter: the largest signal,
+/// [`SENSOR_GAIN`] times [`SENSOR_RANGE`], is then 10¹⁴ steps, which a number of 53 bits still counts.
+pub const LEAST_SENSOR_RESOLUTION: f64 = 1e-9;
+/// Acceleration of gravity (m/s²).
+pub const GRAVITY: Limits = Limits::new(0.1, 100.0);
+
+/// Allowed sampling times (s) in an experiment of a duration (s): those of [`SAMPLING_TIME_S`] with at most [`MAX_SAMPLES`]
+/// samples.
+pub fn sampling_time_s(duration_s: f64) -> Limits {
+    Limits { min: SAMPLING_TIME_S.min.max(duration_s / MAX_SAMPLES), ..SAMPLING_TIME_S }
+}
+
+/// Allowed durations of an experiment (s) at a sampling time (s): those of [`DURATION_S`] with at most [`MAX_SAMPLES`] samples.
+pub fn duration_s(sampling_time_s: f64) -> Limits {
+    Limits { max: DURATION_S.max.min(MAX_SAMPLES * sampling_time_s), ..DURATION_S }
+}
+
+/// Allowed angular frequencies of a swinging valve (rad/s) in an experiment of a duration (s): those of [`VALVE_FREQUENCY`] at
+/// which the phase grows by at most [`MAX_VALVE_TURN`].
+pub fn valve_frequency(duration_s: f64) -> Limits {
+    Limits { max: VALVE_FREQUENCY.max.min(MAX_VALVE_TURN / duration_s), ..VALVE_FREQUENCY }
+}
+
+/// A gain K (V/V) of the same sign as the given one: [`GAIN_MAGNITUDE`] with that sign.
+pub fn gain_like(gain: f64) -> Limits {
+    let Limits { min, max } = GAIN_MAGNITUDE;
+    if gain < 0.0 { Limits::new(-max, -min) } else { GAIN_MAGNITUDE }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn short_sampling_times_make_short_experiments() {
+        assert_eq!(duration_s(SAMPLING_TIME_S.min), Limits::new(10.0, 1000.0));
+        assert_eq!(duration_s(SAMPLING_TIME_S.max), DURATION_S);
+    }
+
+    #[test]
+    fn bounds_belong_to_the_interval_and_nan_never_does() {
+        assert!(VALVE.contains(0.0) && VALVE.contains(1.0));
+        assert!(!VALVE.contains(-1e-300) && !VALVE.contains(1.0 + f64::EPSILON) && !VALVE.contains(f64::NAN));
+    }
+
+    #[test]
+    fn clamping_ends_inside_whatever_comes_in() {
+        for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 0.3, -2.0, 7.0] {
+            assert!(VALVE.contains(VALVE.clamp(value)), "{value}");
+        }
+        assert_eq!(VALVE.clamp(0.3), 0.3);
+    }
+}

@@ -1,0 +1,89 @@
+//! Links: a document as text for the fragment of a URL.
+//!
+//! `q1.` for a run of the quadruple tank, `q2.` for a tuning session, `q3.` for a run under the model-free law, and then, in base64url without padding, the
+//! [packed](super::pack) JSON on one line. What it is packed against holds field names and published settings, so a link to a
+//! published rig takes some twenty characters and one with every number changed stays under the limit.
+//!
+//! The dictionaries must never change, or old links break. A better one would be `q4.`, beside them.
+
+use base64::Engine;
+use base64::engine::general_purpose::URL_SAFE_NO_PAD;
+
+use super::codec::{DOCUMENT_LIMIT, Document, document_from_json, model_free_to_json, to_json, tuning_to_json};
+use super::model_free::ModelFreeScenario;
+use super::pack::{pack, unpack};
+use super::tuning::TuningScenario;
+use super::{Scenario, ScenarioError};
+
+/// Longest link that is written or read (characters), the prefix included.
+pub const LINK_LIMIT: usize = 2000;
+
+/// First character of every link; the number of its format follows.
+const MARK: char = 'q';
+/// Number of the newest format.
+const NEWEST: u32 = 3;
+/// What links of each format, from 1, are packed against.
+const DICTIONARIES: [&[u8]; 3] =
+    [include_bytes!("dictionary-1.jsonl"), include_bytes!("dictionary-2.jsonl"), include_bytes!("dictionary-3.jsonl")];
+
+/// Writes a scenario as text for the fragment of a URL: only letters, digits, `.`, `-` and `_`.
+///
+/// # Errors
+/// [`ScenarioError::TooLong`] beyond [`LINK_LIMIT`], or what [`Scenario::validate`] finds.
+pub fn to_link(scenario: &Scenario) -> Result<String, ScenarioError> {
+    write(1, &to_json(scenario)?)
+}
+
+/// Writes a tuning session as [`to_link`] writes a scenario.
+///
+/// # Errors
+/// [`ScenarioError::TooLong`] beyond [`LINK_LIMIT`], or what [`TuningScenario::validate`] finds.
+pub fn tuning_to_link(scenario: &TuningScenario) -> Result<String, ScenarioError> {
+    write(2, &tuning_to_json(scenario)?)
+}
+
+/// Writes a run under the model-free law as [`to_link`] writes a scenario.
+///
+/// # Errors
+/// [`ScenarioError::TooLong`] beyond [`LINK_LIMIT`], or what [`ModelFreeScenario::validate`] finds.
+pub fn model_free_to_link(scenario: &ModelFreeScenario) -> Result<String, ScenarioError> {
+    write(3, &model_free_to_json(scenario)?)
+}
+
+fn write(format: usize, json: &str) -> Result<String, ScenarioError> {
+    // Without the indentation: a string of a document has no line breaks, so every line starts with it.
+    let line: String = json.lines().map(str::trim_start).collect();
+    let link = format!("{MARK}{format}.{}", URL_SAFE_NO_PAD.encode(pack(DICTIONARIES[format - 1], line.as_bytes())));
+    if link.len() > LINK_LIMIT {
+        return Err(ScenarioError::TooLong { length: link.len(), max: LINK_LIMIT });
+    }
+    Ok(link)
+}
+
+/// Reads a document from the text that [`to_link`] and its like write.
+///
+/// # Errors
+/// [`ScenarioError::DamagedLink`], and those of [`document_from_json`].
+pub fn document_from_link(link: &str) -> Result<Document, ScenarioError> {
+    document_from_json(&json_of_link(link)?)
+}
+
+/// The JSON in the text that [`to_link`] and its like write.
+///
+/// # Errors
+/// [`ScenarioError::TooLong`] beyond [`LINK_LIMIT`]; [`ScenarioError::UnknownVersion`] for a format of a later program;
+/// [`ScenarioError::DamagedLink`] when it is cut off, changed or no link at all.
+fn json_of_link(link: &str) -> Result<String, ScenarioError> {
+    if link.len() > LINK_LIMIT {
+        return Err(ScenarioError::TooLong { length: link.len(), max: LINK_LIMIT });
+    }
+    let (format, payload) =
+        link.strip_prefix(MARK).and_then(|rest| rest.split_once('.')).ok_or(ScenarioError::DamagedLink)?;
+    let found: u64 = format.parse().map_err(|_| ScenarioError::DamagedLink)?;
+    let index = usize::try_from(found).ok().and_then(|format| format.checked_sub(1));
+    let dictionary = index.and_then(|index| DICTIONARIES.get(index));
+    let dictionary = dictionary.ok_or(ScenarioError::UnknownVersion { found, newest: NEWEST })?;
+    let packed = URL_SAFE_NO_PAD.decode(payload).map_err(|_| ScenarioError::DamagedLink)?;
+    let text = unpack(dictionary, &packed, DOCUMENT_LIMIT).ok_or(ScenarioError::DamagedLink)?;
+    String::from_utf8(text).map_err(|_| ScenarioError::DamagedLink)
+}

@@ -1,0 +1,192 @@
+use crate::ScenarioError;
+use crate::run::whole;
+use quadtank::control::{DecentralisedPi, ModelFree, Pairing};
+use quadtank::interaction::{niederlinski, relative_gain_array};
+use quadtank::linear::{Complex, LinearError, StateSpace, place_nearest_at_origin, transmission_zeros};
+use quadtank::plant::{OperatingPoint, PlantError, QuadrupleTank, ValveSchedule};
+use quadtank::sim::{
+    Experiment, HeldOutputs, HoldingEnds, ModelFreePoles, ModelFreeRun, Stability, TrackingFigures, Trajectory,
+    continuous_model_free_poles, model_free_poles, simulate_model_free, simulate_with_valves, smallest_model_gain,
+    smallest_model_gain_of_integrator, tracking_figures,
+};
+
+use super::{ModelFreeSetup, StartSpec};
+
+/// What linear theory says of the plant as it is at one moment of a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Moment {
+    /// Valve fractions γ1, γ2.
+    pub valves: [f64; 2],
+    /// Poles (1/s), those of the tanks that hold water.
+    pub poles: Vec<f64>,
+    /// Transmission zeros (1/s), one of them exactly zero where G(0) is singular.
+    pub zeros: Result<Vec<Complex>, LinearError>,
+    /// Relative gain λ11; `None` where G(0) is singular.
+    pub rga_11: Option<f64>,
+    /// Niederlinski index of both pairings, diagonal first; `None` where it is not defined.
+    pub niederlinski: [Option<f64>; 2],
+}
+
+impl Moment {
+    /// The moment at which the plant has these levels (m) and voltages (V). It need not be at rest.
+    pub fn of(plant: &QuadrupleTank, point: &OperatingPoint) -> Self {
+        let (a, b, c) = plant.linearise(point).reduced();
+        let model = StateSpace::strictly_proper(a, b, c);
+        let poles: Vec<f64> = plant.time_constants_s(point).into_iter().flatten().map(|time| -time.recip()).collect();
+        let gain = model.as_ref().ok().and_then(|model| model.dc_gain().ok());
+        let relative_gains = gain.as_ref().map(relative_gain_array);
+        let zeros = model.and_then(|model| {
+            let mut zeros = transmission_zeros(&model)?;
+            if matches!(relative_gains, Some(Err(LinearError::SingularGain { .. }))) {
+                place_nearest_at_origin(&mut zeros);
+            }
+            Ok(zeros.iter().map(|zero| zero.value).collect())
+        });
+        let rga_11 = relative_gains.and_then(|array| Some(array.ok()?[(0, 0)]));
+        Self {
+            valves: plant.valves,
+            poles,
+            zeros,
+            rga_11,
+            // On the singular line its sign is rounding.
+            niederlinski: rga_11.and(gain).map_or([None; 2], |gain| niederlinski(&gain)),
+        }
+    }
+
+    /// The right-most zero (1/s), where there are any.
+    pub fn rightmost_zero(&self) -> Option<f64> {
+        self.zeros.as_ref().ok()?.iter().map(|zero| zero.re).max_by(f64::total_cmp)
+    }
+}
+
+/// What theory says of a setup at the references that it ends with, and with its valves as they stand after their last step or
+/// ramp; where they swing, as at the start.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ModelFreeAnalysis {
+    /// Where the loops should end, or why nothing holds those levels.
+    pub rest: Result<OperatingPoint, PlantError>,
+    /// Zeros, relative gain and Niederlinski index there.
+    pub moment: Option<Moment>,
+    /// Poles of the linear loop there.
+    pub poles: Option<Result<ModelFreePoles, LinearError>>,
+    /// Poles of the loop in continuous time without estimator there (1/s).
+    pub continuous_poles: Option<Result<Vec<Complex>, LinearError>>,
+    /// Smallest α̂ of a stable loop there (m/(s V)), see [`smallest_model_gain`].
+    pub smallest_model_gain: Option<f64>,
+    /// The same of each lower tank alone and without drain (m/(s V)).
+    pub smallest_of_integrators: Option<[f64; 2]>,
+}
+
+/// Analyses a setup at the references that its experiment ends with.
+pub fn analyse_model_free(setup: &ModelFreeSetup) -> ModelFreeAnalysis {
+    let plant = setup.plant_at(setup.valves_rest_from_s());
+    let rest = plant.rest_at(last_references(setup));
+    let jacobian = rest.as_ref().ok().map(|rest| plant.linearise(rest));
+    let gain = plant.power_gain;
+    ModelFreeAnalysis {
+        moment: rest.as_ref().ok().map(|rest| Moment::of(&plant, rest)),
+        poles: jacobian.map(|jacobian| model_free_poles(&jacobian, &setup.controller, gain)),
+        continuous_poles: jacobian.map(|jacobian| continuous_model_free_poles(&jacobian, &setup.controller, gain)),
+        smallest_of_integrators: jacobian.map(|jacobian| {
+            let ModelFree { pairing, loops, sampling_time_s, .. } = setup.controller;
+            [0, 1].map(|i| {
+                let slope = gain * jacobian.b[(i, pairing.pump_of(i))];
+                smallest_model_gain_of_integrator(slope, loops[i].proportional, loops[i].integral, sampling_time_s)
+            })
+        }),
+        smallest_model_gain: jacobian.and_then(|j| smallest_model_gain(&j, &setup.controller, gain).ok().flatten()),
+        rest,
+    }
+}
+
+/// References at the end of the experiment (m).
+fn last_references(setup: &ModelFreeSetup) -> [f64; 2] {
+    let start = match setup.start {
+        StartSpec::Rest(levels) => levels,
+        StartSpec::Empty => [0.0; 2],
+    };
+    [0, 1].map(|level| setup.experiment.reference_after(level, start[level], setup.experiment.duration_s))
+}
+
+/// When the upper tanks will end the tracking, as they stand at some time of a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PredictedLoss {
+    /// From when on it is predicted (s).
+    pub from_s: f64,
+    /// When and how it ends, or `None` when it goes on.
+    pub ends: Option<HoldingEnds>,
+}
+
+/// What happens in the experiment of a setup.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ModelFreeAnswer {
+    /// The run.
+    pub run: ModelFreeRun,
+    /// How both loops did.
+    pub figures: [TrackingFigures; 2],
+    /// The same experiment with two PI loops, where one is asked for.
+    pub comparison: Option<(Trajectory, [TrackingFigures; 2])>,
+    /// What the zero dynamics say once both levels are held at their last references; `None` where they never are, while
+    /// valves move, and where the linear loop is stable: it does not hold the levels at any price. Loads are not foreseen.
+    pub predicted: Option<PredictedLoss>,
+}
+
+/// How near to its reference a level counts as held (a share of the reference), and for how long (s): it must not only pass.
+const HELD: f64 = 0.02;
+const HELD_FOR_S: f64 = 10.0;
+
+/// Runs the experiment of a setup.
+///
+/// # Errors
+/// [`ScenarioError::Start`] when no input holds the levels that it begins with; [`ScenarioError::TooMuchWork`].
+pub fn run_model_free(setup: &ModelFreeSetup) -> Result<ModelFreeAnswer, ScenarioError> {
+    let (plant, start) = (setup.plant_at(0.0), setup.start()?);
+    let ModelFreeSetup { valves, controller, experiment, .. } = setup;
+    let run = simulate_model_free(&plant, valves, &start, controller, experiment)
+        .map_err(|error| ScenarioError::Law { field: "model_free.controller".to_owned(), error })?;
+    let duration = "model_free.experiment.duration_s";
+    let run = ModelFreeRun { trajectory: whole(run.trajectory, duration)?, ..run };
+    let figures_of = |run: &Trajectory, rows: usize, pairing: Pairing| tracking_figures(run, rows, &plant, pairing);
+    let compared = |compare: DecentralisedPi| {
+        let (run, rows) = simulate_with_valves(&plant, valves, &start, &compare, experiment);
+        let run = whole(run, duration)?;
+        let figures = figures_of(&run, rows, compare.pairing);
+        Ok::<_, ScenarioError>((run, figures))
+    };
+    let comparison = setup.compare.map(compared).transpose()?;
+    let figures = figures_of(&run.trajectory, run.rows_per_sample, controller.pairing);
+    let predicted = predicted_loss(setup, &plant, &run.trajectory);
+    Ok(ModelFreeAnswer { run, figures, comparison, predicted })
+}
+
+fn predicted_loss(setup: &ModelFreeSetup, plant: &QuadrupleTank, run: &Trajectory) -> Option<PredictedLoss> {
+    if !setup.valves.iter().all(ValveSchedule::is_constant) {
+        return None;
+    }
+    let references = last_references(setup);
+    let jacobian = plant.linearise(&plant.rest_at(references).ok()?);
+    let poles = model_free_poles(&jacobian, &setup.controller, plant.power_gain).ok()?;
+    if poles.stability != Stability::Unstable {
+        return None;
+    }
+    let Experiment { set_point_steps, duration_s, .. } = &setup.experiment;
+    let in_time = set_point_steps.iter().filter(|step| step.size != 0.0 && step.time_s <= *duration_s);
+    let last_step = in_time.map(|step| step.time_s).fold(0.0, f64::max);
+    let is_held = |row: &usize| {
+        let near = |i: usize| (run.levels[i][*row] - references[i]).abs() <= HELD * references[i].abs();
+        run.time_s[*row] > last_step && near(0) && near(1)
+    };
+    let mut since = None;
+    let row = (0..run.time_s.len()).find(|row| {
+        let time = run.time_s[*row];
+        since = is_held(row).then(|| since.unwrap_or(time));
+        since.is_some_and(|since| time - since >= HELD_FOR_S)
+    })?;
+    let upper = [run.levels[2][row], run.levels[3][row]];
+    let from_s = run.time_s[row];
+    let ends = HeldOutputs::new(plant, references).ends(upper, LONGEST_PREDICTION_S);
+    Some(PredictedLoss { from_s, ends })
+}
+
+/// How far ahead a loss is predicted (s).
+const LONGEST_PREDICTION_S: f64 = 10_000.0;

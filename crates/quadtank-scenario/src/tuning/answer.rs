@@ -1,0 +1,169 @@
+use nalgebra::Matrix2;
+
+use quadtank::control::{PidMatrix, Relay};
+use quadtank::linear::{Complex, DelayedPlant, LinearError, TransferMatrix};
+use quadtank::tuning::{
+    CriticalCurve, CriticalSearch, CurveDistance, RelayTest, SequentialStep, TestAndSettings, TestTime, TuningError,
+    check_stable, distance_from_curve, frequency_range, independent_tuning, relay_test, sequential_tuning,
+    single_loop_test,
+};
+
+use super::details::excited;
+use super::rig::nonlinear;
+use super::{Behind, Designed, SteadyState, TestKind, TestSpec, TuningPlant, TuningSetup};
+
+/// Directions of the critical curve.
+const DIRECTIONS: usize = 200;
+
+/// What follows from the plant alone. Tests and designs start from it.
+#[derive(Clone, Debug)]
+pub struct Study {
+    /// The plant as transfer functions.
+    pub plant: TransferMatrix,
+    /// G(0).
+    pub dc_gain: Matrix2<f64>,
+    /// λ11 of the relative gain array; `None` where G(0) is singular.
+    pub rga_11: Option<f64>,
+    /// The boundary of the stable gains.
+    pub curve: CriticalCurve,
+    /// Finds critical points in any direction.
+    pub search: CriticalSearch,
+}
+
+/// What a session finds.
+#[derive(Clone, Debug)]
+pub struct Tuning {
+    /// What follows from the plant.
+    pub study: Study,
+    /// The relay test.
+    pub test: Tested,
+    /// The controllers; `None` where the curve has no ultimate point in the direction asked for.
+    pub design: Option<Designed>,
+}
+
+/// Relay tests.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Tested {
+    /// One of a single element, and its frequency response where it oscillated.
+    Single(Box<RelayTest>, Option<FoundPoint>),
+    /// One of each loop, with the settings by the rule.
+    Independent(Box<[TestAndSettings; 2]>),
+    /// The steps of a sequence.
+    Sequential(Vec<SequentialStep>),
+    /// One of both loops, with its distances from the curve by peaks and by first harmonics.
+    Simultaneous(Box<RelayTest>, [Option<CurveDistance>; 2]),
+}
+
+/// A point of a frequency response as a relay found it, and as it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FoundPoint {
+    /// Frequency of the oscillation.
+    pub frequency: f64,
+    /// Modulus by the describing function.
+    pub modulus: f64,
+    /// The response of the element there.
+    pub response: Complex,
+    /// Its phase without the sign of the gain (rad): that which the relay finds, also in a loop with negative gain.
+    pub phase: f64,
+}
+
+/// Runs a session.
+///
+/// # Errors
+/// As [`Study::of`], [`Study::test`] and [`Study::design`].
+pub fn tune(setup: &TuningSetup) -> Result<Tuning, TuningError> {
+    let study = Study::of(&setup.plant)?;
+    let (test, design) = (study.test(setup)?, study.design(setup)?);
+    Ok(Tuning { study, test, design })
+}
+
+impl Study {
+    /// Studies a plant.
+    ///
+    /// # Errors
+    /// [`TuningError::UnstablePlant`], or what is wrong with the plant.
+    pub fn of(plant: &TuningPlant) -> Result<Self, TuningError> {
+        let plant = plant.transfer_matrix()?;
+        check_stable(&plant)?;
+        let SteadyState { dc_gain, rga_11, .. } = SteadyState::of(&plant);
+        // Importance, signs and normalised gains all rest on the diagonal of G(0).
+        if dc_gain.diagonal().iter().any(|&g| g == 0.0 || !g.is_finite()) {
+            return Err(LinearError::SingularGain { reciprocal_condition: 0.0 }.into());
+        }
+        let (low, high) = frequency_range(&plant)?;
+        let search = CriticalSearch::new(&plant, low, high);
+        let curve = CriticalCurve::of(&plant, &search, DIRECTIONS);
+        Ok(Self { plant, dc_gain, rga_11: rga_11.ok(), curve, search })
+    }
+
+    /// Gains on the axes of the normalised critical curve, k1 g11(0) and k2 g22(0) (Campestrini 2006, Fig. 25).
+    pub fn normalised(&self, gains: [f64; 2]) -> (f64, f64) {
+        (gains[0] * self.dc_gain[(0, 0)], gains[1] * self.dc_gain[(1, 1)])
+    }
+
+    /// The relay test of a session.
+    ///
+    /// # Errors
+    /// [`TuningError::OutOfRange`] for what the test refuses.
+    pub fn test(&self, setup: &TuningSetup) -> Result<Tested, TuningError> {
+        let number = setup.test.number;
+        if !(1..=2).contains(&number) {
+            return Err(TuningError::OutOfRange { field: "test.number", value: number as f64 });
+        }
+        test(&self.plant, &self.search, setup)
+    }
+}
+
+fn test(plant: &TransferMatrix, search: &CriticalSearch, setup: &TuningSetup) -> Result<Tested, TuningError> {
+    let spec = &setup.test;
+    let time = TestTime { duration: spec.duration, release: spec.release, step: spec.step };
+    let gain = plant.dc_gain();
+    let relays = [0, 1].map(|i| relay(spec, i, gain[(i, i)]));
+    match spec.kind {
+        TestKind::Single => single(plant, spec, time),
+        TestKind::Independent => {
+            Ok(Tested::Independent(Box::new(independent_tuning(plant, relays, spec.rule, spec.detuning, time)?)))
+        }
+        TestKind::Sequential => Ok(Tested::Sequential(sequential_tuning(plant, relays, spec.rule, spec.passes, time)?)),
+        TestKind::Simultaneous => {
+            let relays = relays.map(Some);
+            let controllers = PidMatrix::default();
+            let test = match nonlinear(&setup.plant) {
+                Some(rig) => relay_test(&mut rig.held(), relays, controllers, time)?,
+                None => relay_test(&mut DelayedPlant::new(&plant.paths())?, relays, controllers, time)?,
+            };
+            let distance = |gains: Option<[f64; 2]>, period| distance_from_curve(search, gains?, period);
+            let distances = test.reading.oscillation.map_or([None; 2], |o| {
+                [distance(o.gains_by_peak(), o.period), distance(o.gains_by_harmonic(), o.period)]
+            });
+            Ok(Tested::Simultaneous(Box::new(test), distances))
+        }
+    }
+}
+
+/// The relay of a loop with index 0 or 1, for a loop whose gain has the sign of `gain`.
+fn relay(spec: &TestSpec, index: usize, gain: f64) -> Relay {
+    Relay { hysteresis: spec.hysteresis[index], bias: spec.bias[index], ..Relay::ideal(spec.amplitudes[index], gain) }
+}
+
+/// A relay on one element of the diagonal, with what stands behind it.
+fn single(plant: &TransferMatrix, spec: &TestSpec, time: TestTime) -> Result<Tested, TuningError> {
+    let index = spec.number - 1;
+    let element = &plant.0[index][index];
+    let with = excited(plant, spec)?;
+    let gain = if matches!(spec.behind, Behind::Modulus(_)) { 1.0 } else { element.dc_gain() };
+    let test = single_loop_test(&with, relay(spec, index, gain), time)?;
+    let found = test.reading.oscillation.and_then(|oscillation| {
+        let frequency = oscillation.frequency();
+        let gain = oscillation.loops[0].gain_by_peak?.abs();
+        let modulus = match spec.behind {
+            Behind::Nothing => gain.recip(),
+            Behind::Integrator => frequency / gain,
+            Behind::Modulus(r) => r,
+        };
+        let response = element.at(Complex::new(0.0, frequency));
+        let phase = (response * element.dc_gain().signum()).arg();
+        Some(FoundPoint { frequency, modulus, response, phase })
+    });
+    Ok(Tested::Single(Box::new(test), found))
+}

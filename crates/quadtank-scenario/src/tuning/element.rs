@@ -1,0 +1,105 @@
+use thiserror::Error;
+
+use quadtank::linear::{LinearError, TransferFunction};
+
+/// An element `b(s)/a(s) e^(−θ s)` of a plant of one's own.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Element {
+    /// Coefficients of b by rising powers of s.
+    pub numerator: Vec<f64>,
+    /// Coefficients of a by rising powers of s.
+    pub denominator: Vec<f64>,
+    /// Dead time θ.
+    pub dead_time: f64,
+}
+
+/// Why relay tests and placements do not work with an element: all of them need stable elements that are strictly proper.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+pub enum ElementFault {
+    /// All coefficients of the denominator are zero.
+    #[error("the denominator is zero")]
+    NoDenominator,
+    /// As many zeros as poles: the output would jump with the relay.
+    #[error("a biproper element (degree {degree} over {degree}) is not supported, only strictly proper ones")]
+    Biproper {
+        /// Degree of both polynomials.
+        degree: usize,
+    },
+    /// More zeros than poles.
+    #[error("an improper element (degree {numerator} over {denominator}) is not supported, only strictly proper ones")]
+    Improper {
+        /// Degree of the numerator.
+        numerator: usize,
+        /// Degree of the denominator.
+        denominator: usize,
+    },
+    /// A pole at the origin.
+    #[error("an integrating element (a pole at 0) is not supported, only stable ones")]
+    Integrating,
+    /// A pole that is not in the left half-plane.
+    #[error("an unstable element (a pole with the real part {real_part}) is not supported, only stable ones")]
+    Unstable {
+        /// Real part of the right-most pole.
+        real_part: f64,
+    },
+}
+
+impl Element {
+    /// As a transfer function.
+    ///
+    /// # Errors
+    /// As [`TransferFunction::new`].
+    pub fn transfer_function(&self) -> Result<TransferFunction, LinearError> {
+        TransferFunction::new(self.numerator.clone(), self.denominator.clone(), self.dead_time)
+    }
+
+    /// What is wrong with an element whose numbers are all finite. One whose numerator is zero passes nothing, whatever its
+    /// degrees are, but needs stable poles as any other.
+    pub fn fault(&self) -> Option<ElementFault> {
+        let Some(denominator) = degree(&self.denominator) else { return Some(ElementFault::NoDenominator) };
+        match degree(&self.numerator) {
+            Some(numerator) if numerator > denominator => {
+                return Some(ElementFault::Improper { numerator, denominator });
+            }
+            Some(degree) if degree == denominator => return Some(ElementFault::Biproper { degree }),
+            _ => {}
+        }
+        if self.denominator.first() == Some(&0.0) {
+            return Some(ElementFault::Integrating);
+        }
+        // Poles that no iteration finds are an error where the plant is studied.
+        let rightmost = self.transfer_function().and_then(|element| element.poles()).ok()?.last()?.re;
+        (rightmost >= 0.0).then_some(ElementFault::Unstable { real_part: rightmost })
+    }
+}
+
+/// Degree of a polynomial by rising powers; `None` for zero.
+fn degree(coefficients: &[f64]) -> Option<usize> {
+    coefficients.iter().rposition(|&c| c != 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_fault_says_what_is_not_supported() {
+        let fault = |numerator: &[f64], denominator: &[f64]| {
+            Element { numerator: numerator.to_vec(), denominator: denominator.to_vec(), dead_time: 0.0 }.fault()
+        };
+        assert_eq!(fault(&[1.0, 1.0], &[5.0, 1.0]), Some(ElementFault::Biproper { degree: 1 }));
+        assert_eq!(fault(&[1.0], &[1.0]), Some(ElementFault::Biproper { degree: 0 }));
+        assert_eq!(fault(&[1.0, 0.0], &[2.0, 0.0, 0.0]), Some(ElementFault::Biproper { degree: 0 }));
+        let improper = ElementFault::Improper { numerator: 2, denominator: 1 };
+        assert_eq!(fault(&[1.0, 0.0, 3.0], &[5.0, 1.0]), Some(improper));
+        assert_eq!(fault(&[1.0], &[0.0, 1.0, 1.0]), Some(ElementFault::Integrating));
+        assert_eq!(fault(&[1.0], &[0.0, 0.0]), Some(ElementFault::NoDenominator));
+        assert_eq!(fault(&[1.0], &[]), Some(ElementFault::NoDenominator));
+        assert_eq!(fault(&[1.0], &[-0.5, 1.0]), Some(ElementFault::Unstable { real_part: 0.5 }));
+        // An oscillator: the imaginary axis is not stable either.
+        assert!(matches!(fault(&[1.0], &[4.0, 0.0, 1.0]), Some(ElementFault::Unstable { .. })));
+        for (numerator, denominator) in [(&[1.0][..], &[1.0, 2.0][..]), (&[0.0, 0.0], &[1.0]), (&[], &[1.0, 1.0])] {
+            assert_eq!(fault(numerator, denominator), None, "{numerator:?} / {denominator:?}");
+        }
+    }
+}

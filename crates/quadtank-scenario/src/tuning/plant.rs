@@ -1,0 +1,66 @@
+use quadtank::control::Pairing;
+use quadtank::linear::{Complex, TransferFunction, TransferMatrix};
+use quadtank::plant::PresetId;
+use quadtank::tuning::{PublishedPlant, TuningError, tank_transfer_matrix};
+
+use super::Element;
+
+/// The plant that is tuned. Times are in its own unit.
+#[derive(Clone, Debug, PartialEq)]
+pub enum TuningPlant {
+    /// A plant of the literature.
+    Published(PublishedPlant),
+    /// The linear model of a published quadruple tank at its published pump voltages, from voltages to measured levels, s.
+    QuadrupleTank {
+        /// The rig.
+        preset: PresetId,
+        /// Valve fractions γ1, γ2; those of the rig where they are not given.
+        valves: Option<[f64; 2]>,
+        /// Which pump each loop drives.
+        pairing: Pairing,
+        /// A dead time in every element (s).
+        dead_time_s: f64,
+        /// A lag in every element (s), of pump or sensor.
+        lag_s: f64,
+        /// Whether simultaneous relays and the response run on the nonlinear plant, which has neither dead time nor lag.
+        nonlinear: bool,
+    },
+    /// Four elements, row by output.
+    Elements([[Element; 2]; 2]),
+}
+
+impl TuningPlant {
+    /// As transfer functions.
+    ///
+    /// # Errors
+    /// [`TuningError::Linear`] for coefficients that are no transfer function.
+    pub fn transfer_matrix(&self) -> Result<TransferMatrix, TuningError> {
+        match self {
+            Self::Published(plant) => Ok(plant.transfer_matrix()?),
+            Self::QuadrupleTank { preset, valves, pairing, dead_time_s, lag_s, .. } => {
+                let rig = preset.preset();
+                let plant = rig.plant.with_valves(valves.unwrap_or(rig.plant.valves));
+                let jacobian = plant.linearise(&plant.free_equilibrium(rig.pump_voltage));
+                let behind = TransferFunction::lags(1.0, &[*lag_s], *dead_time_s)?;
+                let transfer = tank_transfer_matrix(&jacobian)?.followed_by(&behind);
+                Ok(match pairing {
+                    Pairing::Diagonal => transfer,
+                    Pairing::Swapped => transfer.swapped(),
+                })
+            }
+            Self::Elements(rows) => {
+                let [[g11, g12], [g21, g22]] =
+                    rows.each_ref().map(|row| row.each_ref().map(Element::transfer_function));
+                Ok(TransferMatrix([[g11?, g12?], [g21?, g22?]]))
+            }
+        }
+    }
+
+    /// The magnitude of the quickest pole, and the longest dead time; `None` for a plant that is none.
+    pub(super) fn pace(&self) -> Option<(f64, f64)> {
+        let transfer = self.transfer_matrix().ok()?;
+        let elements = transfer.0.as_flattened();
+        let quickest = elements.iter().filter_map(|g| g.poles().ok()).flatten().map(Complex::norm).fold(0.0, f64::max);
+        Some((quickest, elements.iter().map(TransferFunction::dead_time).fold(0.0, f64::max)))
+    }
+}

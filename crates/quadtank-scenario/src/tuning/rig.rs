@@ -1,0 +1,32 @@
+use quadtank::control::Pairing;
+use quadtank::plant::{OperatingPoint, QuadrupleTank};
+use quadtank::sim::HeldTank;
+
+use super::TuningPlant;
+
+/// The nonlinear rig that a session runs on, at rest.
+pub(super) struct Rig {
+    plant: QuadrupleTank,
+    op: OperatingPoint,
+    pairing: Pairing,
+}
+
+impl Rig {
+    /// The rig between relays and controllers.
+    pub(super) fn held(&self) -> HeldTank<'_> {
+        HeldTank::new(&self.plant, &self.op, self.pairing)
+    }
+}
+
+/// The rig of a session that runs on the nonlinear plant.
+pub(super) fn nonlinear(plant: &TuningPlant) -> Option<Rig> {
+    match plant {
+        TuningPlant::QuadrupleTank { preset, valves, pairing, nonlinear: true, .. } => {
+            let rig = preset.preset();
+            let plant = rig.plant.with_valves(valves.unwrap_or(rig.plant.valves));
+            let op = plant.free_equilibrium(rig.pump_voltage);
+            Some(Rig { plant, op, pairing: *pairing })
+        }
+        _ => None,
+    }
+}

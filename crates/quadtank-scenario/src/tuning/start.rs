@@ -1,0 +1,91 @@
+use std::f64::consts::TAU;
+
+use quadtank::control::Pairing;
+use quadtank::plant::PresetId;
+use quadtank::tuning::{Action, GainLimit, PlacementMethod, PublishedPlant, TuningRule, importance_direction};
+
+use super::{
+    Behind, CompareSpec, CriticalSpec, DecouplerSpec, DesignSpec, PublishedCase, ResponseSpec, Study, TestKind,
+    TestSpec, TuningPlant, TuningScenario, TuningSetup,
+};
+
+/// Dead time that a rig begins with (s): without one its minimum-phase setting has no ultimate point, and relays chatter.
+const DEAD_TIME_S: f64 = 5.0;
+/// Lengths of records in critical periods, rows in a period of a test, and the period where there is none.
+const TEST_PERIODS: f64 = 25.0;
+const RESPONSE_PERIODS: f64 = 12.0;
+const ROWS: f64 = 200.0;
+const NO_PERIOD: f64 = 100.0;
+
+impl TestSpec {
+    /// Ideal relays of amplitude 1 in both loops.
+    pub fn simultaneous(duration: f64, release: f64, step: f64) -> Self {
+        Self {
+            kind: TestKind::Simultaneous,
+            number: 1,
+            behind: Behind::Nothing,
+            amplitudes: [1.0; 2],
+            hysteresis: [0.0; 2],
+            bias: [0.0; 2],
+            rule: TuningRule::ZieglerNicholsPi,
+            detuning: [1.0; 2],
+            passes: 1,
+            duration,
+            release,
+            step,
+        }
+    }
+}
+
+impl Default for TuningScenario {
+    /// What the source recommends: both loci, PID, a target in the third quadrant (Campestrini 2006, Table 12).
+    fn default() -> Self {
+        PublishedCase { table: 12, row: 2 }.scenario()
+    }
+}
+
+impl TuningPlant {
+    /// A published rig with the pairing that its relative gains suggest.
+    pub fn rig(preset: PresetId) -> Self {
+        let [one, two] = preset.preset().plant.valves;
+        let pairing = if one + two > 1.0 { Pairing::Diagonal } else { Pairing::Swapped };
+        Self::QuadrupleTank { preset, valves: None, pairing, dead_time_s: DEAD_TIME_S, lag_s: 0.0, nonlinear: false }
+    }
+}
+
+impl TuningSetup {
+    /// A session to begin with on a plant: its records are long enough for what oscillates at equal importance.
+    pub fn on(plant: TuningPlant) -> Self {
+        match plant {
+            TuningPlant::Published(PublishedPlant::WoodBerry) => TuningScenario::default().tuning,
+            TuningPlant::Published(PublishedPlant::ProcessTwo) => PublishedCase { table: 16, row: 1 }.scenario().tuning,
+            plant => Self::paced(plant),
+        }
+    }
+
+    fn paced(plant: TuningPlant) -> Self {
+        let limit = Study::of(&plant).map(|study| study.search.limit(importance_direction(&study.dc_gain, 1.0)));
+        let period = match limit {
+            Ok(GainLimit::Oscillation(point)) => TAU / point.frequency,
+            _ => NO_PERIOD,
+        };
+        Self {
+            plant,
+            test: TestSpec::simultaneous(TEST_PERIODS * period, 0.1 * period, period / ROWS),
+            design: DesignSpec {
+                critical: CriticalSpec::Importance(1.0),
+                method: PlacementMethod::BothLoci,
+                action: Action::Pid,
+                target: [-0.3, -0.3],
+                root: 1,
+                decoupler: DecouplerSpec::None,
+            },
+            response: ResponseSpec {
+                references: [1.0, 0.0],
+                duration: RESPONSE_PERIODS * period,
+                step: period / ROWS,
+                compare: CompareSpec::Nothing,
+            },
+        }
+    }
+}

@@ -1,0 +1,149 @@
+use serde::Serialize;
+use thiserror::Error;
+
+use quadtank::tuning::PublishedPlant;
+
+use super::{Behind, CompareSpec, DecouplerSpec, Element, TestKind, TuningPlant, TuningSetup};
+
+/// What a session may not have been meant to say. Nothing is refused for it.
+#[derive(Clone, Debug, PartialEq, Error, Serialize)]
+#[serde(tag = "warning", rename_all = "kebab-case")]
+pub enum TuningWarning {
+    /// The elements look as if the highest power of s had been written first.
+    #[error("{field}: read by rising powers of s, as {read_as}; if {reversed} is meant, turn the coefficients round")]
+    CoefficientOrder {
+        /// The first denominator that looks so.
+        field: String,
+        /// The polynomial that was read.
+        read_as: String,
+        /// The polynomial with the coefficients turned round.
+        reversed: String,
+    },
+    /// A setting that changes nothing here.
+    #[error("{field}: without effect here; it acts only {acts}")]
+    NoEffect {
+        /// Where in the document.
+        field: &'static str,
+        /// Where it would act.
+        acts: &'static str,
+    },
+}
+
+/// How far apart both readings of the coefficients have to be to be told apart.
+const FAR_APART: f64 = 10.0;
+/// Dead time in lags up to which a reading is plausible.
+const LONGEST_DEAD_TIME: f64 = 5.0;
+/// Lag in sampling times of the controllers from which on a reading is plausible.
+const SHORTEST_LAG: f64 = 2.0;
+
+impl TuningSetup {
+    /// What this session may not have been meant to say.
+    pub fn warnings(&self) -> Vec<TuningWarning> {
+        self.coefficient_order().into_iter().chain(self.settings_without_effect()).collect()
+    }
+
+    /// Settings with a value of their own that change nothing, because the session has no use for them.
+    fn settings_without_effect(&self) -> impl Iterator<Item = TuningWarning> {
+        let (test, kind) = (&self.test, self.test.kind);
+        let is_single = kind == TestKind::Single;
+        // Index of the loop without a relay.
+        let idle = |index: usize| is_single && test.number != index + 1;
+        let nonlinear = matches!(self.plant, TuningPlant::QuadrupleTank { nonlinear: true, .. });
+        let is_column = self.plant == TuningPlant::Published(PublishedPlant::WoodBerry);
+        let dynamic = !matches!(self.design.decoupler, DecouplerSpec::None | DecouplerSpec::Static);
+        [
+            (!is_single && test.number != 1, "tuning.test.number", "in a single test"),
+            (!is_single && test.behind != Behind::Nothing, "tuning.test.behind", "in a single test"),
+            (idle(0) && test.hysteresis[0] != 0.0, "tuning.test.hysteresis[0]", "with a relay in loop 1"),
+            (idle(1) && test.hysteresis[1] != 0.0, "tuning.test.hysteresis[1]", "with a relay in loop 2"),
+            (idle(0) && test.bias[0] != 0.0, "tuning.test.bias[0]", "with a relay in loop 1"),
+            (idle(1) && test.bias[1] != 0.0, "tuning.test.bias[1]", "with a relay in loop 2"),
+            (
+                kind != TestKind::Independent && test.detuning != [1.0; 2],
+                "tuning.test.detuning",
+                "in independent tests",
+            ),
+            (kind != TestKind::Sequential && test.passes != 1, "tuning.test.passes", "in a sequential test"),
+            (
+                nonlinear && kind != TestKind::Simultaneous,
+                "tuning.plant.quadruple_tank.nonlinear",
+                "in a simultaneous test and in the response; other tests run on the linear model",
+            ),
+            (
+                nonlinear && dynamic,
+                "tuning.plant.quadruple_tank.nonlinear",
+                "without a dynamic decoupler, with which the response is that of the linear model",
+            ),
+            (
+                self.response.compare == CompareSpec::Full && !is_column,
+                "tuning.response.compare",
+                "on the column of Wood and Berry, whose full controller it is",
+            ),
+        ]
+        .into_iter()
+        .filter_map(|(is_idle, field, acts)| is_idle.then_some(TuningWarning::NoEffect { field, acts }))
+    }
+
+    /// Whether the elements look as if the highest power of s had been written first. Then the denominators are written as those
+    /// of lags usually are, with the constant term 1 at the end, and either
+    ///
+    /// * one ends with a zero, which as the highest power is no coefficient and as the constant term an integrator; or
+    /// * with the lags that were read neither sampling time nor duration of the response nor the dead times make sense, but they
+    ///   do with the lags of the reversed polynomials, and these are far apart.
+    fn coefficient_order(&self) -> Option<TuningWarning> {
+        let TuningPlant::Elements(rows) = &self.plant else { return None };
+        let is_dynamic = |of: &Element| of.denominator.len() > 1 && of.numerator.iter().any(|&b| b != 0.0);
+        let elements = || {
+            let places = [(0, 0), (0, 1), (1, 0), (1, 1)];
+            places.into_iter().map(|(i, j)| ((i, j), &rows[i][j])).filter(|(_, element)| is_dynamic(element))
+        };
+        let integrator = elements().find(|(_, of)| of.denominator.last() == Some(&0.0) && ends_with_one(of));
+        let turned = || {
+            let plausible = |lag: f64| {
+                let dead_time = elements().map(|(_, of)| of.dead_time).fold(0.0, f64::max);
+                (SHORTEST_LAG * self.response.step..=self.response.duration).contains(&lag)
+                    && dead_time <= LONGEST_DEAD_TIME * lag
+            };
+            let longest = |lag: fn(&Element) -> f64| elements().map(|(_, of)| lag(of)).fold(0.0, f64::max);
+            let (read, reversed) = (longest(lag_of), longest(reversed_lag_of));
+            let far_apart = (reversed / read).ln().abs() >= FAR_APART.ln();
+            let is_turned = far_apart && !plausible(read) && plausible(reversed);
+            let like_lags = elements().all(|(_, of)| of.denominator.last() == Some(&1.0));
+            elements().find(|(_, of)| ends_with_one(of)).filter(|_| like_lags && is_turned)
+        };
+        let ((row, column), element) = integrator.or_else(turned)?;
+        let powers = &element.denominator;
+        Some(TuningWarning::CoefficientOrder {
+            field: format!("tuning.plant.elements[{row}][{column}].denominator"),
+            read_as: polynomial(powers.iter()),
+            reversed: polynomial(powers.iter().rev()),
+        })
+    }
+}
+
+/// Whether the last coefficient that is not zero is 1, and the first one is not.
+fn ends_with_one(element: &Element) -> bool {
+    let last = element.denominator.iter().rev().find(|&&a| a != 0.0);
+    last == Some(&1.0) && element.denominator.first() != Some(&1.0)
+}
+
+/// The sum of the time constants, a1/a0.
+fn lag_of(element: &Element) -> f64 {
+    (element.denominator[1] / element.denominator[0]).abs()
+}
+
+/// The same of the reversed polynomial.
+fn reversed_lag_of(element: &Element) -> f64 {
+    let reversed: Vec<f64> = element.denominator.iter().rev().copied().collect();
+    (reversed[1] / reversed[0]).abs()
+}
+
+/// A polynomial by rising powers of s, such as `16.7 + 1 s`.
+fn polynomial<'a>(coefficients: impl Iterator<Item = &'a f64>) -> String {
+    let term = |(power, value): (usize, &f64)| match power {
+        0 => value.to_string(),
+        1 => format!("{value} s"),
+        _ => format!("{value} s^{power}"),
+    };
+    coefficients.enumerate().filter(|(_, value)| **value != 0.0).map(term).collect::<Vec<_>>().join(" + ")
+}

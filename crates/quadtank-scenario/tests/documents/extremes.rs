@@ -1,0 +1,193 @@
+//! Random documents of all three versions whose numbers lie at their limits, or as near to them and to 0 as numbers go: every
+//! number that is printed of them is finite, or its place says why there is none.
+
+use std::fmt::Debug;
+
+use proptest::prelude::*;
+use proptest::sample::Index;
+use quadtank::sim::LoopMetrics;
+use quadtank_scenario::model_free::{ModelFreeSetup, analyse_model_free, run_model_free};
+use quadtank_scenario::tuning::{PublishedCase, TuningSetup, record_to_csv, tune};
+use quadtank_scenario::{
+    Document, ScenarioError, Setup, ValveMap, analyse, document_from_json, model_free_to_json, run, to_json,
+    tuning_to_json,
+};
+use serde_json::{Value, json};
+
+/// Which extreme value a field gets.
+type Extreme = (Index, Index);
+
+/// Pointers to the numbers of a document, but for its version.
+fn numbers(value: &Value, pointer: &str, found: &mut Vec<String>) {
+    match value {
+        Value::Number(_) => found.push(pointer.to_owned()),
+        Value::Array(entries) => {
+            entries.iter().enumerate().for_each(|(at, entry)| numbers(entry, &format!("{pointer}/{at}"), found));
+        }
+        Value::Object(fields) => {
+            let fields = fields.iter().filter(|(key, _)| *key != "version");
+            fields.for_each(|(key, field)| numbers(field, &format!("{pointer}/{key}"), found));
+        }
+        _ => {}
+    }
+}
+
+/// Limits of a field as the program tells them when a value is beyond all.
+fn limits_of(document: &Value, pointer: &str) -> Option<(f64, f64)> {
+    let mut document = document.clone();
+    *document.pointer_mut(pointer)? = json!(1e308);
+    match document_from_json(&document.to_string()) {
+        Err(ScenarioError::OutOfRange { value: 1e308, min, max, .. }) => Some((min, max)),
+        _ => None,
+    }
+}
+
+/// The extreme values that a field may have.
+fn extremes_of(document: &Value, pointer: &str) -> Vec<f64> {
+    let Some((min, max)) = limits_of(document, pointer) else { return Vec::new() };
+    let tiny = [0.0, 5e-324, 1e-300, 1e-160, 1e-100, 1e-30, 1e-16, 1e-9, 1e-6];
+    let near = tiny.into_iter().flat_map(|size| [size, -size, 1.0 - size]);
+    let at_limits = [min, max, min.next_up(), max.next_down(), f64::midpoint(min, max)];
+    near.chain(at_limits).filter(|value| (min..=max).contains(value)).collect()
+}
+
+/// The document with another value in one field, if that is allowed.
+fn with_value(document: &Value, pointer: &str, value: f64) -> Option<Value> {
+    let mut changed = document.clone();
+    *changed.pointer_mut(pointer)? = json!(value);
+    document_from_json(&changed.to_string()).ok().map(|_| changed)
+}
+
+/// Sets fields of a document to extreme values; what it does not allow stays as it is.
+fn with_extremes(document: &str, extremes: &[Extreme]) -> Document {
+    let mut document: Value = serde_json::from_str(document).unwrap();
+    let mut pointers = Vec::new();
+    numbers(&document, "", &mut pointers);
+    for (field, value) in extremes {
+        let pointer = field.get(&pointers);
+        let allowed = extremes_of(&document, pointer);
+        if allowed.is_empty() {
+            continue;
+        }
+        document = with_value(&document, pointer, *value.get(&allowed)).unwrap_or(document);
+    }
+    document_from_json(&document.to_string()).unwrap()
+}
+
+fn extremes() -> impl Strategy<Value = Vec<Extreme>> {
+    prop::collection::vec(any::<Extreme>(), 1..16)
+}
+
+/// What Rust writes of a value names every number in it.
+fn assert_finite(value: &impl Debug) {
+    let text = format!("{value:?}");
+    for none in ["NaN", "inf,", "inf ", "inf]", "inf)"] {
+        assert!(!text.contains(none), "{none} in {text}");
+    }
+}
+
+fn assert_table(csv: &str) {
+    let cells = csv.lines().skip(1).flat_map(|line| line.split(','));
+    let numbers = cells.filter(|cell| cell.starts_with(|first: char| first == '-' || first.is_ascii_digit()));
+    assert!(numbers.clone().all(|cell| cell.parse::<f64>().is_ok_and(f64::is_finite)));
+    assert!(!csv.contains("NaN") && !csv.contains("inf"), "{}", csv.lines().find(|l| l.contains("NaN")).unwrap_or(""));
+}
+
+/// Figures that are missing are missing for a reason.
+fn assert_reasons(metrics: &LoopMetrics) {
+    let figures = metrics.settling_2_percent.is_some() && metrics.settling_5_percent.is_some();
+    let figures = figures && metrics.overshoot.is_some() && metrics.undershoot.is_some();
+    assert_eq!(figures, metrics.no_response.is_none(), "{metrics:?}");
+}
+
+/// Checks all that is printed of a document.
+fn check(document: &Document) {
+    match document {
+        Document::Quadruple(scenario) => check_run(&scenario.setup),
+        Document::ModelFree(scenario) => check_model_free(&scenario.model_free),
+        Document::Tuning(scenario) => check_session(&scenario.tuning),
+    }
+}
+
+fn check_run(setup: &Setup) {
+    if let Ok(analysis) = analyse(setup) {
+        assert_finite(&analysis);
+        assert_table(&analysis.roots_to_csv());
+        assert_table(&ValveMap::of(setup).unwrap().to_csv(4));
+    }
+    if let Ok(run) = run(setup) {
+        assert_finite(&(run.metrics, run.linear_metrics));
+        run.metrics.iter().chain(&run.linear_metrics).for_each(assert_reasons);
+        assert_table(&run.to_csv());
+    }
+}
+
+fn check_model_free(setup: &ModelFreeSetup) {
+    assert_finite(&analyse_model_free(setup));
+    if let Ok(answer) = run_model_free(setup) {
+        assert_finite(&(answer.figures, answer.predicted, answer.comparison.as_ref().map(|of| of.1)));
+        assert_table(&answer.to_csv(setup));
+    }
+}
+
+fn check_session(setup: &TuningSetup) {
+    let Ok(tuning) = tune(setup) else { return };
+    assert_finite(&tuning.test);
+    if let Some(design) = &tuning.design {
+        assert_finite(&design.response.figures);
+        assert_table(&record_to_csv(&design.response.trace));
+    }
+}
+
+/// Short runs in which everything acts: own rig, loads, noise, quantised measurement; under the model-free law also moving
+/// valves and a comparison.
+const EVERYTHING: [&str; 2] =
+    [include_str!("../data/everything-acts.json"), include_str!("../data/everything-acts-model-free.json")];
+
+#[test]
+fn of_every_field_at_each_of_its_extremes() {
+    for document in EVERYTHING {
+        let document: Value = serde_json::from_str(document).unwrap();
+        let mut pointers = Vec::new();
+        numbers(&document, "", &mut pointers);
+        let mut checked = 0;
+        for pointer in &pointers {
+            for value in extremes_of(&document, pointer) {
+                let Some(changed) = with_value(&document, pointer, value) else { continue };
+                check(&document_from_json(&changed.to_string()).unwrap());
+                checked += 1;
+            }
+        }
+        assert!(checked > 500, "{checked}");
+    }
+}
+
+/// The published sessions, and one with a plant of transfer functions.
+fn sessions() -> Vec<String> {
+    let published = PublishedCase::all().map(|case| tuning_to_json(&case.scenario()).unwrap());
+    published.chain([include_str!("../data/margins-between-grid-points.json").to_owned()]).collect()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(100))]
+
+    #[test]
+    fn of_a_run_of_the_tank(scenario in crate::random::scenario(3, 0), extremes in extremes()) {
+        check(&with_extremes(&to_json(&scenario).unwrap(), &extremes));
+    }
+
+    #[test]
+    fn of_a_short_run_in_which_everything_acts(document in prop::sample::select(&EVERYTHING), extremes in extremes()) {
+        check(&with_extremes(document, &extremes));
+    }
+
+    #[test]
+    fn of_a_run_under_the_model_free_law(scenario in crate::random::model_free(3), extremes in extremes()) {
+        check(&with_extremes(&model_free_to_json(&scenario).unwrap(), &extremes));
+    }
+
+    #[test]
+    fn of_a_relay_tuning_session(session in prop::sample::select(sessions()), extremes in extremes()) {
+        check(&with_extremes(&session, &extremes));
+    }
+}

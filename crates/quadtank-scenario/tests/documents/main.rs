@@ -1,0 +1,19 @@
+//! Documents of every version: what is read, refused, and answered.
+
+mod answers;
+mod bounded_work;
+mod every_version;
+mod extremes;
+mod junqueira;
+mod model_free;
+mod model_free_properties;
+mod noise;
+mod quadruple;
+mod random;
+mod rest;
+mod tuning;
+mod tuning_elements;
+mod valve_corners;
+
+#[path = "../seeded/mod.rs"]
+mod seeded;

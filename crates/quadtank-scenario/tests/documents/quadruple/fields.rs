@@ -1,0 +1,244 @@
+//! Broken fields: each is named, with what is wrong about it.
+
+use quadtank::control::LoopMode;
+use quadtank::plant::PresetId;
+use quadtank::sim::Load;
+use quadtank_scenario::{
+    DOCUMENT_LIMIT, OperatingPointSpec, Scenario, ScenarioError, View, from_json, limits, setup_of, to_json, to_link,
+};
+use serde_json::{Value, json};
+
+use super::largest_setup;
+
+/// A document in which every kind of field occurs.
+pub fn full() -> Value {
+    let mut scenario = Scenario::from(largest_setup(0));
+    let setup = &mut scenario.setup;
+    setup.controller.loops[0].mode = LoopMode::Manual { output: 5.0, until_s: 60.0 };
+    setup.experiment.load_steps[1].load = Load::Leak { tank: 3, area: 1e-6 };
+    let mut pinned = setup_of(PresetId::JohanssonMinimumPhase);
+    pinned.operating_point = OperatingPointSpec::Levels([0.1, 0.12]);
+    scenario.pinned = vec![pinned];
+    scenario.view = View { cursor_s: Some(10.0), zoom_s: Some([0.0, 100.0]), hide_linear: false };
+    serde_json::from_str(&to_json(&scenario).unwrap()).unwrap()
+}
+
+/// Fields (by the path that an error gives, and by JSON pointer) and a number that is out of their range.
+pub const LEAVES: [(&str, &str, f64); 42] = [
+    (
+        "setup.plant.parameters.rig.tanks[2].section.area_at_empty",
+        "/setup/plant/parameters/rig/tanks/2/section/area_at_empty",
+        0.0,
+    ),
+    (
+        "setup.plant.parameters.rig.tanks[1].section.area_slope",
+        "/setup/plant/parameters/rig/tanks/1/section/area_slope",
+        -1.0,
+    ),
+    ("setup.plant.parameters.rig.tanks[0].outlet.area", "/setup/plant/parameters/rig/tanks/0/outlet/area", 0.0),
+    ("setup.plant.parameters.rig.tanks[0].outlet.area", "/setup/plant/parameters/rig/tanks/0/outlet/area", 0.009),
+    (
+        "setup.plant.parameters.rig.tanks[3].outlet.loss_coefficient",
+        "/setup/plant/parameters/rig/tanks/3/outlet/loss_coefficient",
+        1.5,
+    ),
+    ("setup.plant.parameters.rig.tanks[3].height", "/setup/plant/parameters/rig/tanks/3/height", -0.2),
+    ("setup.plant.parameters.rig.pumps[0].gain", "/setup/plant/parameters/rig/pumps/0/gain", -4e-6),
+    ("setup.plant.parameters.rig.pumps[0].voltage_min", "/setup/plant/parameters/rig/pumps/0/voltage_min", -1.0),
+    ("setup.plant.parameters.rig.pumps[1].voltage_max", "/setup/plant/parameters/rig/pumps/1/voltage_max", -1.0),
+    ("setup.plant.parameters.rig.valves[0]", "/setup/plant/parameters/rig/valves/0", 1.1),
+    ("setup.plant.parameters.rig.power_gain", "/setup/plant/parameters/rig/power_gain", 0.0),
+    ("setup.plant.parameters.rig.sensor.gain", "/setup/plant/parameters/rig/sensor/gain", 0.0),
+    ("setup.plant.parameters.rig.sensor.range", "/setup/plant/parameters/rig/sensor/range", 0.0),
+    ("setup.plant.parameters.rig.sensor.resolution", "/setup/plant/parameters/rig/sensor/resolution", -1.0),
+    ("setup.plant.parameters.rig.sensor.resolution", "/setup/plant/parameters/rig/sensor/resolution", 5e-324),
+    ("setup.plant.parameters.rig.sensor.resolution", "/setup/plant/parameters/rig/sensor/resolution", 0.9e-9),
+    ("setup.plant.parameters.rig.gravity", "/setup/plant/parameters/rig/gravity", 0.0),
+    ("setup.valves[1]", "/setup/valves/1", -0.1),
+    ("setup.operating_point.pump_voltage[0]", "/setup/operating_point/pump_voltage/0", -3.0),
+    ("setup.controller.loops[0].gain", "/setup/controller/loops/0/gain", 0.0),
+    ("setup.controller.loops[1].gain", "/setup/controller/loops/1/gain", -1e4),
+    ("setup.controller.loops[0].integral_time_s", "/setup/controller/loops/0/integral_time_s", 0.0),
+    ("setup.controller.loops[0].set_point_weight", "/setup/controller/loops/0/set_point_weight", 2.0),
+    (
+        "setup.controller.loops[1].anti_windup.back_calculation.tracking_ratio",
+        "/setup/controller/loops/1/anti_windup/back_calculation/tracking_ratio",
+        0.0,
+    ),
+    ("setup.controller.loops[0].mode.manual.output", "/setup/controller/loops/0/mode/manual/output", -1.0),
+    ("setup.controller.loops[0].mode.manual.until_s", "/setup/controller/loops/0/mode/manual/until_s", -1.0),
+    ("setup.controller.sampling_time_s", "/setup/controller/sampling_time_s", 0.0),
+    ("setup.experiment.duration_s", "/setup/experiment/duration_s", 1.0),
+    ("setup.experiment.duration_s", "/setup/controller/sampling_time_s", 0.06),
+    ("setup.experiment.set_point_steps[0].time_s", "/setup/experiment/set_point_steps/0/time_s", -1.0),
+    ("setup.experiment.set_point_steps[3].size", "/setup/experiment/set_point_steps/3/size", 11.0),
+    ("setup.experiment.load_steps[1].time_s", "/setup/experiment/load_steps/1/time_s", 1e6),
+    ("setup.experiment.load_steps[1].load.leak.area", "/setup/experiment/load_steps/1/load/leak/area", 1.0),
+    ("setup.experiment.load_steps[2].load.pump_flow.flow", "/setup/experiment/load_steps/2/load/pump_flow/flow", 1.0),
+    ("setup.experiment.measurement.noise_std", "/setup/experiment/measurement/noise_std", -0.1),
+    ("pinned[0].valves[0]", "/pinned/0/valves/0", 7.0),
+    ("pinned[0].operating_point.levels[1]", "/pinned/0/operating_point/levels/1", 70.0),
+    ("pinned[0].controller.sampling_time_s", "/pinned/0/controller/sampling_time_s", 100.0),
+    ("view.cursor_s", "/view/cursor_s", -1.0),
+    ("view.zoom_s[0]", "/view/zoom_s/0", -1.0),
+    ("view.zoom_s[1]", "/view/zoom_s/1", -1.0),
+    ("setup.experiment.duration_s", "/setup/experiment/duration_s", 1e9),
+];
+
+#[test]
+fn a_full_document_is_allowed() {
+    assert!(from_json(&full().to_string()).is_ok());
+}
+
+#[test]
+fn a_sensor_is_ideal_or_has_at_least_the_least_resolution() {
+    for resolution in [0.0, limits::LEAST_SENSOR_RESOLUTION, limits::SENSOR_RESOLUTION.max] {
+        let mut document = full();
+        *document.pointer_mut("/setup/plant/parameters/rig/sensor/resolution").unwrap() = json!(resolution);
+        assert!(from_json(&document.to_string()).is_ok(), "{resolution}");
+    }
+}
+
+#[test]
+fn every_number_out_of_range_names_itself_and_its_limits() {
+    for (path, pointer, wrong) in LEAVES {
+        let mut document = full();
+        // The experiment lasts 1750 s: with a sampling time of 0.06 s that would be too many samples.
+        *document.pointer_mut(pointer).unwrap() = json!(wrong);
+        match from_json(&document.to_string()) {
+            Err(ScenarioError::OutOfRange { field, value, min, max }) => {
+                assert_eq!(field, path);
+                assert!(value < min || value > max, "{path}: {value} in {min} to {max}");
+            }
+            other => panic!("{path}: {other:?}"),
+        }
+    }
+}
+
+#[test]
+fn an_index_beyond_its_list_names_itself() {
+    for (path, pointer) in [
+        ("setup.experiment.set_point_steps[0].level", "/setup/experiment/set_point_steps/0/level"),
+        ("setup.experiment.load_steps[0].load.pump_flow.pump", "/setup/experiment/load_steps/0/load/pump_flow/pump"),
+        ("setup.experiment.load_steps[1].load.leak.tank", "/setup/experiment/load_steps/1/load/leak/tank"),
+    ] {
+        let mut document = full();
+        *document.pointer_mut(pointer).unwrap() = json!(4);
+        let error = from_json(&document.to_string()).unwrap_err();
+        assert!(matches!(&error, ScenarioError::OutOfRange { field, value: 4.0, .. } if field == path), "{error}");
+    }
+}
+
+#[test]
+fn too_many_entries_are_counted() {
+    for (path, pointer, count, max) in [
+        ("setup.experiment.set_point_steps", "/setup/experiment/set_point_steps", 9, limits::MAX_STEPS),
+        ("setup.experiment.load_steps", "/setup/experiment/load_steps", 30, limits::MAX_STEPS),
+        ("pinned", "/pinned", 4, Scenario::MAX_PINNED),
+    ] {
+        let mut document = full();
+        let list = document.pointer_mut(pointer).unwrap();
+        *list = json!(vec![list[0].clone(); count]);
+        let expected = ScenarioError::TooMany { field: path.to_owned(), count, max };
+        assert_eq!(from_json(&document.to_string()), Err(expected));
+    }
+}
+
+#[test]
+fn every_field_of_the_wrong_kind_names_itself() {
+    for (path, pointer, _) in LEAVES {
+        let mut document = full();
+        *document.pointer_mut(pointer).unwrap() = json!("much");
+        let error = from_json(&document.to_string()).unwrap_err();
+        let ScenarioError::Malformed { path: found, reason } = &error else { panic!("{path}: {error}") };
+        assert_eq!(format!("/{}", found.replace('[', ".").replace(']', "").replace('.', "/")), pointer);
+        assert!(reason.contains("much"), "{path}: {reason}");
+    }
+}
+
+#[test]
+fn numbers_that_are_none_are_refused() {
+    let text = full().to_string();
+    for none in ["NaN", "1e999", "-1e999", "Infinity", "null", "\"1\"", "[]", "{}", "--1", "0x10", ""] {
+        let broken = text.replace("\"sampling_time_s\":1.0", &format!("\"sampling_time_s\":{none}"));
+        assert_ne!(broken, text);
+        let error = from_json(&broken).unwrap_err();
+        assert!(matches!(error, ScenarioError::Malformed { .. }), "{none}: {error}");
+    }
+    let mut scenario = Scenario::default();
+    scenario.setup.valves[0] = f64::NAN;
+    assert!(matches!(to_json(&scenario), Err(ScenarioError::OutOfRange { field, .. }) if field == "setup.valves[0]"));
+    assert!(matches!(to_link(&scenario), Err(ScenarioError::OutOfRange { .. })));
+}
+
+#[test]
+fn unknown_missing_and_double_fields_are_refused_by_name() {
+    let mut unknown = full();
+    unknown["setup"]["controller"]["loops"][0]["derivative_time_s"] = json!(1.0);
+    let error = from_json(&unknown.to_string()).unwrap_err().to_string();
+    assert!(error.starts_with("setup.controller.loops[0].derivative_time_s: unknown field"), "{error}");
+
+    let mut missing = full();
+    missing["setup"]["experiment"].as_object_mut().unwrap().remove("duration_s");
+    let error = from_json(&missing.to_string()).unwrap_err().to_string();
+    assert!(error.starts_with("setup.experiment: missing field `duration_s`"), "{error}");
+
+    let double = to_json(&Scenario::default()).unwrap().replacen("\"valves\"", "\"valves\": [0, 0], \"valves\"", 1);
+    let error = from_json(&double).unwrap_err().to_string();
+    assert!(error.starts_with("setup.valves: duplicate field `valves`"), "{error}");
+
+    let more = format!("{} {{}}", full());
+    let error = from_json(&more).unwrap_err().to_string();
+    assert!(error.starts_with("document: trailing characters"), "{error}");
+
+    let shorter = {
+        let mut shorter = full();
+        shorter["setup"]["valves"] = json!([0.5]);
+        shorter.to_string()
+    };
+    let error = from_json(&shorter).unwrap_err().to_string();
+    assert!(error.starts_with("setup.valves: invalid length 1, expected 2 elements"), "{error}");
+
+    let mode = |mode: Value| {
+        let mut document = full();
+        document["setup"]["controller"]["loops"][0]["mode"] = mode;
+        from_json(&document.to_string()).unwrap_err().to_string()
+    };
+    let path = "setup.controller.loops[0].mode";
+    for (value, error) in [
+        (json!("manual"), ".manual: a choice that needs a value"),
+        (json!({ "automatic": {} }), ".automatic: invalid type: map, expected a choice without a value"),
+        (json!({ "automatic": null }), ".automatic: invalid type: null, expected a choice without a value"),
+        (json!({}), ": invalid length 0, expected one choice"),
+        (json!({ "manual": {}, "automatic": {} }), ": invalid length 2, expected one choice"),
+        (json!({ "manual": [] }), ".manual: invalid type: list, expected a map"),
+        (json!({ "slow": 1 }), ": unknown variant `slow`, expected one of `automatic`, `manual`"),
+        (json!(1), ": invalid type: integer `1`, expected a choice"),
+    ] {
+        assert_eq!(mode(value), format!("{path}{error}"));
+    }
+
+    let mut other_rig = full();
+    other_rig["pinned"][0]["plant"] = json!({ "preset": "johansson-1999" });
+    let error = from_json(&other_rig.to_string()).unwrap_err().to_string();
+    assert!(error.starts_with("pinned[0].plant.preset: unknown variant `johansson-1999`"), "{error}");
+}
+
+#[test]
+fn what_may_be_absent_is_as_if_it_were_not_used() {
+    let mut document = full();
+    let fields = document.as_object_mut().unwrap();
+    fields.remove("view");
+    fields.remove("pinned");
+    let scenario = from_json(&document.to_string()).unwrap();
+    assert_eq!((scenario.pinned, scenario.view), (Vec::new(), View::default()));
+    document["view"] = json!({ "cursor_s": 7 });
+    let scenario = from_json(&document.to_string()).unwrap();
+    assert_eq!(scenario.view, View { cursor_s: Some(7.0), ..View::default() });
+}
+
+#[test]
+fn deep_nesting_ends_in_an_error() {
+    let text = format!("{{\"version\":1,\"setup\":{}", "[".repeat(DOCUMENT_LIMIT / 2));
+    assert!(matches!(from_json(&text), Err(ScenarioError::Malformed { .. })));
+}

@@ -1,0 +1,238 @@
+//! Relay-tuning documents: published cases, versions, bad input.
+
+use std::f64::consts::TAU;
+
+use quadtank::control::Pairing;
+use quadtank::linear::LoopStability;
+use quadtank::plant::PresetId;
+use quadtank::tuning::RelayReading;
+use quadtank_scenario::tuning::{
+    Element, PublishedCase, Study, TestKind, TestSpec, Tested, TuningPlant, TuningScenario, TuningSetup, tune,
+};
+use quadtank_scenario::{
+    Document, ScenarioError, document_from_json, document_from_link, from_json, tuning_to_json, tuning_to_link,
+};
+use serde_json::{Value, json};
+
+/// What print and computation differ in by more than the digits of the print and of its periods leave open. Where the source is
+/// called a slip elsewhere it is among them; the others are off by less than a unit of the last digit or 1 % of a period.
+const DIFFERENT: [(u32, usize, &str); 23] = [
+    // The gain of locus 1 belongs to another period.
+    (3, 1, "Kc"),
+    (3, 1, "Tc"),
+    (3, 1, "kp"),
+    (3, 1, "ki"),
+    (3, 2, "Tc"),
+    (3, 2, "kp"),
+    // Within the rounding of A and B.
+    (88, 1, "kp11"),
+    (88, 1, "kp21"),
+    (88, 1, "ki21"),
+    (88, 1, "kp22"),
+    (88, 1, "ki22"),
+    // Cut, not rounded.
+    (5, 1, "ki2"),
+    // r2 by its own definition is 6.58 and 0.564.
+    (7, 1, "r2"),
+    (7, 1, "Tc"),
+    (7, 2, "r2"),
+    (7, 2, "Tc"),
+    (7, 4, "kc1"),
+    (7, 4, "Tc"),
+    // p2 = α p1 gives −0.0245.
+    (9, 1, "ki2"),
+    (13, 2, "r2"),
+    (13, 2, "Tc"),
+    (13, 3, "Tc"),
+    // 0.357 min.
+    (0, 1, "td"),
+];
+
+#[test]
+fn every_published_case_gives_its_printed_numbers_but_for_those_known() {
+    let mut different = Vec::new();
+    for case in PublishedCase::all() {
+        let study = Study::of(&case.scenario().tuning.plant).unwrap();
+        let figures = case.figures(&study).unwrap();
+        assert!(!figures.is_empty(), "{}", case.name());
+        for figure in figures.iter().filter(|figure| !figure.agrees()) {
+            different.push((case.table, case.row, figure.symbol, figure.printed, figure.computed));
+        }
+    }
+    let names: Vec<_> = different.iter().map(|&(table, row, symbol, ..)| (table, row, symbol)).collect();
+    assert_eq!(names, DIFFERENT, "{different:?}");
+}
+
+#[test]
+fn every_published_placement_is_stable_but_one() {
+    for case in PublishedCase::all().filter(|case| case.is_placement()) {
+        let scenario = case.scenario();
+        let design = tune(&scenario.tuning).unwrap().design.unwrap();
+        let stable = design.roots[scenario.tuning.design.root - 1].stability == LoopStability::Stable;
+        assert_eq!(stable, case != PublishedCase { table: 15, row: 2 }, "{}", case.name());
+        // The figures of an unstable loop mean nothing.
+        assert_eq!(design.response.is_bounded, stable, "{}", case.name());
+    }
+}
+
+#[test]
+fn documents_of_both_versions_come_back() {
+    for case in PublishedCase::all() {
+        assert_eq!(PublishedCase::from_name(&case.name()), Some(case));
+        let text = tuning_to_json(&case.scenario()).unwrap();
+        assert_eq!(document_from_json(&text), Ok(Document::Tuning(case.scenario())));
+        // Who reads only the first version says so.
+        assert!(matches!(from_json(&text), Err(ScenarioError::UnknownVersion { found: 2, newest: 1 })));
+    }
+    let text = include_str!("../data/scenario-v1-johansson.json");
+    assert_eq!(document_from_json(text), from_json(text).map(Document::Quadruple));
+    let unknown = document_from_json(r#"{"version": 4}"#);
+    assert_eq!(unknown, Err(ScenarioError::UnknownVersion { found: 4, newest: 3 }));
+}
+
+#[test]
+fn a_wrong_field_is_named() {
+    let text = tuning_to_json(&PublishedCase { table: 5, row: 1 }.scenario()).unwrap();
+    let refused = |from: &str, to: &str| {
+        assert!(text.contains(from), "{from}");
+        document_from_json(&text.replacen(from, to, 1)).unwrap_err().to_string()
+    };
+    assert!(refused("\"root\": 2", "\"root\": 3").starts_with("tuning.design.root: 3"));
+    assert!(refused("\"step\": 0.05", "\"step\": 0.0").starts_with("tuning.test.step: 0"));
+    assert!(refused("\"period\": 12.9", "\"period\": -1").starts_with("tuning.design.critical.point.period: -1"));
+    assert!(refused("\"wood-berry\"", "\"wood\"").starts_with("tuning.plant.published"));
+}
+
+#[test]
+fn what_may_be_absent_is_as_if_it_were_not_used() {
+    let mut document: Value = serde_json::from_str(&tuning_to_json(&TuningScenario::default()).unwrap()).unwrap();
+    document.as_object_mut().unwrap().remove("pinned");
+    let tuning = &mut document["tuning"];
+    for (part, names) in [
+        ("test", &["number", "behind", "hysteresis", "bias", "detuning", "passes"][..]),
+        ("design", &["decoupler"]),
+        ("response", &["compare"]),
+    ] {
+        for name in names {
+            tuning[part].as_object_mut().unwrap().remove(*name).unwrap();
+        }
+    }
+    assert_eq!(document_from_json(&document.to_string()), Ok(Document::Tuning(TuningScenario::default())));
+
+    let rig = json!({ "preset": "johansson-2000-minimum-phase", "pairing": "diagonal" });
+    document["tuning"]["plant"] = json!({ "quadruple_tank": rig });
+    let Ok(Document::Tuning(scenario)) = document_from_json(&document.to_string()) else { panic!("a session") };
+    let expected = TuningPlant::QuadrupleTank {
+        preset: PresetId::JohanssonMinimumPhase,
+        valves: None,
+        pairing: Pairing::Diagonal,
+        dead_time_s: 0.0,
+        lag_s: 0.0,
+        nonlinear: false,
+    };
+    assert_eq!(scenario.tuning.plant, expected);
+    let element = json!({ "numerator": [1], "denominator": [1, 2.5] });
+    document["tuning"]["plant"] = json!({ "elements": [[element, element], [element, element]] });
+    let Ok(Document::Tuning(scenario)) = document_from_json(&document.to_string()) else { panic!("a session") };
+    let TuningPlant::Elements(rows) = &scenario.tuning.plant else { panic!("elements") };
+    assert_eq!(rows[1][0], Element { numerator: vec![1.0], denominator: vec![1.0, 2.5], dead_time: 0.0 });
+    assert_eq!(document_from_json(&tuning_to_json(&scenario).unwrap()), Ok(Document::Tuning(scenario)));
+}
+
+#[test]
+fn links_bring_sessions_back_and_are_short() {
+    let scenarios = PublishedCase::all().map(PublishedCase::scenario);
+    let rigs = PresetId::ALL
+        .map(|id| TuningScenario { tuning: TuningSetup::on(TuningPlant::rig(id)), ..TuningScenario::default() });
+    for scenario in scenarios.chain(rigs) {
+        let link = tuning_to_link(&scenario).unwrap();
+        assert_eq!(document_from_link(&link), Ok(Document::Tuning(scenario)), "{link}");
+        assert!(link.len() < 250, "{}: {link}", link.len());
+    }
+    let default = TuningScenario::default();
+    let full = TuningScenario { pinned: vec![default.tuning.clone(); TuningScenario::MAX_PINNED], ..default };
+    assert_eq!(document_from_link(&tuning_to_link(&full).unwrap()), Ok(Document::Tuning(full)));
+}
+
+// A link that is out in the world: this one never changes, nor does the dictionary.
+#[test]
+fn an_old_link_still_opens() {
+    let scenario = PublishedCase { table: 16, row: 2 }.scenario();
+    assert_eq!(
+        document_from_link(include_str!("../data/scenario-v2-table-16.link").trim()),
+        Ok(Document::Tuning(scenario))
+    );
+}
+
+#[test]
+fn a_session_on_a_rig_begins_with_a_test_that_oscillates() {
+    for id in PresetId::ALL {
+        let found = tune(&TuningSetup::on(TuningPlant::rig(id))).unwrap();
+        let Tested::Simultaneous(test, _) = found.test else { panic!("a simultaneous test") };
+        println!("{id:?}: {:?} {:?}", test.reading.verdict, test.reading.oscillation.map(|o| o.period));
+        let design = found.design.expect("an ultimate point");
+        println!(
+            "  {:?} {:?}",
+            design.roots.each_ref().map(|root| root.stability),
+            std::f64::consts::TAU / design.frequency
+        );
+    }
+}
+
+/// Two loops e^(−2s)/(10 s + 1) without interaction, under relays of amplitude 1, in tests of a kind.
+fn two_lags(kind: TestKind) -> TuningSetup {
+    let element = |gain: f64| Element { numerator: vec![gain], denominator: vec![1.0, 10.0], dead_time: 2.0 };
+    let mut setup = TuningScenario::default().tuning;
+    setup.plant = TuningPlant::Elements([[element(1.0), element(0.0)], [element(0.0), element(1.0)]]);
+    setup.test = TestSpec { kind, ..TestSpec::simultaneous(200.0, 0.0, 0.01) };
+    setup
+}
+
+/// Period and gain by first harmonics of both loops.
+fn oscillations(setup: &TuningSetup) -> [(f64, f64); 2] {
+    let study = Study::of(&setup.plant).unwrap();
+    let of = |reading: &RelayReading, index: usize| {
+        let oscillation = reading.oscillation.unwrap();
+        (oscillation.period, oscillation.loops[index].gain_by_harmonic.unwrap())
+    };
+    match study.test(setup).unwrap() {
+        Tested::Independent(loops) => [0, 1].map(|i| of(&loops[i].0.reading, i)),
+        Tested::Sequential(steps) => [0, 1].map(|i| of(&steps[i].test.reading, i)),
+        Tested::Simultaneous(test, _) => [0, 1].map(|i| of(&test.reading, i)),
+        Tested::Single(test, _) => [of(&test.reading, 0); 2],
+    }
+}
+
+/// Period, and gain by first harmonics, of 1/(10 s + 1) e^(−2 s) under a relay of amplitude 1, in closed form: when the relay
+/// has switched, the output goes on for the dead time and then turns.
+fn exact_oscillation(bias: f64, hysteresis: f64) -> (f64, f64) {
+    let (lag, dead_time) = (10.0, 2.0);
+    let (up, down) = (bias + 1.0, bias - 1.0);
+    let after_dead_time = |level: f64, input: f64| input + (level - input) * f64::exp(-dead_time / lag);
+    let bottom = after_dead_time(-hysteresis, down);
+    let top = after_dead_time(hysteresis, up);
+    let rising = lag * ((up - bottom) / (up - hysteresis)).ln();
+    let falling = lag * ((top - down) / (-hysteresis - down)).ln();
+    let period = 2.0 * dead_time + rising + falling;
+    (period, (TAU / period * lag).hypot(1.0))
+}
+
+#[test]
+fn bias_and_hysteresis_act_in_every_test_of_both_loops() {
+    for kind in [TestKind::Independent, TestKind::Sequential, TestKind::Simultaneous] {
+        for (bias, hysteresis) in [(0.0, 0.0), (0.3, 0.0), (0.0, 0.05), (-0.2, 0.1)] {
+            let mut setup = two_lags(kind);
+            (setup.test.bias, setup.test.hysteresis) = ([bias; 2], [hysteresis; 2]);
+            let (period, gain) = exact_oscillation(bias, hysteresis);
+            for found in oscillations(&setup) {
+                // Rows every 0.01 make the output straight lines: 1e-5 of a period.
+                assert!((found.0 / period - 1.0).abs() < 1e-5, "{kind:?}: {found:?}, {period}");
+                assert!((found.1 / gain - 1.0).abs() < 1e-5, "{kind:?}: {found:?}, {gain}");
+            }
+        }
+    }
+    // The figures of the closed form: 7.3318, 7.833 and 8.08, 9.039.
+    assert!((exact_oscillation(0.3, 0.0).0 - 7.833).abs() < 5e-4);
+    assert!((exact_oscillation(0.3, 0.0).1 - 8.08).abs() < 5e-3);
+    assert!((exact_oscillation(0.0, 0.05).0 - 9.039).abs() < 5e-4);
+}

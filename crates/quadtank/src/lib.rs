@@ -1,0 +1,26 @@
+//! Quadtank: a laboratory for multivariable control around Johansson's quadruple-tank process.
+//!
+//! The crate is a house of floors; each room imports only from the floors below its own. In reading order:
+//!
+//! | floor | room | what it is for |
+//! |---|---|---|
+//! | 1 | [`plant`] | what is really there: tanks, outlets, pumps, valves, sensors, and their nonlinear equations |
+//! | 1 | [`linear`] | what a linear model says: poles, transmission zeros and directions, frequency response |
+//! | 2 | [`interaction`] | what couples the loops: relative gain array, Niederlinski index, pairing |
+//! | 2 | [`control`] | what acts: sampled PI and PID controllers, alone, decentralised or as a matrix; relays |
+//! | 3 | [`sim`] | plant + controller + experiment → trajectories, events, metrics |
+//! | 4 | [`tuning`] | how gains are found: relay tests, ultimate points, critical curve, rules, placement |
+//!
+//! Under all of them lies `scalar`, a few private operations on numbers.
+//!
+//! The crate compiles without a browser, holds no text for people, and is in SI units (m, m², m³/s, s,
+//! V, rad/s) unless a name says otherwise. Tanks 1 and 2 are the lower ones; indices in code start at 0.
+
+mod scalar;
+
+pub mod control;
+pub mod interaction;
+pub mod linear;
+pub mod plant;
+pub mod sim;
+pub mod tuning;

@@ -1,0 +1,5 @@
+//! Figures of an independent computation: `data/quadruple-tank.json`, and closed forms.
+
+mod linear;
+mod plant;
+mod sim;

@@ -1,0 +1,171 @@
+//! The controls of the benches as data: what they read and write of a document.
+//!
+//! A control is a constant with function pointers, not a view with closures: each closure is a type of its own, for which
+//! Leptos compiles signals and callbacks anew. [`knob`] makes the view and is there once for each kind of document.
+
+use leptos::prelude::*;
+
+use super::lab::Lab;
+use super::start::Control;
+use super::widgets::{NumberField, Scale, Segmented, SliderField};
+use quadtank_scenario::Setup;
+
+/// The document of a bench, as its controls see it. A handle: copying it copies nothing.
+pub trait Document: Copy + Send + Sync + 'static {
+    /// What controls read and write.
+    type Setup: 'static;
+
+    /// What all benches share.
+    fn lab(self) -> Lab;
+
+    /// What `read` makes of the setup.
+    fn read<T>(self, read: impl FnOnce(&Self::Setup) -> T) -> T;
+
+    /// Changes the setup.
+    fn write(self, change: impl FnOnce(&mut Self::Setup));
+}
+
+impl Document for Lab {
+    type Setup = Setup;
+
+    fn lab(self) -> Lab {
+        self
+    }
+
+    fn read<T>(self, read: impl FnOnce(&Setup) -> T) -> T {
+        self.scenario.with(|s| read(&s.setup))
+    }
+
+    fn write(self, change: impl FnOnce(&mut Setup)) {
+        self.edit(change);
+    }
+}
+
+/// A stretch of numbers that depends on a setup.
+type Range<S> = fn(&S) -> (f64, f64);
+
+/// A number of a setup, or a pair of alike ones: an index of 0 or 1 says which.
+pub struct Knob<S> {
+    /// Names for tests: of the slider, and of the number field beside it or alone.
+    pub ids: [(&'static str, &'static str); 2],
+    /// Symbol or short text.
+    pub label: fn(Lab, usize) -> &'static str,
+    /// What it is, for screen readers.
+    pub name: fn(Lab, usize) -> String,
+    /// Reads it, in the shown unit.
+    pub read: fn(&S, usize) -> f64,
+    /// Writes it, from the shown unit.
+    pub write: fn(&mut S, usize, f64),
+    /// Smallest and largest allowed value.
+    pub limits: fn(&S, usize) -> (f64, f64),
+    /// Smallest allowed magnitude, where the sign is free but zero is not allowed.
+    pub smallest: f64,
+    /// Travel of the slider; `None` for a number field alone.
+    pub travel: Option<Range<S>>,
+    /// How keys and slider move it.
+    pub scale: Scale,
+    /// Decimals shown; `None` for three significant digits.
+    pub digits: Option<usize>,
+    /// The shown unit.
+    pub unit: fn(&S) -> &'static str,
+    /// Classes: the colours of the loops.
+    pub class: [&'static str; 2],
+    /// What it has to be a multiple of; 0 for any value.
+    pub grid: fn(&S) -> f64,
+    /// What locks it.
+    pub lock: Control,
+    /// Whether there is anything to set; `None` where there always is.
+    pub matters: Option<fn(&S) -> bool>,
+}
+
+impl<S> Knob<S> {
+    /// What most controls have in common.
+    pub const PLAIN: Self = Self {
+        ids: [("", ""); 2],
+        label: |_, _| "",
+        name: |_, _| String::new(),
+        read: |_, _| 0.0,
+        write: |_, _, _| (),
+        limits: |_, _| (0.0, 1.0),
+        smallest: 0.0,
+        travel: None,
+        scale: Scale::Linear(0.01),
+        digits: None,
+        unit: |_| "",
+        class: [""; 2],
+        grid: |_| 0.0,
+        lock: Control::Plant,
+        matters: None,
+    };
+}
+
+/// A slider with its number field, or a number field in a row of its own.
+pub fn knob<D: Document>(document: D, knob: &'static Knob<D::Setup>, index: usize) -> AnyView {
+    let &Knob { ids, scale, digits, smallest, class, .. } = knob;
+    let (id, class, lab) = (ids[index], class[index], document.lab());
+    let label = Signal::derive(move || (knob.label)(lab, index).to_owned());
+    let unit = lab.told(Signal::derive(move || document.read(knob.unit).to_owned()));
+    let Some(travel) = knob.travel else {
+        let name = Signal::derive(move || (knob.name)(lab, index));
+        return view! {
+            <div class=format!("field-row {class}")>
+                <span title=name>{label}</span>
+                {number(document, knob, index)}
+                <span class="unit">{unit}</span>
+            </div>
+        }
+        .into_any();
+    };
+    let Wires { name, value, on_change, limits, disabled } = wires(document, knob, index);
+    let travel = Signal::derive(move || document.read(travel));
+    view! { <SliderField id label name value on_change travel limits smallest scale digits unit class disabled /> }
+        .into_any()
+}
+
+/// The number field alone, for a row of another shape.
+pub fn number<D: Document>(document: D, knob: &'static Knob<D::Setup>, index: usize) -> AnyView {
+    let &Knob { ids, scale, digits, smallest, .. } = knob;
+    let Wires { name, value, on_change, limits, disabled } = wires(document, knob, index);
+    let grid = Signal::derive(move || document.read(knob.grid));
+    view! { <NumberField id=ids[index].1 name value on_change limits scale digits smallest grid disabled /> }.into_any()
+}
+
+/// A choice among few: texts with their names for tests.
+pub fn segmented<D: Document>(
+    document: D,
+    label: Signal<String>,
+    choices: Vec<(&'static str, Signal<String>)>,
+    read: fn(&D::Setup) -> usize,
+    write: fn(&mut D::Setup, usize),
+    lock: Control,
+) -> AnyView {
+    let choices = choices.into_iter().enumerate().map(|(index, (name, text))| (index, name, text)).collect();
+    let on_choose = Callback::new(move |index| document.write(|s| write(s, index)));
+    let value = document.lab().told(Signal::derive(move || document.read(read)));
+    let disabled = document.lab().locks(lock);
+    view! { <Segmented<usize> label choices value on_choose disabled /> }.into_any()
+}
+
+/// What connects a field with a document.
+struct Wires {
+    name: Signal<String>,
+    value: Signal<f64>,
+    on_change: Callback<f64>,
+    limits: Signal<(f64, f64)>,
+    disabled: Signal<bool>,
+}
+
+fn wires<D: Document>(document: D, knob: &'static Knob<D::Setup>, index: usize) -> Wires {
+    let (lab, locked) = (document.lab(), document.lab().locks(knob.lock));
+    // No memos: fields read all but the last when the words are told or a key is pressed, and do not follow it.
+    Wires {
+        name: Signal::derive(move || (knob.name)(lab, index)),
+        value: Signal::derive(move || document.read(|s| (knob.read)(s, index))),
+        on_change: Callback::new(move |value| document.write(|s| (knob.write)(s, index, value))),
+        limits: Signal::derive(move || document.read(|s| (knob.limits)(s, index))),
+        disabled: match knob.matters {
+            Some(matters) => Memo::new(move |_| locked || !document.read(matters)).into(),
+            None => locked.into(),
+        },
+    }
+}

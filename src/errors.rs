@@ -1,0 +1,106 @@
+//! Why a document was refused or has no result, in the language of the reader.
+
+use super::lab::Lab;
+use super::shown::{length_digits, to_shown, unit_name};
+use super::texts::tr;
+use quadtank::control::{EstimatorError, MAX_WINDOW_SAMPLES};
+use quadtank::plant::{DisplayUnit, PlantError};
+use quadtank_scenario::ScenarioError;
+use quadtank_scenario::tuning::ElementFault;
+
+/// One sentence; a field keeps its name from the document.
+pub fn of_error(lab: Lab, unit: DisplayUnit, error: &ScenarioError) -> String {
+    let number = |v: f64| lab.number_style().significant(v, 4);
+    match error {
+        ScenarioError::Malformed { path, reason } => {
+            tr!(lab, refused.malformed, path = path.clone(), reason = reason.clone()).to_string()
+        }
+        ScenarioError::DecimalComma { path, number, line, column } => tr!(
+            lab,
+            refused.decimal_comma,
+            path = path.clone(),
+            number = number.clone(),
+            line = *line,
+            column = *column
+        )
+        .to_string(),
+        ScenarioError::NotText => tr!(lab, refused.not_text).to_owned(),
+        ScenarioError::OutOfRange { field, value, min, max } => out_of_range(lab, field, *value, *min, *max),
+        ScenarioError::TooMany { field, count, max } => {
+            tr!(lab, refused.many, field = field.clone(), count = *count, max = *max).to_string()
+        }
+        ScenarioError::UnknownVersion { found, newest } => {
+            tr!(lab, refused.version, found = *found, newest = *newest).to_string()
+        }
+        ScenarioError::TooLong { length, max } => tr!(lab, refused.long, length = *length, max = *max).to_string(),
+        ScenarioError::DamagedLink => tr!(lab, refused.damaged).to_string(),
+        ScenarioError::TooMuchWork { time_s, .. } => {
+            tr!(lab, refused.too_much_work, time = lab.number_style().significant(*time_s, 3)).to_string()
+        }
+        ScenarioError::Plant(error) | ScenarioError::Start(error) => of_plant_error(lab, unit, error),
+        ScenarioError::Law { field, error } => match *error {
+            EstimatorError::WindowTooShort { window_s, sampling_time_s }
+            | EstimatorError::WindowTooLong { window_s, sampling_time_s }
+            | EstimatorError::WindowNotWhole { window_s, sampling_time_s } => tr!(
+                lab,
+                refused.window,
+                field = field.clone(),
+                window = number(window_s),
+                sampling = number(sampling_time_s),
+                most = MAX_WINDOW_SAMPLES
+            )
+            .to_string(),
+            EstimatorError::ModelGain { .. } => format!("{field}: {error}"),
+        },
+        ScenarioError::Element { field, fault } => {
+            tr!(lab, refused.element, field = field.clone(), reason = of_fault(lab, *fault)).to_string()
+        }
+        ScenarioError::Linear(error) => error.to_string(),
+    }
+}
+
+/// Why relay tuning does not work with an element.
+fn of_fault(lab: Lab, fault: ElementFault) -> String {
+    match fault {
+        ElementFault::NoDenominator => tr!(lab, refused.no_denominator).to_owned(),
+        ElementFault::Biproper { .. } => tr!(lab, refused.biproper).to_owned(),
+        ElementFault::Improper { .. } => tr!(lab, refused.improper).to_owned(),
+        ElementFault::Integrating => tr!(lab, refused.integrating).to_owned(),
+        ElementFault::Unstable { real_part } => {
+            tr!(lab, refused.unstable, real = lab.number_style().significant(real_part, 3)).to_string()
+        }
+    }
+}
+
+/// What walls and pumps do not allow.
+pub fn of_plant_error(lab: Lab, unit: DisplayUnit, error: &PlantError) -> String {
+    let style = lab.number_style();
+    let length = |m: f64| style.fixed(to_shown(m, unit), length_digits(unit) - 1);
+    match *error {
+        PlantError::SingularPlant { .. } => tr!(lab, process.no_equilibrium).to_string(),
+        PlantError::LevelOutOfRange { tank, value, max } => tr!(
+            lab,
+            process.too_high,
+            tank = tank + 1,
+            level = length(value),
+            height = length(max),
+            unit = unit_name(unit)
+        )
+        .to_string(),
+        PlantError::VoltageOutOfRange { pump, value, min, max } => tr!(
+            lab,
+            process.voltage_limit,
+            pump = pump + 1,
+            voltage = style.fixed(value, 2),
+            min = style.fixed(min, 1),
+            max = style.fixed(max, 1)
+        )
+        .to_string(),
+        PlantError::OutOfRange { field, value, min, max } => out_of_range(lab, field, value, min, max),
+    }
+}
+
+fn out_of_range(lab: Lab, field: &str, value: f64, min: f64, max: f64) -> String {
+    let number = |v: f64| lab.number_style().significant(v, 4);
+    tr!(lab, refused.range, field = field, value = number(value), min = number(min), max = number(max)).to_string()
+}

@@ -1,0 +1,96 @@
+//! What the paper claims, and what is left of it when it is computed.
+
+use leptos::prelude::*;
+
+use super::sentences::in_cm;
+use super::session::Session;
+use crate::start::Control;
+use crate::texts::{say, tr};
+use crate::widgets::html::rich;
+use crate::widgets::{card as card_of, handler, remark};
+use quadtank_scenario::model_free::{CheckedClaim, Claim, Standing, check_claims};
+
+const IDS: [&str; 5] = ["claim-a", "claim-b", "claim-zero", "claim-c", "claim-alpha"];
+
+/// The claims, each with its verdict, the figures behind it and the case that shows it.
+pub fn card(session: Session) -> AnyView {
+    let lab = session.lab;
+    // No published case is refused.
+    let claims = check_claims().unwrap_or_default();
+    let items: Vec<AnyView> = claims.into_iter().zip(IDS).map(|(claim, id)| item(session, claim, id)).collect();
+    let list = view! { <ol>{items}</ol> };
+    card_of("claims", say!(lab, free.claims), vec![remark(say!(lab, free.claims_remark))], vec![list.into_any()])
+}
+
+fn item(session: Session, claim: CheckedClaim, id: &'static str) -> AnyView {
+    let lab = session.lab;
+    let content = Signal::derive(move || {
+        let class = if claim.standing == Standing::Reproduced { "good" } else { "warm" };
+        let (said, found) = texts(session, &claim);
+        let standing = standing(session, &claim);
+        format!("<b>{}</b> <span class=\"badge {class}\">{}</span><br>{}", rich(said), rich(standing), rich(&found))
+    });
+    let disabled = lab.locks(Control::Experiment);
+    let show = move |_| {
+        session.load(claim.setup());
+        // The list stands below what it shows.
+        if let Ok(Some(course)) = document().query_selector(".bench.free .course") {
+            course.scroll_into_view();
+        }
+    };
+    view! {
+        <li>
+            <span data-testid=id inner_html=content></span>
+            <button type="button" class="button small" data-testid=format!("{id}-show") disabled=disabled on:click=handler(show)>{say!(lab, free.show)}</button>
+        </li>
+    }
+    .into_any()
+}
+
+fn standing(session: Session, claim: &CheckedClaim) -> &'static str {
+    let lab = session.lab;
+    match (claim.claim, claim.standing) {
+        (Claim::ModelGain, Standing::Reproduced) => tr!(lab, free.enough),
+        (_, Standing::Reproduced) => tr!(lab, free.reproduced),
+        (_, Standing::EqualSetPoints) => tr!(lab, free.equal_set_points),
+        (_, Standing::LimitedTime) => tr!(lab, free.limited_time),
+        (_, Standing::Refuted) => tr!(lab, free.refuted),
+    }
+}
+
+/// The claim, and what was found.
+fn texts(session: Session, claim: &CheckedClaim) -> (&'static str, String) {
+    let lab = session.lab;
+    let style = lab.number_style();
+    let number = |value: f64, digits| style.fixed(value, digits);
+    let [one, two, three, four] = claim.figures;
+    match claim.claim {
+        Claim::CaseA => {
+            let (iae, overshoot) = (number(in_cm(one), 0), number(100.0 * two, 0));
+            let (share, time) = (number(100.0 * three, 0), number(four, 0));
+            let found = tr!(lab, free.found_a, iae = iae, overshoot = overshoot, share = share, time = time);
+            (tr!(lab, free.claim_a), found)
+        }
+        Claim::CaseB => {
+            let (b, a) = (number(in_cm(one), 0), number(in_cm(two), 0));
+            let found = tr!(lab, free.found_b, b = b, a = a, ends = number(three, 0), lost = number(four, 0));
+            (tr!(lab, free.claim_b), found)
+        }
+        Claim::AnyZero => {
+            let (after, rga) = (number(one, 0), number(two, 2));
+            let (index, pole) = (number(three, 2), style.significant(four, 2));
+            let found = tr!(lab, free.found_zero, after = after, rga = rga, index = index, pole = pole);
+            (tr!(lab, free.claim_zero), found)
+        }
+        Claim::CaseC => {
+            let (equal, apart) = (number(in_cm(one), 2), number(in_cm(two), 1));
+            let found = tr!(lab, free.found_c, equal = equal, apart = apart, unequal = number(in_cm(three), 2));
+            (tr!(lab, free.claim_c), found)
+        }
+        Claim::ModelGain => {
+            let (smallest, alone) = (number(in_cm(one), 4), number(in_cm(two), 4));
+            let found = tr!(lab, free.found_alpha, smallest = smallest, alone = alone);
+            (tr!(lab, free.claim_alpha), found)
+        }
+    }
+}

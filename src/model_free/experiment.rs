@@ -1,0 +1,149 @@
+//! Which case is run, and what is asked of it.
+
+use leptos::prelude::*;
+
+use super::sentences::{in_cm, in_m};
+use super::session::Session;
+use crate::controls::{Knob, knob, segmented};
+use crate::start::Control;
+use crate::texts::{say, tr};
+use crate::widgets::{Scale, card as card_of, handler, remark};
+use quadtank_scenario::model_free::{
+    LONG_RUN_S, ModelFreeSetup, PublishedExperiment, PublishedValves, published_model_free,
+};
+
+const VALVE: Knob<ModelFreeSetup> = Knob {
+    ids: [("", "free-gamma1"), ("", "free-gamma2")],
+    label: |_, k| ["γ₁", "γ₂"][k],
+    name: |lab, k| tr!(lab, free.gamma, valve = k + 1),
+    read: |s, k| s.valves[k].middle(),
+    write: |s, k, middle| s.valves[k] = s.valves[k].around(middle),
+    // The middle of a valve that moves keeps away from both ends.
+    limits: |s, k| (s.valves[k].swing(), 1.0 - s.valves[k].swing()),
+    digits: Some(2),
+    lock: Control::Valves,
+    ..Knob::PLAIN
+};
+const STEP: Knob<ModelFreeSetup> = Knob {
+    ids: [("", "free-step1"), ("", "free-step2")],
+    label: |_, k| ["Δr₁", "Δr₂"][k],
+    name: |lab, k| tr!(lab, free.step, level = k + 1),
+    read: |s, k| in_cm(s.set_point_step(k)),
+    write: |s, k, size| s.set_set_point_step(k, in_m(size)),
+    limits: |s, k| {
+        let (least, most) = s.set_point_steps(k);
+        (in_cm(least), in_cm(most))
+    },
+    scale: Scale::Linear(0.1),
+    digits: Some(2),
+    unit: |_| "cm",
+    lock: Control::Experiment,
+    ..Knob::PLAIN
+};
+const NOISE: Knob<ModelFreeSetup> = Knob {
+    ids: [("", "free-noise"); 2],
+    label: |_, _| "σ",
+    name: |lab, _| tr!(lab, experiment.noise_name).to_owned(),
+    read: |s, _| in_cm(s.experiment.measurement.noise_std),
+    write: |s, _, noise| s.experiment.measurement.noise_std = in_m(noise),
+    limits: |_, _| (0.0, 5.0),
+    ..STEP
+};
+const DURATION: Knob<ModelFreeSetup> = Knob {
+    ids: [("", "free-end"); 2],
+    label: |_, _| "t",
+    name: |lab, _| tr!(lab, experiment.duration_name).to_owned(),
+    read: |s, _| s.experiment.duration_s,
+    write: |s, _, duration_s| s.experiment.duration_s = duration_s,
+    limits: |s, _| {
+        let limits = s.duration_s();
+        (limits.min.max(s.shortest_s()), limits.max)
+    },
+    scale: Scale::Linear(10.0),
+    digits: Some(0),
+    unit: |_| "s",
+    ..STEP
+};
+
+/// The case, the experiment, and their numbers.
+pub fn card(session: Session) -> AnyView {
+    let lab = session.lab;
+    let cases = vec![
+        ("free-a", say!(lab, free.case_a)),
+        ("free-b", say!(lab, free.case_b)),
+        ("free-c", say!(lab, free.case_c)),
+    ];
+    let experiments =
+        vec![("free-s1", say!(lab, free.s1)), ("free-s2", say!(lab, free.s2)), ("free-s3", say!(lab, free.s3))];
+    let numbers = [(&VALVE, 0), (&VALVE, 1), (&STEP, 0), (&STEP, 1), (&NOISE, 0), (&DURATION, 0)];
+    let numbers = numbers.map(|(number, index)| knob(session, number, index));
+    let long = session.flag(|s| s.experiment.duration_s == LONG_RUN_S);
+    let buttons = vec![
+        pressed(session, "free-long", say!(lab, free.long), long, |s| s.experiment.duration_s = LONG_RUN_S),
+        pressed(session, "free-pi", say!(lab, free.compare), session.flag(|s| s.compare.is_some()), compare),
+    ];
+    let content = vec![
+        segmented(session, say!(lab, free.case), cases, case_of, set_case, Control::Valves),
+        segmented(
+            session,
+            say!(lab, experiment.title),
+            experiments,
+            experiment_of,
+            set_experiment,
+            Control::Experiment,
+        ),
+        view! { <div class="pairs">{Vec::from(numbers)}</div> }.into_any(),
+        view! { <div class="toolbar">{buttons}</div> }.into_any(),
+    ];
+    card_of("case", say!(lab, free.case), vec![remark(say!(lab, free.source))], content)
+}
+
+/// A button that stays pressed while something is so.
+fn pressed(
+    session: Session,
+    id: &'static str,
+    text: Signal<String>,
+    value: Signal<bool>,
+    press: fn(&mut ModelFreeSetup),
+) -> AnyView {
+    let disabled = session.lab.locks(Control::Experiment);
+    let is_pressed = Signal::derive(move || value.get().to_string());
+    view! {
+        <button type="button" class="button small" data-testid=id aria-pressed=is_pressed disabled=disabled on:click=handler(move |_| session.edit(press))>{text}</button>
+    }
+    .into_any()
+}
+
+/// The published case whose valves these are; none of them for others.
+fn case_of(setup: &ModelFreeSetup) -> usize {
+    PublishedValves::ALL.iter().position(|case| case.schedules() == setup.valves).unwrap_or(usize::MAX)
+}
+
+fn set_case(setup: &mut ModelFreeSetup, index: usize) {
+    setup.valves = PublishedValves::ALL[index].schedules();
+    if setup.compare.is_some() {
+        setup.compare = Some(setup.usual_pi());
+    }
+}
+
+/// The published experiment that this is, whatever its duration.
+fn experiment_of(setup: &ModelFreeSetup) -> usize {
+    let is_same = |experiment: &PublishedExperiment| {
+        let published = published_model_free(PublishedValves::A, *experiment);
+        published.start == setup.start && published.experiment.set_point_steps == setup.experiment.set_point_steps
+    };
+    PublishedExperiment::ALL.iter().position(is_same).unwrap_or(usize::MAX)
+}
+
+/// The law, the noise and the valves stay.
+fn set_experiment(setup: &mut ModelFreeSetup, index: usize) {
+    let published = published_model_free(PublishedValves::A, PublishedExperiment::ALL[index]);
+    let measurement = setup.experiment.measurement;
+    setup.start = published.start;
+    setup.experiment = published.experiment;
+    setup.experiment.measurement = measurement;
+}
+
+fn compare(setup: &mut ModelFreeSetup) {
+    setup.compare = if setup.compare.is_some() { None } else { Some(setup.usual_pi()) };
+}

@@ -1,0 +1,207 @@
+//! The law: ultra-local model, feedback, estimator.
+
+use leptos::prelude::*;
+
+use super::sentences::{self, in_cm, in_m};
+use super::session::Session;
+use crate::controls::{Knob, knob, segmented};
+use crate::start::Control;
+use crate::texts::{say, tr};
+use crate::widgets::html::rich;
+use crate::widgets::{Scale, card as card_of};
+use quadtank::control::{EstimatorSettings, FedWith, ModelFreeSettings, ModelFreeWindup, Pairing, Quadrature, Window};
+use quadtank_scenario::limits;
+use quadtank_scenario::model_free::ModelFreeSetup;
+
+/// Tracking time of back-calculation when it is chosen (s).
+const TRACKING_TIME_S: f64 = 10.0;
+/// Samples of a window when the estimator is switched on.
+const USUAL_SAMPLES: f64 = 10.0;
+/// Most samples of a window: more than a page computes in a frame.
+const MOST_SAMPLES: f64 = 100.0;
+
+/// The law, eqs. 16 and 17 of the paper.
+const FORMULA: &str = "<math><mi>v</mi><mo>=</mo><mfrac><mrow><mo>−</mo><mover><mi>φ</mi><mo>^</mo></mover><mo>+</mo>\
+    <msub><mi>K</mi><mi>p</mi></msub><mi>e</mi><mo>+</mo><msub><mi>K</mi><mi>i</mi></msub><mo>∫</mo><mi>e</mi></mrow>\
+    <mover><mi>α</mi><mo>^</mo></mover></mfrac></math>";
+
+const MODEL_GAIN: Knob<ModelFreeSetup> = Knob {
+    ids: [("free-alpha", "free-alpha-number"); 2],
+    label: |_, _| "α̂",
+    name: |lab, _| tr!(lab, free.alpha).to_owned(),
+    read: |s, _| in_cm(s.controller.loops[0].model_gain),
+    write: |s, _, gain| in_both(s, &|l| l.model_gain = in_m(gain)),
+    limits: |_, _| (1e-4, 100.0),
+    travel: Some(|_| (0.02, 1.0)),
+    unit: |_| "cm/(s V)",
+    ..FEEDBACK
+};
+const PROPORTIONAL: Knob<ModelFreeSetup> = Knob {
+    ids: [("free-kp", "free-kp-number"); 2],
+    label: |_, _| "Kp",
+    name: |lab, _| tr!(lab, free.kp).to_owned(),
+    read: |s, _| s.controller.loops[0].proportional,
+    write: |s, _, gain| in_both(s, &|l| l.proportional = gain),
+    travel: Some(|_| (0.05, 20.0)),
+    unit: |_| "1/s",
+    ..FEEDBACK
+};
+const INTEGRAL: Knob<ModelFreeSetup> = Knob {
+    ids: [("free-ki", "free-ki-number"); 2],
+    label: |_, _| "Ki",
+    name: |lab, _| tr!(lab, free.ki).to_owned(),
+    read: |s, _| s.controller.loops[0].integral,
+    write: |s, _, gain| in_both(s, &|l| l.integral = gain),
+    travel: Some(|_| (0.001, 2.0)),
+    unit: |_| "1/s²",
+    ..FEEDBACK
+};
+const FEEDBACK: Knob<ModelFreeSetup> =
+    Knob { limits: |_, _| (0.0, 1000.0), scale: Scale::Logarithmic, lock: Control::Gains, ..Knob::PLAIN };
+const WINDOW: Knob<ModelFreeSetup> = Knob {
+    ids: [("", "free-window"); 2],
+    label: |_, _| "T",
+    name: |lab, _| tr!(lab, free.window).to_owned(),
+    read: |s, _| estimator(s).map_or(USUAL_SAMPLES * s.controller.sampling_time_s, |e| e.window_s),
+    write: |s, _, window_s| with_estimator(s, |e| e.window_s = window_s),
+    limits: |s, _| (2.0 * s.controller.sampling_time_s, MOST_SAMPLES * s.controller.sampling_time_s),
+    grid: |s| s.controller.sampling_time_s,
+    unit: |_| "s",
+    lock: Control::Gains,
+    matters: Some(|s| s.controller.estimator.is_some()),
+    ..Knob::PLAIN
+};
+const SAMPLING: Knob<ModelFreeSetup> = Knob {
+    ids: [("", "free-sampling"); 2],
+    label: |_, _| "Ts",
+    name: |lab, _| tr!(lab, pi.sampling).to_owned(),
+    read: |s, _| s.controller.sampling_time_s,
+    write: |s, _, time_s| s.controller = s.controller.with_sampling_time(time_s),
+    limits: |s, _| (limits::sampling_time_s(s.experiment.duration_s).min, 10.0),
+    scale: Scale::Linear(0.1),
+    unit: |_| "s",
+    lock: Control::Sampling,
+    ..Knob::PLAIN
+};
+
+/// The settings of the law.
+pub fn card(session: Session) -> AnyView {
+    let lab = session.lab;
+    let windows = vec![
+        ("free-off", say!(lab, free.off)),
+        ("free-block", say!(lab, free.block)),
+        ("free-sliding", say!(lab, free.sliding)),
+    ];
+    let sums =
+        vec![("free-rectangular", say!(lab, free.rectangular)), ("free-trapezoidal", say!(lab, free.trapezoidal))];
+    let feeds = vec![("free-applied", say!(lab, free.applied)), ("free-commanded", say!(lab, free.commanded))];
+    let windups = vec![
+        ("free-windup", say!(lab, free.windup_off)),
+        ("free-conditional", say!(lab, free.conditional)),
+        ("free-back", say!(lab, free.back_calculation)),
+    ];
+    let pairings = vec![("free-diagonal", say!(lab, pi.diagonal)), ("free-swapped", say!(lab, pi.swapped))];
+    let lock = Control::Gains;
+    let details = vec![
+        segmented(session, say!(lab, free.sum), sums, sum_of, set_sum, lock),
+        segmented(session, say!(lab, free.fed_with), feeds, feed_of, set_feed, lock),
+    ];
+    let times = vec![knob(session, &WINDOW, 0), knob(session, &SAMPLING, 0)];
+    let no_estimator = session.flag(|s| s.controller.estimator.is_none());
+    let content = vec![
+        view! { <div class="formula" inner_html=FORMULA></div> }.into_any(),
+        knob(session, &MODEL_GAIN, 0),
+        knob(session, &PROPORTIONAL, 0),
+        knob(session, &INTEGRAL, 0),
+        segmented(session, say!(lab, free.estimator), windows, window_of, set_window, lock),
+        view! { <div hidden=no_estimator class="estimator">{details}</div> }.into_any(),
+        view! { <div class="pairs">{times}</div> }.into_any(),
+        segmented(session, say!(lab, free.windup), windups, windup_of, set_windup, lock),
+        segmented(session, say!(lab, pi.pairing), pairings, pairing_of, set_pairing, Control::Pairing),
+        stability(session),
+    ];
+    card_of("law", say!(lab, free.law), Vec::new(), content)
+}
+
+/// What theory says of the loop.
+fn stability(session: Session) -> AnyView {
+    let class =
+        Signal::derive(move || if sentences::of_loop(session).0 { "sentence" } else { "sentence warm" }.to_owned());
+    let text = Signal::derive(move || rich(&sentences::of_loop(session).1));
+    view! { <p class=class role="status" data-testid="free-stability" inner_html=text></p> }.into_any()
+}
+
+/// Both loops have the same settings.
+fn in_both(setup: &mut ModelFreeSetup, change: &dyn Fn(&mut ModelFreeSettings)) {
+    setup.controller.loops.iter_mut().for_each(change);
+}
+
+fn estimator(setup: &ModelFreeSetup) -> Option<EstimatorSettings> {
+    setup.controller.estimator
+}
+
+fn with_estimator(setup: &mut ModelFreeSetup, change: impl FnOnce(&mut EstimatorSettings)) {
+    if let Some(estimator) = &mut setup.controller.estimator {
+        change(estimator);
+    }
+}
+
+fn sum_of(setup: &ModelFreeSetup) -> usize {
+    estimator(setup).map_or(0, |e| e.quadrature as usize)
+}
+
+fn set_sum(setup: &mut ModelFreeSetup, index: usize) {
+    with_estimator(setup, |e| e.quadrature = [Quadrature::Rectangular, Quadrature::Trapezoidal][index]);
+}
+
+fn feed_of(setup: &ModelFreeSetup) -> usize {
+    estimator(setup).map_or(0, |e| e.fed_with as usize)
+}
+
+fn set_feed(setup: &mut ModelFreeSetup, index: usize) {
+    with_estimator(setup, |e| e.fed_with = [FedWith::Applied, FedWith::Commanded][index]);
+}
+
+fn pairing_of(setup: &ModelFreeSetup) -> usize {
+    usize::from(setup.controller.pairing == Pairing::Swapped)
+}
+
+fn set_pairing(setup: &mut ModelFreeSetup, index: usize) {
+    setup.controller.pairing = [Pairing::Diagonal, Pairing::Swapped][index];
+}
+
+fn window_of(setup: &ModelFreeSetup) -> usize {
+    estimator(setup).map_or(0, |e| 1 + e.window as usize)
+}
+
+/// Off, or a window that is renewed in blocks or slides.
+fn set_window(setup: &mut ModelFreeSetup, index: usize) {
+    let Some(&window) = [Window::Block, Window::Sliding].get(index.wrapping_sub(1)) else {
+        setup.controller.estimator = None;
+        return;
+    };
+    let first = EstimatorSettings {
+        window_s: USUAL_SAMPLES * setup.controller.sampling_time_s,
+        window,
+        quadrature: Quadrature::Rectangular,
+        fed_with: FedWith::Applied,
+    };
+    setup.controller.estimator = Some(EstimatorSettings { window, ..estimator(setup).unwrap_or(first) });
+}
+
+fn windup_of(setup: &ModelFreeSetup) -> usize {
+    match setup.controller.loops[0].anti_windup {
+        ModelFreeWindup::Off => 0,
+        ModelFreeWindup::Conditional => 1,
+        ModelFreeWindup::BackCalculation { .. } => 2,
+    }
+}
+
+fn set_windup(setup: &mut ModelFreeSetup, index: usize) {
+    let chosen = match index {
+        0 => ModelFreeWindup::Off,
+        1 => ModelFreeWindup::Conditional,
+        _ => ModelFreeWindup::BackCalculation { tracking_time_s: TRACKING_TIME_S },
+    };
+    setup.controller.loops.iter_mut().for_each(|settings| settings.anti_windup = chosen);
+}

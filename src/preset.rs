@@ -1,0 +1,104 @@
+//! The choice of a published rig.
+
+use crate::widgets::handler;
+use leptos::prelude::*;
+
+use super::lab::Lab;
+use super::start::Control;
+use super::texts::{say, tr};
+use super::widgets::html::option;
+use quadtank::plant::PresetId;
+use quadtank_scenario::{PlantSpec, Scenario, setup_of};
+
+/// Name of a rig in the language of the laboratory.
+pub fn name_of(lab: Lab, id: PresetId) -> String {
+    match id {
+        PresetId::JohanssonMinimumPhase => tr!(lab, preset.johansson_minus),
+        PresetId::JohanssonNonMinimumPhase => tr!(lab, preset.johansson_plus),
+        PresetId::CocotaMinimumPhase => tr!(lab, preset.cocota_minus),
+        PresetId::CocotaNonMinimumPhase => tr!(lab, preset.cocota_plus),
+        PresetId::JunqueiraA => tr!(lab, preset.junqueira_a),
+        PresetId::JunqueiraB => tr!(lab, preset.junqueira_b),
+    }
+    .to_owned()
+}
+
+fn changed(lab: Lab, id: PresetId) -> String {
+    tr!(lab, preset.changed, name = name_of(lab, id)).to_string()
+}
+
+/// What to know about a rig.
+pub fn remark_of(lab: Lab, id: Option<PresetId>) -> String {
+    match id {
+        Some(PresetId::JohanssonMinimumPhase) => tr!(lab, preset.remark_johansson_minus),
+        Some(PresetId::JohanssonNonMinimumPhase) => tr!(lab, preset.remark_johansson_plus),
+        Some(PresetId::CocotaMinimumPhase) => tr!(lab, preset.remark_cocota_minus),
+        Some(PresetId::CocotaNonMinimumPhase) => tr!(lab, preset.remark_cocota_plus),
+        Some(PresetId::JunqueiraA | PresetId::JunqueiraB) => tr!(lab, preset.remark_junqueira),
+        None => tr!(lab, preset.remark_own),
+    }
+    .to_owned()
+}
+
+/// Loads a published rig with its published controller and experiment; pinned runs stay.
+pub fn load(lab: Lab, id: PresetId) {
+    lab.scenario.update(|s| {
+        let fresh = Scenario {
+            version: s.version,
+            setup: setup_of(id),
+            pinned: std::mem::take(&mut s.pinned),
+            view: s.view.clone(),
+        };
+        *s = fresh;
+        s.view.cursor_s = None;
+        s.view.zoom_s = None;
+    });
+}
+
+/// The rig in force, if it is a published one.
+pub fn chosen(lab: Lab) -> Signal<Option<PresetId>> {
+    let name = lab.part(|s| match s.plant {
+        PlantSpec::Preset(id) => id.name().to_owned(),
+        PlantSpec::Parameters { .. } => String::new(),
+    });
+    Signal::derive(move || name.with(|name| PresetId::from_name(name)))
+}
+
+/// What to know about the rig in force.
+pub fn preset_remark(lab: Lab) -> AnyView {
+    let id = chosen(lab);
+    view! { <p class="remark" data-testid="preset-remark">{Signal::derive(move || remark_of(lab, id.get()))}</p> }
+        .into_any()
+}
+
+/// The select with all published rigs.
+pub fn preset_choice(lab: Lab) -> AnyView {
+    let id = chosen(lab);
+    let on_change = move |event| {
+        if let Some(id) = PresetId::from_name(&event_target_value(&event)) {
+            load(lab, id);
+        }
+    };
+    let options = Signal::derive(move || {
+        // What was changed is none of the choices, so that choosing the same rig again brings it back.
+        let id = id.get();
+        let intact = id.filter(|&id| lab.words.setup.with(|setup| **setup == setup_of(id)));
+        let published = PresetId::ALL
+            .into_iter()
+            .map(|choice| option(choice.name(), &name_of(lab, choice), intact == Some(choice)));
+        let own = || id.map_or_else(|| tr!(lab, preset.own).to_owned(), |id| changed(lab, id));
+        let other = intact.is_none().then(|| option("", &own(), true));
+        other.into_iter().chain(published).collect::<String>()
+    });
+    view! {
+        <select
+            data-testid="preset"
+            aria-label=say!(lab, preset.choose)
+            title=Signal::derive(move || remark_of(lab, id.get()))
+            disabled=lab.locks(Control::Preset)
+            on:change=handler(on_change)
+            inner_html=options
+        ></select>
+    }
+    .into_any()
+}

@@ -1,0 +1,255 @@
+//! The decentralised PI controller.
+
+use leptos::prelude::*;
+
+use super::sentences;
+use crate::controls::{Knob, knob, number};
+use crate::lab::{Lab, use_lab};
+use crate::start::Control;
+use crate::texts::{say, tr};
+use crate::widgets::html::rich;
+use crate::widgets::{Scale, Segmented, card, handler, remark, tick};
+use quadtank::control::{AntiWindup, LoopMode, Pairing, PiSettings};
+use quadtank::interaction::PairingVerdict;
+use quadtank_scenario::{Setup, limits};
+
+/// Tt/Ti when anti-windup is switched on (Cocota 2009, ch. 4).
+const TRACKING_RATIO: f64 = 0.5;
+/// When a loop that is put into manual goes back to automatic, unless the student says otherwise (s).
+const MANUAL_UNTIL_S: f64 = 500.0;
+
+const SIGN_IDS: [&str; 2] = ["sign1", "sign2"];
+const MANUAL_IDS: [&str; 2] = ["manual1", "manual2"];
+const PAIRINGS: [Pairing; 2] = [Pairing::Diagonal, Pairing::Swapped];
+
+const GAIN: Knob<Setup> = Knob {
+    ids: [("gain1", "gain1-number"), ("gain2", "gain2-number")],
+    label: |_, k| ["K₁", "K₂"][k],
+    name: |lab, k| tr!(lab, pi.gain, level = k + 1),
+    read: |s, k| s.controller.loops[k].gain,
+    write: |s, k, gain| s.controller.loops[k].gain = gain,
+    limits: |_, _| (-limits::GAIN_MAGNITUDE.max, limits::GAIN_MAGNITUDE.max),
+    smallest: limits::GAIN_MAGNITUDE.min,
+    travel: Some(|_| (0.05, 50.0)),
+    unit: |_| "V/V",
+    ..OF_LOOP
+};
+const INTEGRAL_TIME: Knob<Setup> = Knob {
+    ids: [("integral1", "integral1-number"), ("integral2", "integral2-number")],
+    label: |_, k| ["Ti₁", "Ti₂"][k],
+    name: |lab, k| tr!(lab, pi.integral, level = k + 1),
+    read: |s, k| s.controller.loops[k].integral_time_s,
+    write: |s, k, time_s| s.controller.loops[k].integral_time_s = time_s,
+    limits: |_, _| (limits::INTEGRAL_TIME_S.min, limits::INTEGRAL_TIME_S.max),
+    travel: Some(|_| (3.0, 3000.0)),
+    unit: |_| "s",
+    ..OF_LOOP
+};
+const OF_LOOP: Knob<Setup> =
+    Knob { scale: Scale::Logarithmic, class: ["loop1-row", "loop2-row"], lock: Control::Gains, ..Knob::PLAIN };
+
+const WEIGHT: Knob<Setup> = Knob {
+    ids: [("weight", "weight-number"); 2],
+    label: |lab, _| tr!(lab, pi.weight_label),
+    name: |lab, _| tr!(lab, pi.weight).to_owned(),
+    read: |s, _| s.controller.loops[0].set_point_weight,
+    write: |s, _, weight| both(s, |l| l.set_point_weight = weight),
+    limits: |_, _| (limits::SET_POINT_WEIGHT.min, limits::SET_POINT_WEIGHT.max),
+    travel: Some(|_| (limits::SET_POINT_WEIGHT.min, limits::SET_POINT_WEIGHT.max)),
+    scale: Scale::Linear(0.05),
+    digits: Some(2),
+    ..FINE
+};
+const SAMPLING: Knob<Setup> = Knob {
+    ids: [("sampling", "sampling-number"); 2],
+    label: |lab, _| tr!(lab, pi.sampling_label),
+    name: |lab, _| tr!(lab, pi.sampling).to_owned(),
+    read: |s, _| s.controller.sampling_time_s,
+    write: |s, _, time_s| s.controller.sampling_time_s = time_s,
+    limits: |s, _| sampling_times(s),
+    travel: Some(sampling_times),
+    unit: |_| "s",
+    ..FINE
+};
+const TRACKING: Knob<Setup> = Knob {
+    ids: [("tracking", "tracking-number"); 2],
+    label: |lab, _| tr!(lab, pi.tracking_label),
+    name: |lab, _| tr!(lab, pi.tracking).to_owned(),
+    read: |s, _| match s.controller.loops[0].anti_windup {
+        AntiWindup::BackCalculation { tracking_ratio } => tracking_ratio,
+        AntiWindup::Off => TRACKING_RATIO,
+    },
+    write: |s, _, tracking_ratio| both(s, |l| l.anti_windup = AntiWindup::BackCalculation { tracking_ratio }),
+    limits: |_, _| (0.02, 20.0),
+    travel: Some(|_| (0.02, 20.0)),
+    matters: Some(is_guarded),
+    ..FINE
+};
+const MANUAL_UNTIL: Knob<Setup> = Knob {
+    ids: [("", "manual1-until"), ("", "manual2-until")],
+    name: |lab, k| tr!(lab, pi.manual_until, level = k + 1),
+    read: |s, k| manual(s, k).1,
+    write: |s, k, until_s| s.controller.loops[k].mode = LoopMode::Manual { output: manual(s, k).0, until_s },
+    limits: |_, _| (limits::TIME_S.min, limits::TIME_S.max),
+    scale: Scale::Linear(10.0),
+    digits: Some(0),
+    ..FINE
+};
+const MANUAL_OUTPUT: Knob<Setup> = Knob {
+    ids: [("", "manual1-output"), ("", "manual2-output")],
+    name: |lab, k| tr!(lab, pi.manual_output, level = k + 1),
+    read: |s, k| manual(s, k).0,
+    write: |s, k, output| s.controller.loops[k].mode = LoopMode::Manual { output, until_s: manual(s, k).1 },
+    limits: |s, k| s.plant().controller_limits()[s.controller.pairing.pump_of(k)],
+    scale: Scale::Linear(0.1),
+    digits: Some(2),
+    ..FINE
+};
+const FINE: Knob<Setup> =
+    Knob { scale: Scale::Logarithmic, class: ["wide"; 2], lock: Control::Sampling, ..Knob::PLAIN };
+
+fn both(setup: &mut Setup, change: impl Fn(&mut PiSettings)) {
+    setup.controller.loops.iter_mut().for_each(change);
+}
+
+fn sampling_times(setup: &Setup) -> (f64, f64) {
+    let limits = limits::sampling_time_s(setup.experiment.duration_s);
+    (limits.min, limits.max)
+}
+
+fn is_guarded(setup: &Setup) -> bool {
+    setup.controller.loops[0].anti_windup != AntiWindup::Off
+}
+
+/// Output of a loop in manual, and until when; zeros for one that is not.
+fn manual(setup: &Setup, index: usize) -> (f64, f64) {
+    match setup.controller.loops[index].mode {
+        LoopMode::Automatic => (0.0, 0.0),
+        LoopMode::Manual { output, until_s } => (output, until_s),
+    }
+}
+
+/// Pairing, gains and the fine print of the two loops.
+pub fn controller_card() -> AnyView {
+    let lab = use_lab();
+    let windup = lab.part(|s| s.controller.loops.iter().any(|l| l.anti_windup != AntiWindup::Off));
+    let about = Signal::derive(move || {
+        let windup = if windup.get() { tr!(lab, pi.windup_on) } else { tr!(lab, pi.windup_off) };
+        tr!(lab, pi.remark, windup = windup)
+    });
+    let stability = move || sentences::of_stability(lab);
+    let content = view! {
+        {pairing_switch(lab)}
+        {loop_controls(lab, 0)}
+        {loop_controls(lab, 1)}
+        <details class="more">
+            <summary data-testid="pi-more">{say!(lab, pi.more)}</summary>
+            {fine_print(lab)}
+        </details>
+        <p class=Signal::derive(move || if stability().1 { "sentence warm" } else { "sentence" }.to_owned()) role="status" data-testid="stability" inner_html=Signal::derive(move || rich(&stability().0))></p>
+    };
+    card("pi", say!(lab, pi.title), vec![remark(about)], vec![content.into_any()])
+}
+
+/// Shows the suggestion, obeys the student.
+fn pairing_switch(lab: Lab) -> AnyView {
+    let swapped = lab.part(|s| s.controller.pairing == Pairing::Swapped);
+    let chosen = Signal::derive(move || usize::from(swapped.get()));
+    let suggested = move || {
+        lab.words
+            .with_analysis(|a| match a.verdict {
+                PairingVerdict::Diagonal(_) => Some(0),
+                PairingVerdict::Swapped(_) => Some(1),
+                PairingVerdict::None(_) => None,
+            })
+            .flatten()
+    };
+    let choice = move |index: usize, id: &'static str| {
+        let text = Signal::derive(move || {
+            let name = if index == 0 { tr!(lab, pi.diagonal) } else { tr!(lab, pi.swapped) };
+            if suggested() == Some(index) { format!("{name} ✓") } else { name.to_owned() }
+        });
+        (index, id, text)
+    };
+    let fits = Signal::derive(move || suggested().is_none_or(|s| s == chosen.get()));
+    view! {
+        <Segmented
+            label=say!(lab, pi.pairing)
+            choices=vec![choice(0, "pairing-diagonal"), choice(1, "pairing-swapped")]
+            value=chosen
+            on_choose=move |index: usize| lab.edit(|s| s.controller.pairing = PAIRINGS[index])
+            disabled=lab.locks(Control::Pairing)
+        />
+        <p class="remark warm" hidden=fits>{say!(lab, pi.against)}</p>
+    }
+    .into_any()
+}
+
+fn loop_controls(lab: Lab, index: usize) -> AnyView {
+    let heading = Signal::derive(move || {
+        let pump = lab.scenario.with(|s| s.setup.controller.pairing.pump_of(index)) + 1;
+        tr!(lab, pi.heading, level = index + 1, pump = pump)
+    });
+    view! {
+        <h3 class=["loop1", "loop2"][index]>{heading}</h3>
+        {knob(lab, &GAIN, index)}
+        {knob(lab, &INTEGRAL_TIME, index)}
+    }
+    .into_any()
+}
+
+/// What most students leave alone: set-point weight, anti-windup, sampling time, sign and manual mode.
+fn fine_print(lab: Lab) -> AnyView {
+    let switch_windup = move |on| {
+        let choice = if on { AntiWindup::BackCalculation { tracking_ratio: TRACKING_RATIO } } else { AntiWindup::Off };
+        lab.edit(|s| both(s, |l| l.anti_windup = choice));
+    };
+    let guarded = lab.part(is_guarded);
+    vec![
+        knob(lab, &WEIGHT, 0),
+        knob(lab, &SAMPLING, 0),
+        tick("antiwindup", say!(lab, pi.antiwindup), guarded, lab.locks(Control::Sampling), switch_windup),
+        knob(lab, &TRACKING, 0),
+        manual_mode(lab, 0),
+        manual_mode(lab, 1),
+    ]
+    .into_any()
+}
+
+/// A loop in manual until a time, then handed over without a bump; and the sign of its gain.
+fn manual_mode(lab: Lab, index: usize) -> AnyView {
+    let by_hand = lab.part(move |s| s.controller.loops[index].mode != LoopMode::Automatic);
+    let rest = move || {
+        let pump = lab.scenario.with(|s| s.setup.controller.pairing.pump_of(index));
+        let power = lab.scenario.with(|s| s.setup.plant().power_gain);
+        lab.words.with_analysis(|a| a.operating_point.pump_voltage[pump] / power).unwrap_or_default()
+    };
+    let switch = move |on| {
+        let mode =
+            if on { LoopMode::Manual { output: untrack(rest), until_s: MANUAL_UNTIL_S } } else { LoopMode::Automatic };
+        lab.edit(|s| s.controller.loops[index].mode = mode);
+    };
+    let text = say!(lab, pi.manual, level = index + 1);
+    view! {
+        <div class="toolbar">
+            {tick(MANUAL_IDS[index], text, by_hand, lab.locks(Control::Sampling), switch)}
+            <button
+                type="button"
+                class="button small"
+                data-testid=SIGN_IDS[index]
+                disabled=lab.locks(Control::Gains)
+                aria-label=say!(lab, pi.sign, level = index + 1)
+                on:click=handler(move |_| lab.edit(|s| s.controller.loops[index].gain *= -1.0))
+            >
+                {["±K₁", "±K₂"][index]}
+            </button>
+        </div>
+        {move || by_hand.get().then(|| view! {
+            <div class="fields">
+                <div class="field-row">{number(lab, &MANUAL_UNTIL, index)}<span class="unit">"s"</span></div>
+                <div class="field-row">{number(lab, &MANUAL_OUTPUT, index)}<span class="unit">"V"</span></div>
+            </div>
+        }.into_any())}
+    }
+    .into_any()
+}

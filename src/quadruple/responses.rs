@@ -1,0 +1,239 @@
+//! The step responses: levels and pump voltages, with cursor, zoom, pinned runs, metrics and a data table.
+
+use leptos::prelude::*;
+
+use super::moment::{Moment, use_moment};
+use super::set_points::SetPoints;
+use super::{metrics, pictures};
+use crate::errors::of_error;
+use crate::lab::{Lab, use_lab};
+use crate::shown::{length_digits, to_shown, unit_name};
+use crate::texts::{say, tr};
+use crate::widgets::html::rich;
+use crate::widgets::{ChartCanvas, ChartMenu, DataTable, TimeAxis, TimeSurface, ZoomButtons, card, figures, handler};
+use quadtank::sim::{EventKind, LoopMetrics, Settling, Stability};
+use quadtank_figure::Frame;
+use quadtank_scenario::{Scenario, ScenarioError};
+
+/// The shortest stretch of time that can be shown (s).
+const SHORTEST_S: f64 = 5.0;
+
+/// The step responses.
+pub fn responses_card() -> AnyView {
+    let lab = use_lab();
+    let frames = RwSignal::new(Vec::<Frame>::new());
+    let held = RwSignal::new(None);
+    let picture = pictures::responses(lab, held);
+    let table_picture = picture.clone();
+    let axis = time_axis(lab);
+    let moment = use_moment();
+    let at_cursor = move |say: fn(Lab, &Moment) -> String| {
+        Signal::derive(move || moment.get().filter(|m| m.time_s.is_some()).map_or_else(String::new, |m| say(lab, &m)))
+    };
+    let title = say!(lab, responses.title);
+    let summary = say!(lab, responses.summary, sentence = sentence(lab).replace("**", ""));
+    let beside = view! {
+        <Toolbar axis />
+        <ChartMenu picture=picture.clone() file="responses" title />
+    };
+    let content = view! {
+        <div class="charts">
+            <div class="chart">
+                <ChartCanvas picture frames summary name="responses" />
+                <TimeSurface
+                    axis
+                    frames
+                    label=say!(lab, responses.cursor)
+                    spoken=at_cursor(spoken)
+                    readout=at_cursor(readout)
+                    id="responses-surface"
+                />
+                <SetPoints frames held />
+            </div>
+        </div>
+        <p class="sentence" role="status" data-testid="responses-sentence" inner_html=Signal::derive(move || rich(&sentence(lab)))></p>
+        {figures("metrics", say!(lab, responses.metrics), Signal::derive(move || metrics::table(lab)))}
+        <DataTable picture=table_picture id="data-table" />
+    };
+    card("responses", title, vec![beside.into_any()], vec![content.into_any()])
+}
+
+#[component]
+fn Toolbar(axis: TimeAxis) -> impl IntoView {
+    let lab = use_lab();
+    let pin = move |_| {
+        lab.scenario.update(|s| {
+            let setup = s.setup.clone();
+            s.pinned.push(setup);
+            if s.pinned.len() > Scenario::MAX_PINNED {
+                s.pinned.remove(0);
+            }
+        });
+    };
+    let linear = move || lab.scenario.with(|s| !s.view.hide_linear);
+    view! {
+        <div class="toolbar">
+            <button type="button" class="button small" data-testid="pin" on:click=handler(pin)>{say!(lab, responses.pin)}</button>
+            <button
+                type="button"
+                class="button small"
+                data-testid="unpin"
+                hidden=Signal::derive(move || lab.words.pinned.with(|p| p.is_empty()))
+                on:click=handler(move |_| lab.scenario.update(|s| s.pinned.clear()))
+            >
+                {say!(lab, responses.unpin)}
+            </button>
+            <button
+                type="button"
+                class="button small"
+                data-testid="linear"
+                aria-pressed=move || linear().to_string()
+                on:click=handler(move |_| lab.scenario.update(|s| s.view.hide_linear = !s.view.hide_linear))
+            >
+                {say!(lab, responses.hide_linear)}
+            </button>
+            <ZoomButtons axis ids=["zoom-in", "zoom-out", "zoom-reset"] />
+        </div>
+    }
+}
+
+/// The time of the run; zooming goes about the first step in sight.
+fn time_axis(lab: Lab) -> TimeAxis {
+    let window = move || lab.scenario.with(|s| s.view.zoom_s.map_or((0.0, s.setup.experiment.duration_s), Into::into));
+    let first_step = move || {
+        let (from, to) = window();
+        lab.scenario.with(|s| {
+            let times = s.setup.experiment.set_point_steps.iter().map(|step| step.time_s);
+            times.filter(|t| (from..=to).contains(t)).reduce(f64::min)
+        })
+    };
+    TimeAxis {
+        whole: lab.part(|s| (0.0, s.experiment.duration_s)),
+        window: Signal::derive(window),
+        cursor: Memo::new(move |_| lab.scenario.with(|s| s.view.cursor_s)).into(),
+        on_cursor: Callback::new(move |time| lab.scenario.update(|s| s.view.cursor_s = time)),
+        on_show: Callback::new(move |stretch: Option<(f64, f64)>| {
+            lab.scenario.update(|s| s.view.zoom_s = stretch.map(Into::into));
+        }),
+        about: Signal::derive(first_step),
+        shortest: SHORTEST_S,
+    }
+}
+
+/// A moment as it is shown at the cursor: time, both levels without their unit, both pump voltages.
+fn numbers(lab: Lab, m: &Moment) -> (String, [String; 2], [String; 2]) {
+    let style = lab.number_style();
+    let unit = lab.unit.get();
+    let level = |k: usize| style.fixed(to_shown(m.levels[k], unit), length_digits(unit));
+    let pump = |k: usize| style.fixed(m.pump_voltage[k], 2);
+    (style.fixed(m.time_s.unwrap_or(0.0), 0), [level(0), level(1)], [pump(0), pump(1)])
+}
+
+fn readout(lab: Lab, m: &Moment) -> String {
+    let (time, [h1, h2], [v1, v2]) = numbers(lab, m);
+    let u = unit_name(lab.unit.get());
+    let pair = |one: &str, two: &str| {
+        format!("<div><span class=\"loop1\">{one}</span> · <span class=\"loop2\">{two}</span></div>")
+    };
+    let levels = pair(&format!("h₁ {h1} {u}"), &format!("h₂ {h2} {u}"));
+    let pumps = pair(&format!("v₁ {v1} V"), &format!("v₂ {v2} V"));
+    format!("<div>t = {time} s</div>{levels}{pumps}")
+}
+
+fn spoken(lab: Lab, m: &Moment) -> String {
+    let (time, [h1, h2], [v1, v2]) = numbers(lab, m);
+    let u = unit_name(lab.unit.get());
+    format!("t = {time} s: h₁ {h1} {u}, h₂ {h2} {u}, v₁ {v1} V, v₂ {v2} V")
+}
+
+/// What the run says, in words: how each stepped level did, then what went wrong first.
+fn sentence(lab: Lab) -> String {
+    lab.words.run.with(|outcome| {
+        let run = match outcome.as_ref() {
+            Ok(run) => run,
+            Err(error @ ScenarioError::TooMuchWork { .. }) => return of_error(lab, lab.unit.get(), error),
+            Err(_) => return tr!(lab, responses.none).to_string(),
+        };
+        let mut parts: Vec<String> =
+            run.metrics.iter().enumerate().filter_map(|(k, m)| of_metrics(lab, k, m)).collect();
+        let unstable = lab.words.with_analysis(|a| a.closed_loop.stability == Stability::Unstable);
+        if unstable == Some(true) {
+            parts = vec![tr!(lab, responses.unstable).to_string()];
+        } else if parts.is_empty() {
+            let has_step = run.metrics.iter().any(|m| m.step_time_s.is_some());
+            let has_load = lab.words.setup.with(|s| !s.experiment.load_steps.is_empty());
+            let text = match (has_step, has_load) {
+                (true, _) => tr!(lab, responses.not_at_rest),
+                (false, true) => tr!(lab, responses.load_alone),
+                (false, false) => tr!(lab, responses.sentence_still),
+            };
+            parts.push(text.to_owned());
+        } else if lab.words.setup.with(|s| s.experiment.is_disturbed()) {
+            parts.push(tr!(lab, responses.disturbed).to_string());
+        }
+        parts.extend(run.nonlinear.events.iter().take(MOST_EVENTS).map(|event| {
+            let time = lab.number_style().fixed(event.time_s, 0);
+            match event.kind {
+                EventKind::Overflow { tank } => {
+                    tr!(lab, responses.event_overflow, tank = tank + 1, time = time).to_string()
+                }
+                EventKind::Empty { tank } => tr!(lab, responses.event_empty, tank = tank + 1, time = time).to_string(),
+                EventKind::Saturated { pump } => {
+                    tr!(lab, responses.event_saturated, pump = pump + 1, time = time).to_string()
+                }
+            }
+        }));
+        parts.join(" ")
+    })
+}
+
+/// Most events that the sentence tells.
+const MOST_EVENTS: usize = 4;
+
+fn of_metrics(lab: Lab, index: usize, metrics: &LoopMetrics) -> Option<String> {
+    let style = lab.number_style();
+    let unit = lab.unit.get();
+    let window_s = metrics.window_s?;
+    let window = style.significant(window_s, 3);
+    let cross = style.fixed(to_shown(metrics.other_peak, unit), length_digits(unit));
+    let (level, other) = (index + 1, 2 - index);
+    Some(match metrics.settling_2_percent? {
+        Settling::After { time_s } => {
+            // As many digits as in the table below.
+            let percent = 100.0 * metrics.overshoot.unwrap_or(0.0);
+            let overshoot = if percent < 0.05 {
+                tr!(lab, responses.without_overshoot).to_string()
+            } else {
+                let share = format!("{}\u{a0}%", style.fixed(percent, 1));
+                tr!(lab, responses.with_overshoot, share = share).to_string()
+            };
+            let time = style.significant(time_s, 3);
+            // Where it is over so soon, what comes later may be worse.
+            let is_short = window_s < 2.0 * time_s;
+            let watched =
+                if is_short { tr!(lab, responses.watched, window = window).to_string() } else { String::new() };
+            tr!(
+                lab,
+                responses.sentence_settles,
+                level = level,
+                time = time,
+                watched = watched,
+                overshoot = overshoot,
+                other = other,
+                cross = cross,
+                unit = unit_name(unit)
+            )
+            .to_string()
+        }
+        Settling::Never => tr!(
+            lab,
+            responses.sentence_never,
+            level = level,
+            window = window,
+            other = other,
+            cross = cross,
+            unit = unit_name(unit)
+        )
+        .to_string(),
+    })
+}

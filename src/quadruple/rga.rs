@@ -1,0 +1,120 @@
+//! The relative gain array, the pairing it suggests, and the formula with the live numbers.
+
+use leptos::prelude::*;
+
+use crate::lab::{Lab, use_lab};
+use crate::texts::{say, tr};
+use crate::widgets::html::{element, escape, rich};
+use crate::widgets::{card, remark, verdict};
+use quadtank::interaction::{PairingReason, PairingVerdict};
+use quadtank_scenario::Analysis;
+
+/// Relative gains above this make a plant hard to control: some directions need far more input than others.
+const LARGE: f64 = 5.0;
+
+/// The relative gain array.
+pub fn relative_gain_card() -> AnyView {
+    let lab = use_lab();
+    let found = move || lab.words.with_analysis(|a| a.verdict);
+    let text = Signal::derive(move || {
+        let text = found().map_or_else(|| tr!(lab, process.no_equilibrium).to_owned(), |v| of_verdict(lab, v));
+        element("p", "", &rich(&text))
+    });
+    let warm = Signal::derive(move || matches!(found(), Some(PairingVerdict::None(_)) | None));
+    let content = view! {
+        <table class="gains" inner_html=Signal::derive(move || gains(lab))></table>
+        <div class="formula" inner_html=Signal::derive(move || formula(lab))></div>
+        {verdict("rga-verdict".to_owned(), warm, text)}
+        <p class="remark" data-testid="niederlinski">{Signal::derive(move || of_niederlinski(lab))}</p>
+    };
+    card("rga", say!(lab, rga.title), vec![remark(say!(lab, rga.remark))], vec![content.into_any()])
+}
+
+/// Λ as a table; rows and columns sum to 1, so one number makes it.
+fn gains(lab: Lab) -> String {
+    let rga = lab.words.with_analysis(Analysis::rga).flatten();
+    let chosen = |row: usize, column: usize| match lab.words.with_analysis(|a| a.verdict) {
+        Some(PairingVerdict::Diagonal(_)) => row == column,
+        Some(PairingVerdict::Swapped(_)) => row != column,
+        _ => false,
+    };
+    let cell = |row: usize, column: usize| {
+        let gain = rga.map(|gains| gains[row][column]);
+        let sign = if gain.is_some_and(|g| g > 0.0) { "positive" } else { "negative" };
+        let text = gain.map_or_else(|| unbounded(lab), |g| lab.number_style().at_least(g, 2));
+        let number = element("span", &format!("data-testid=\"lambda-{}{}\"", row + 1, column + 1), &text);
+        if chosen(row, column) {
+            let note = format!(" ({})", escape(tr!(lab, rga.suggested)));
+            let note = element("span", "class=\"visually-hidden\"", &note);
+            element("td", &format!("class=\"{sign} chosen\""), &(number + &note))
+        } else {
+            element("td", &format!("class=\"{sign}\""), &number)
+        }
+    };
+    let heading = |scope: &str, text: String| element("th", &format!("scope=\"{scope}\""), &escape(&text));
+    let pump = |column: usize| heading("col", tr!(lab, rga.pump, number = column + 1));
+    let row = |row: usize| {
+        let level = heading("row", tr!(lab, rga.level, number = row + 1));
+        format!("<tr>{level}{}{}</tr>", cell(row, 0), cell(row, 1))
+    };
+    let caption = element("caption", "class=\"visually-hidden\"", &escape(tr!(lab, rga.table)));
+    let head = format!("<thead><tr><td></td>{}{}</tr></thead>", pump(0), pump(1));
+    format!("{caption}{head}<tbody>{}{}</tbody>", row(0), row(1))
+}
+
+/// A relative gain that there is not: beyond all bounds, or 0/0 where the plant is singular at every frequency.
+fn unbounded(lab: Lab) -> String {
+    let is_degenerate = lab.words.with_analysis(|a| a.zeros.is_err()) == Some(true);
+    if is_degenerate { "–" } else { "∞" }.to_owned()
+}
+
+/// λ11 = γ1γ2/(γ1+γ2−1) with the numbers in it (Cocota 2009, eq. 4.10).
+fn formula(lab: Lab) -> String {
+    let number = |v: f64| lab.number_style().at_least(v, 2);
+    let value = lab.words.with_analysis(|a| a.rga_11.ok()).flatten().map_or_else(|| unbounded(lab), number);
+    let [g1, g2] = lab.words.setup.with(|s| s.valves);
+    let [first, second] = [g1, g2].map(|gamma| lab.number_style().fixed(gamma, 2));
+    let below = number(g1 + g2 - 1.0);
+    let gamma = |k: u8| format!("<msub><mi>γ</mi><mn>{k}</mn></msub>");
+    let (one, two) = (gamma(1), gamma(2));
+    format!(
+        "<math><msub><mi>λ</mi><mn>11</mn></msub><mo>=</mo>\
+         <mfrac><mrow>{one}{two}</mrow><mrow>{one}<mo>+</mo>{two}<mo>−</mo><mn>1</mn></mrow></mfrac><mo>=</mo>\
+         <mfrac><mrow><mn>{first}</mn><mo>·</mo><mn>{second}</mn></mrow><mn>{below}</mn></mfrac><mo>=</mo>\
+         <mn data-testid=\"lambda\">{value}</mn></math>"
+    )
+}
+
+fn of_verdict(lab: Lab, verdict: PairingVerdict) -> String {
+    let style = lab.number_style();
+    if let PairingVerdict::None(PairingReason::EqualRelativeGains) = verdict {
+        return tr!(lab, rga.equal).to_owned();
+    }
+    let (lead, reason) = match verdict {
+        PairingVerdict::Diagonal(reason) => (tr!(lab, rga.diagonal), reason),
+        PairingVerdict::Swapped(reason) => (tr!(lab, rga.swapped), reason),
+        PairingVerdict::None(reason) => (tr!(lab, rga.none), reason),
+    };
+    let rest = match reason {
+        PairingReason::OnlyPositiveRelativeGain { relative_gain } => {
+            tr!(lab, rga.only_positive, other = style.at_least(1.0 - relative_gain, 2)).to_string()
+        }
+        PairingReason::RelativeGainCloserToOne { relative_gain } => {
+            tr!(lab, rga.closer, gain = style.fixed(relative_gain, 2)).to_string()
+        }
+        PairingReason::EqualRelativeGains => String::new(),
+        PairingReason::SingularGain => tr!(lab, rga.singular).to_string(),
+    };
+    let is_large = lab.words.with_analysis(|a| a.rga_11.is_ok_and(|gain| gain.abs() > LARGE)) == Some(true);
+    format!("{lead}{rest}{}", if is_large { tr!(lab, rga.large) } else { "" })
+}
+
+fn of_niederlinski(lab: Lab) -> String {
+    let number = |index: Option<f64>| index.map_or_else(|| "–".to_owned(), |n| lab.number_style().at_least(n, 2));
+    lab.words
+        .with_analysis(|a| {
+            let [diagonal, swapped] = a.niederlinski.map(number);
+            tr!(lab, rga.niederlinski, diagonal = diagonal, swapped = swapped).to_string()
+        })
+        .unwrap_or_default()
+}

@@ -1,0 +1,173 @@
+//! The valve plane: γ1 across, γ2 upwards, shaded by the right-most zero, with a point to drag.
+
+use leptos::ev::KeyboardEvent;
+use leptos::prelude::*;
+
+use super::{pictures, sentences};
+use crate::lab::{Lab, use_lab};
+use crate::preset::{chosen, load, name_of};
+use crate::start::Control;
+use crate::texts::{say, tr};
+use crate::widgets::html::escape;
+use crate::widgets::{ChartCanvas, ChartMenu, Nudge, PointHandle, card, first_frame, handler, remark, sentence};
+use quadtank::plant::PresetId;
+use quadtank_figure::Frame;
+
+/// Steps of the arrow keys between shut and open.
+const STEPS: f64 = 100.0;
+/// Step of the arrow keys.
+pub const STEP: f64 = 1.0 / STEPS;
+
+/// The valve plane.
+pub fn valve_plane_card() -> AnyView {
+    let lab = use_lab();
+    let frames = RwSignal::new(Vec::<Frame>::new());
+    let picture = pictures::valve_plane(lab);
+    let title = say!(lab, valves.title);
+    let summary = Signal::derive(move || {
+        let [g1, g2] = lab.words.setup.with(|s| s.valves);
+        let style = lab.number_style();
+        tr!(lab, valves.summary, gamma1 = style.fixed(g1, 2), gamma2 = style.fixed(g2, 2))
+    });
+    let menu = view! { <ChartMenu picture=picture.clone() file="valve-plane" title /> }.into_any();
+    let hint = (!lab.locks(Control::Valves)).then(|| remark(say!(lab, valves.remark)));
+    let beside = hint.into_iter().chain([menu]).collect();
+    let content = vec![
+        view! {
+            <div class="chart square">
+                <ChartCanvas picture frames summary name="valve-plane" />
+                <Overlay frames />
+            </div>
+        }
+        .into_any(),
+        sentence("valves-sentence", Signal::derive(move || sentences::of_rightmost(lab))),
+    ];
+    card("plane", title, beside, content)
+}
+
+/// What lies over the picture: guides, published points and the point to drag.
+#[component]
+fn Overlay(frames: RwSignal<Vec<Frame>>) -> impl IntoView {
+    // The overlay stands from the start and moves with the picture: rebuilding it would take the focus from the handle.
+    view! {
+        <svg class="over" aria-hidden="false">
+            <path class="guide" d=guides(use_lab(), frames)></path>
+            <PublishedPoints frames />
+            <SettingHandle frames />
+        </svg>
+    }
+}
+
+/// From the point to both axes.
+fn guides(lab: Lab, frames: RwSignal<Vec<Frame>>) -> Signal<String> {
+    let [gamma_1, gamma_2] = [0, 1].map(|valve| lab.part(move |s| s.valves[valve]));
+    Signal::derive(move || {
+        let frame = first_frame(frames);
+        let (left, bottom) = (frame.plot.left, frame.plot.bottom());
+        let (x, y) = frame.to_px((gamma_1.get(), gamma_2.get()));
+        format!("M{left} {y}H{x}M{x} {bottom}V{y}")
+    })
+}
+
+/// Settings of the same source, to load with a click.
+#[component]
+fn PublishedPoints(frames: RwSignal<Vec<Frame>>) -> impl IntoView {
+    let lab = use_lab();
+    let rig = chosen(lab);
+    let points = move || {
+        let source = rig.get().map(|id| id.preset().source);
+        PresetId::ALL
+            .into_iter()
+            .filter(|id| Some(id.preset().source) == source)
+            .map(|id| view! { <PublishedPoint id frames /> }.into_any())
+            .collect::<Vec<_>>()
+    };
+    view! { {points} }
+}
+
+#[component]
+fn PublishedPoint(id: PresetId, frames: RwSignal<Vec<Frame>>) -> impl IntoView {
+    let lab = use_lab();
+    let valves = id.preset().plant.valves;
+    let place = move || {
+        let (x, y) = first_frame(frames).to_px(valves.into());
+        format!("translate({x} {y})")
+    };
+    let short = match id {
+        PresetId::JohanssonMinimumPhase | PresetId::CocotaMinimumPhase => "P−",
+        PresetId::JohanssonNonMinimumPhase | PresetId::CocotaNonMinimumPhase => "P+",
+        PresetId::JunqueiraA => "a",
+        PresetId::JunqueiraB => "b",
+    };
+    let label = Signal::derive(move || {
+        let style = lab.number_style();
+        let (gamma1, gamma2) = (style.fixed(valves[0], 2), style.fixed(valves[1], 2));
+        tr!(lab, valves.published, name = name_of(lab, id), gamma1 = gamma1, gamma2 = gamma2).to_string()
+    });
+    let look = Signal::derive(move || {
+        format!(
+            "<title>{}</title><circle class=\"hit\" r=\"14\"/><circle class=\"mark\" r=\"4.5\"/>\
+             <text x=\"13\" y=\"18\">{short}</text>",
+            escape(&label.get())
+        )
+    });
+    let choose = move || {
+        if !lab.locks(Control::Preset) {
+            load(lab, id);
+        }
+    };
+    let on_key = move |event: KeyboardEvent| {
+        if matches!(event.key().as_str(), "Enter" | " ") {
+            event.prevent_default();
+            choose();
+        }
+    };
+    view! {
+        <g
+            class="published"
+            role="button"
+            tabindex="0"
+            aria-label=label
+            data-testid=format!("point-{}", id.name())
+            transform=place
+            on:click=handler(move |_| choose())
+            on:keydown=handler(on_key)
+            inner_html=look
+        ></g>
+    }
+}
+
+/// The point: dragged by mouse, pen or finger, moved by the arrow keys.
+#[component]
+fn SettingHandle(frames: RwSignal<Vec<Frame>>) -> impl IntoView {
+    let lab = use_lab();
+    let [gamma_1, gamma_2] = [0, 1].map(|valve| lab.part(move |s| s.valves[valve]));
+    let set = move |(g1, g2): (f64, f64)| lab.edit(|s| s.valves = [g1, g2].map(on_grid));
+    let spoken = move || {
+        let style = lab.number_style();
+        format!("γ₁ {}, γ₂ {}", style.fixed(gamma_1.get(), 2), style.fixed(gamma_2.get(), 2))
+    };
+    let on_nudge = move |by: Nudge| {
+        let moved = |gamma: f64, steps: f64| gamma + STEP * (steps + by.page);
+        set((moved(gamma_1.get_untracked(), by.right), moved(gamma_2.get_untracked(), by.up)));
+    };
+    view! {
+        <PointHandle
+            id="valve-handle"
+            label=say!(lab, valves.handle)
+            at=Signal::derive(move || (gamma_1.get(), gamma_2.get()))
+            value=gamma_1
+            limits=(0.0, 1.0)
+            spoken=Signal::derive(spoken)
+            locked=lab.locks(Control::Valves)
+            on_move=set
+            on_nudge
+            frames
+        />
+    }
+}
+
+/// The nearest valve fraction that a handle can be set to.
+pub fn on_grid(gamma: f64) -> f64 {
+    (gamma.clamp(0.0, 1.0) * STEPS).round() / STEPS
+}

@@ -1,0 +1,202 @@
+//! Step 2: the critical curve, and the point on it that the placement starts from.
+
+use leptos::ev::MouseEvent;
+use leptos::prelude::*;
+use leptos::wasm_bindgen::JsCast;
+
+use super::card::{Step, card};
+use super::errors;
+use super::pictures;
+use super::session::{Session, time_unit, use_session};
+use crate::controls::{Knob, knob};
+use crate::start::Control;
+use crate::texts::{say, tr};
+use crate::widgets::{Nudge, PointHandle, Scale, figures, first_frame, handler, html, remark};
+use quadtank::tuning::{GainLimit, importance_direction};
+use quadtank_figure::Frame;
+use quadtank_scenario::tuning::{CriticalSpec, TuningSetup};
+
+/// Importances that can be chosen.
+const IMPORTANCES: (f64, f64) = (0.001, 1000.0);
+/// Ratio of one step of the arrow keys.
+const STEP: f64 = 1.05;
+
+const IMPORTANCE: Knob<TuningSetup> = Knob {
+    ids: [("importance", "importance-number"); 2],
+    label: |_, _| "r₂",
+    name: |lab, _| tr!(lab, relay.importance).to_owned(),
+    read: |s, _| importance(s),
+    write: |s, _, r| s.design.critical = CriticalSpec::Importance(r),
+    limits: |_, _| IMPORTANCES,
+    travel: Some(|_| IMPORTANCES),
+    scale: Scale::Logarithmic,
+    lock: Control::Point,
+    ..Knob::PLAIN
+};
+
+/// The critical curve.
+pub fn curve_card() -> AnyView {
+    let session = use_session();
+    let lab = session.lab;
+    let frames = RwSignal::new(Vec::<Frame>::new());
+    let chosen = Signal::from(Memo::new(move |_| pictures::chosen_point(session.charts)));
+    let picture = pictures::curve(session, chosen);
+    let table = Signal::derive(move || table(session));
+    let settings = vec![
+        knob(session, &IMPORTANCE, 0),
+        figures("critical-point", say!(lab, relay.curve_caption), table),
+        remark(say!(lab, relay.importance_formula)),
+    ];
+    card(Step {
+        name: "curve",
+        number: 2,
+        title: say!(lab, relay.curve),
+        toolbar: remark(say!(lab, relay.curve_remark)),
+        picture,
+        frames,
+        place: "chart",
+        overlay: overlay(session, frames, chosen),
+        settings: settings.into_any(),
+        verdict: Signal::derive(move || sentence(session)),
+        below: Vec::new(),
+    })
+}
+
+/// Magnitude of r2 of the critical point; none where it is 0/0, as for gains of zero.
+fn known_importance(setup: &TuningSetup) -> Option<f64> {
+    setup.importance().ok().filter(|r| !r.is_nan()).map(f64::abs)
+}
+
+/// r2 of the critical point as the slider shows it, 1 where there is none.
+fn importance(setup: &TuningSetup) -> f64 {
+    known_importance(setup).map_or(1.0, |r| r.clamp(IMPORTANCES.0, IMPORTANCES.1))
+}
+
+/// The chosen point, and the plane around it: a click anywhere, on an estimate say, chooses the importance there.
+fn overlay(session: Session, frames: RwSignal<Vec<Frame>>, chosen: Signal<Option<(f64, f64)>>) -> AnyView {
+    let on_click = move |event: MouseEvent| {
+        let drawing = event.target().and_then(|target| target.dyn_into::<web_sys::Element>().ok());
+        // A click on the point itself ends a drag.
+        let Some(drawing) = drawing.filter(|drawing| drawing.tag_name() == "svg") else { return };
+        let corner = drawing.get_bounding_client_rect();
+        let at = (f64::from(event.client_x()) - corner.left(), f64::from(event.client_y()) - corner.top());
+        choose(session, untrack(|| first_frame(frames)).to_data(at));
+    };
+    view! { <svg class="over" on:click=handler(on_click)><CriticalHandle frames chosen /></svg> }.into_any()
+}
+
+/// Starts the placement from the importance of a point of the plane.
+fn choose(session: Session, (x, y): (f64, f64)) {
+    set_importance(session, y.max(0.0) / x.max(f64::MIN_POSITIVE));
+}
+
+fn set_importance(session: Session, r: f64) {
+    if r.is_finite() && !session.locks(Control::Point) {
+        session.edit(|s| s.design.critical = CriticalSpec::Importance(r.clamp(IMPORTANCES.0, IMPORTANCES.1)));
+    }
+}
+
+/// The chosen point: dragged to another importance, moved along the curve by keys.
+#[component]
+fn CriticalHandle(frames: RwSignal<Vec<Frame>>, chosen: Signal<Option<(f64, f64)>>) -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let value = session.part(importance);
+    let known = Signal::derive(move || lab.tuning.with(|s| known_importance(&s.tuning)));
+    let spoken = move || match known.get() {
+        Some(r) if r.is_infinite() => "r₂ ∞".to_owned(),
+        Some(r) => format!("r₂ {}", lab.number_style().significant(r, 3)),
+        None => tr!(lab, relay.no_importance).to_owned(),
+    };
+    let at = Signal::derive(move || chosen.get().unwrap_or((0.0, 0.0)));
+    view! {
+        <PointHandle
+            id="critical-handle"
+            label=say!(lab, relay.critical_handle)
+            at
+            value
+            limits=IMPORTANCES
+            spoken=Signal::derive(spoken)
+            locked=lab.locks(Control::Point)
+            on_move=move |place: (f64, f64)| choose(session, place)
+            on_nudge=move |by: Nudge| set_importance(session, value.get_untracked() * STEP.powf((by.up - by.right + by.page).clamp(-200.0, 200.0)))
+            frames
+        />
+    }
+}
+
+/// What bounds the gains in the chosen direction, and whether all is well.
+fn sentence(session: Session) -> (bool, String) {
+    let lab = session.lab;
+    let study = session.words.study.get();
+    let study = match study.as_ref() {
+        Ok(study) => study,
+        Err(error) => return (false, errors::sentence(lab, error)),
+    };
+    let style = lab.number_style();
+    let r = session.words.setup.with(|s| importance(s));
+    let unit = session.words.setup.with(|s| time_unit(&s.plant));
+    let mut sentence = match study.search.limit(importance_direction(&study.dc_gain, r)) {
+        GainLimit::Oscillation(point) => {
+            (true, tr!(lab, relay.ultimate, period = style.significant(point.period(), 4), unit = unit).to_string())
+        }
+        GainLimit::RealPole { .. } => (false, tr!(lab, relay.real_pole).to_owned()),
+        GainLimit::None => (false, tr!(lab, relay.no_ultimate).to_owned()),
+    };
+    if let Some(corner) = study.curve.corners.first() {
+        let [slow, quick] = corner.points.map(|point| style.significant(point.period(), 4));
+        let importance = style.significant(corner.importance, 3);
+        sentence.1 += " ";
+        sentence.1 += &tr!(lab, relay.corner_at, importance = importance, slow = slow, quick = quick, unit = unit);
+    }
+    sentence
+}
+
+/// Gains and period of the chosen point as it is in the document, and where the curve is in its direction.
+fn table(session: Session) -> String {
+    let lab = session.lab;
+    let style = lab.number_style();
+    let unit = session.words.setup.with(|s| time_unit(&s.plant));
+    let study = session.words.study.get();
+    let Ok(study) = study.as_ref() else { return String::new() };
+    let Some((gains, frequency, period)) =
+        session.words.with_design(|design| (design.critical_gains, design.frequency, design.period()))
+    else {
+        return String::new();
+    };
+    let on_curve = study.search.nearest(gains);
+    let number = |v: Option<f64>| v.map_or_else(|| "–".to_owned(), |v| style.significant(v, 4));
+    let row =
+        |name: String, chosen: f64, curve: Option<f64>| html::row("", &name, &[number(Some(chosen)), number(curve)]);
+    let rows = row("kc₁".to_owned(), gains[0], on_curve.map(|p| p.gains[0]))
+        + &row("kc₂".to_owned(), gains[1], on_curve.map(|p| p.gains[1]))
+        + &row(format!("Tc ({unit})"), period, on_curve.map(|p| p.period()))
+        + &row(format!("ωc (rad/{unit})"), frequency, on_curve.map(|p| p.frequency));
+    let names = [
+        tr!(lab, process.quantity).to_owned(),
+        tr!(lab, relay.col_chosen).to_owned(),
+        tr!(lab, relay.col_curve).to_owned(),
+    ];
+    html::table(tr!(lab, relay.curve_caption), &names, &rows)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use quadtank_scenario::tuning::TuningScenario;
+
+    fn with_gains(gains: [f64; 2]) -> TuningSetup {
+        let mut setup = TuningScenario::default().tuning;
+        setup.design.critical = CriticalSpec::Point { gains, period: 10.0 };
+        setup
+    }
+
+    #[test]
+    fn the_slider_has_a_number_for_any_critical_point() {
+        assert_eq!(known_importance(&with_gains([0.0, 0.0])), None);
+        for gains in [[0.0, 0.0], [0.0, 1.0], [1.0, 0.0], [-1e-300, 1e300], [1e-6, -1e6], [-0.0, -1.0]] {
+            let r = importance(&with_gains(gains));
+            assert!((IMPORTANCES.0..=IMPORTANCES.1).contains(&r), "{gains:?} gives {r}");
+        }
+    }
+}

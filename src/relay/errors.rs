@@ -1,0 +1,26 @@
+//! Why there is no result, in the language of the reader.
+
+use crate::lab::Lab;
+use crate::texts::tr;
+use quadtank::linear::LinearError;
+use quadtank::tuning::TuningError;
+
+/// One sentence.
+pub fn sentence(lab: Lab, error: &TuningError) -> String {
+    let number = |v: f64| lab.number_style().significant(v, 3);
+    match *error {
+        TuningError::OutOfRange { field: "target", .. } => tr!(lab, relay.error_target).to_owned(),
+        TuningError::OutOfRange { field: "amplitude", .. } => tr!(lab, relay.error_amplitude).to_owned(),
+        TuningError::OutOfRange { field: "dead_time", value } => {
+            tr!(lab, relay.error_dead_time, value = number(value)).to_string()
+        }
+        TuningError::OutOfRange { field, value } => {
+            tr!(lab, relay.error_range, field = field, value = number(value)).to_string()
+        }
+        TuningError::UnstablePlant { real_part } => {
+            tr!(lab, relay.error_unstable, real = number(real_part)).to_string()
+        }
+        TuningError::Linear(LinearError::SingularGain { .. }) => tr!(lab, relay.error_singular).to_owned(),
+        TuningError::Linear(error) => tr!(lab, relay.error_plant, reason = error).to_string(),
+    }
+}

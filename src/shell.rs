@@ -1,0 +1,337 @@
+//! The page around the bench: header, notices, footer; and how it all starts.
+
+use leptos::ev;
+use leptos::html::Input;
+use leptos::prelude::*;
+use leptos::wasm_bindgen::JsCast;
+
+use super::errors::of_error;
+use super::lab::{Lab, Notice, use_lab};
+use super::model_free::ModelFreeBench;
+use super::quadruple::QuadrupleTankBench;
+use super::relay::RelayTuningBench;
+use super::share;
+use super::start::{Bench, StartFlags};
+use super::stopped::Stopped;
+use super::storage::{LANGUAGE, THEME};
+use super::texts::{Language, say, tr};
+use super::widgets::{effect, handler};
+use quadtank_scenario::{Document, Scenario, setup_of};
+
+/// The element of the page that the laboratory fills; it holds the static outline until then.
+const ROOT: &str = "app";
+
+/// Starts the laboratory in the page: reads the address, fills the root element, and removes the outline.
+pub fn mount() {
+    // In the release a panic has no message (`tools/env.sh`).
+    if cfg!(debug_assertions) {
+        console_error_panic_hook::set_once();
+    }
+    let Some(root) = document().get_element_by_id(ROOT).and_then(|e| e.dyn_into::<web_sys::HtmlElement>().ok()) else {
+        return;
+    };
+    root.set_inner_html("");
+    leptos::mount::mount_to(root, || view! { <Laboratory /> }).forget();
+}
+
+/// The whole laboratory.
+#[component]
+pub fn Laboratory() -> impl IntoView {
+    let lab = start();
+    provide_context(lab);
+    effect(move || show_on_root("data-theme", if lab.dark.get() { "dark" } else { "light" }));
+    effect(move || show_on_root("lang", lab.language.get().tag()));
+    effect(move || document().set_title(tr!(lab, app.page_title)));
+    let on_hash = window_event_listener(ev::hashchange, move |_| {
+        if let Some(outcome) = share::from_address() {
+            lab.open(outcome);
+        }
+    });
+    let on_press = window_event_listener(ev::pointerdown, |event| close_menus(event.target()));
+    // What a menu offers is done, and the menu not needed any more.
+    let on_click = window_event_listener(ev::click, |event| {
+        let target = event.target().and_then(|target| target.dyn_into::<web_sys::Element>().ok());
+        if target.is_some_and(|target| target.matches(".menu > div > *").unwrap_or(false)) {
+            close_menus(None);
+        }
+    });
+    let on_key = window_event_listener(ev::keydown, |event| {
+        if event.key() == "Escape" {
+            close_menus(None);
+        }
+    });
+    on_cleanup(move || {
+        on_hash.remove();
+        on_press.remove();
+        on_click.remove();
+        on_key.remove();
+    });
+    let embed = lab.flags.with_value(|f| f.embed);
+    view! {
+        <div class=if embed { "embed" } else { "page" }>
+            {if embed {
+                view! { <header class="visually-hidden"><h1>{say!(lab, app.title)}</h1></header> }.into_any()
+            } else {
+                view! { <Header /> }.into_any()
+            }}
+            <Stopped />
+            <Notices />
+            {Vec::from(Bench::ALL.map(|bench| view! { <KeptBench bench /> }.into_any()))}
+            {embed.then(|| view! { <EmbedFooter /> }.into_any())}
+        </div>
+    }
+}
+
+/// A bench, made when it is shown first and hidden while another one is. It stays, because signals that outlive a view keep
+/// what is left of its effects until they change: going to and fro would leave kilobytes behind each time.
+#[component]
+fn KeptBench(bench: Bench) -> impl IntoView {
+    let lab = use_lab();
+    let seen = RwSignal::new(false);
+    effect(move || {
+        if lab.bench.get() == bench && !seen.get_untracked() {
+            seen.set(true);
+        }
+    });
+    let content = move || {
+        seen.get().then(|| match bench {
+            Bench::QuadrupleTank => view! { <QuadrupleTankBench /> }.into_any(),
+            Bench::RelayTuning => view! { <RelayTuningBench /> }.into_any(),
+            Bench::ModelFree => view! { <ModelFreeBench /> }.into_any(),
+        })
+    };
+    view! { <div hidden=Signal::derive(move || lab.bench.get() != bench)>{content}</div> }
+}
+
+/// Closes the menus that are open, but for the one that was pressed.
+fn close_menus(pressed: Option<web_sys::EventTarget>) {
+    let pressed = pressed.and_then(|target| target.dyn_into::<web_sys::Node>().ok());
+    let Ok(open) = document().query_selector_all("details.menu[open]") else { return };
+    for menu in (0..open.length()).filter_map(|k| open.get(k)) {
+        let is_pressed = pressed.is_some() && menu.contains(pressed.as_ref());
+        if let Some(menu) = menu.dyn_ref::<web_sys::Element>().filter(|_| !is_pressed) {
+            let _ = menu.remove_attribute("open");
+        }
+    }
+}
+
+/// The state that the address and the remembered choices ask for.
+fn start() -> Lab {
+    let query = window().location().search().unwrap_or_default();
+    let flags = StartFlags::parse(&query);
+    let language = flags.language.clone().or_else(|| LANGUAGE.read()).or_else(|| window().navigator().language());
+    let prefers_dark =
+        || window().match_media("(prefers-color-scheme: dark)").ok().flatten().is_some_and(|query| query.matches());
+    let dark = flags.theme.clone().or_else(|| THEME.read()).map_or_else(prefers_dark, |theme| theme == "dark");
+    let mut scenario = Scenario::default();
+    if let Some(id) = flags.preset {
+        scenario.setup = setup_of(id);
+    }
+    // A run is computed at once, so the scenario of a link has to be there from the start.
+    let from_address = match share::from_address() {
+        Some(Ok(Document::Quadruple(linked))) => {
+            scenario = linked;
+            None
+        }
+        other => other,
+    };
+    let lab = Lab::new(scenario, language.as_deref().map_or(Language::English, Language::of_tag), dark, flags);
+    if let Some(outcome) = from_address {
+        lab.open(outcome);
+    }
+    lab
+}
+
+fn show_on_root(attribute: &str, value: &str) {
+    if let Some(root) = document().document_element() {
+        let _ = root.set_attribute(attribute, value);
+    }
+}
+
+#[component]
+fn Header() -> impl IntoView {
+    let lab = use_lab();
+    view! {
+        <header class="top">
+            <h1>{say!(lab, app.title)}</h1>
+            <nav aria-label=say!(lab, app.benches)>{Vec::from(Bench::ALL.map(|bench| view! { <BenchLink bench /> }.into_any()))}</nav>
+            <span class="spacer"></span>
+            <button type="button" class="button" data-testid="share" on:click=handler(move |_| share::share(lab))>
+                {say!(lab, app.share)}
+            </button>
+            <FileMenu />
+            <details class="menu about">
+                <summary>{say!(lab, app.about)}</summary>
+                <div>
+                    <p>{say!(lab, app.footer)}</p>
+                    <p>{say!(lab, app.licence)}</p>
+                </div>
+            </details>
+            <LanguageChoice />
+            <ThemeSwitch />
+        </header>
+    }
+}
+
+/// The way to a bench. It is an address, so it can be opened beside and bookmarked.
+#[component]
+fn BenchLink(bench: Bench) -> impl IntoView {
+    let lab = use_lab();
+    let text = match bench {
+        Bench::QuadrupleTank => say!(lab, app.quadruple_tank),
+        Bench::RelayTuning => say!(lab, app.relay_tuning),
+        Bench::ModelFree => say!(lab, app.model_free),
+    };
+    let go = move |event: ev::MouseEvent| {
+        if !(event.ctrl_key() || event.meta_key() || event.shift_key()) {
+            event.prevent_default();
+            share::go_to(lab, bench);
+        }
+    };
+    view! {
+        <a
+            href=format!("?bench={}", bench.name())
+            data-testid=format!("bench-{}", bench.name())
+            aria-current=move || (lab.bench.get() == bench).then(|| "page".to_owned())
+            on:click=handler(go)
+        >
+            {text}
+        </a>
+    }
+}
+
+#[component]
+fn FileMenu() -> impl IntoView {
+    let lab = use_lab();
+    let picker = NodeRef::<Input>::new();
+    let on_file = move |_| {
+        let Some(input) = picker.get_untracked() else { return };
+        if let Some(file) = input.files().and_then(|files| files.get(0)) {
+            share::open_file(lab, &file);
+        }
+        // The same file can then be opened again.
+        input.set_value("");
+    };
+    let single = is_single_file();
+    view! {
+        <details class="menu" data-testid="file-menu">
+            <summary>{say!(lab, app.export)}</summary>
+            <div>
+                <button type="button" data-testid="save" on:click=handler(move |_| share::save(lab))>{say!(lab, app.export_scenario)}</button>
+                <button type="button" data-testid="open" on:click=handler(move |_| if let Some(input) = picker.get_untracked() { input.click() })>
+                    {say!(lab, app.open_scenario)}
+                </button>
+                {(!single).then(|| view! { <a href="quadtank.html" download="quadtank.html" data-testid="single-file">{say!(lab, app.single_file)}</a> }.into_any())}
+            </div>
+            <input type="file" accept=".json,application/json" hidden node_ref=picker data-testid="open-input" on:change=handler(on_file) />
+        </details>
+    }
+}
+
+/// Whether the page is the one-file build, which has nothing beside it to download.
+fn is_single_file() -> bool {
+    document().document_element().is_some_and(|root| root.has_attribute("data-single"))
+}
+
+#[component]
+fn LanguageChoice() -> impl IntoView {
+    let lab = use_lab();
+    let choose = move |event| {
+        let language = Language::of_tag(&event_target_value(&event));
+        lab.language.set(language);
+        LANGUAGE.write(language.tag());
+    };
+    let options = Signal::derive(move || {
+        let spoken = |language: Language, name: &str| {
+            let tag = language.tag();
+            let chosen = if lab.language.get() == language { " selected" } else { "" };
+            format!("<option value=\"{tag}\" lang=\"{tag}\"{chosen}>{name}</option>")
+        };
+        spoken(Language::English, "English") + &spoken(Language::Portuguese, "Português")
+    });
+    view! {
+        <select
+            data-testid="language"
+            aria-label=say!(lab, app.language)
+            on:change=handler(choose)
+            inner_html=options
+        ></select>
+    }
+}
+
+#[component]
+fn ThemeSwitch() -> impl IntoView {
+    let lab = use_lab();
+    let name = Signal::derive(move || {
+        if lab.dark.get() { tr!(lab, app.theme_light) } else { tr!(lab, app.theme_dark) }.to_owned()
+    });
+    let switch = move |_| {
+        lab.dark.update(|d| *d = !*d);
+        THEME.write(if lab.dark.get_untracked() { "dark" } else { "light" });
+    };
+    view! {
+        <button type="button" class="button" data-testid="theme" aria-label=name title=name on:click=handler(switch)>
+            {Signal::derive(move || if lab.dark.get() { "☀" } else { "☾" }.to_owned())}
+        </button>
+    }
+}
+
+/// What happened to a link or a file.
+#[component]
+fn Notices() -> impl IntoView {
+    let lab = use_lab();
+    let content = move |notice: Notice| {
+        match notice {
+        Notice::Refused(error) => view! { <div>{tr!(lab, refused.lead)} " " {of_error(lab, lab.unit.get(), &error)}</div> }.into_any(),
+        Notice::NotRead => view! { <div>{tr!(lab, refused.not_read)}</div> }.into_any(),
+        Notice::Copied => view! { <div>{tr!(lab, app.copied)}</div> }.into_any(),
+        Notice::CopyByHand(link) => view! {
+            <div>
+                {tr!(lab, app.copy_by_hand)}
+                <input type="text" class="text-field" readonly data-testid="link" aria-label=tr!(lab, app.share) value=link />
+            </div>
+        }
+        .into_any(),
+    }
+    };
+    view! {
+        <div role="status" aria-live="polite">
+            {move || lab.notice.get().map(|notice| {
+                let class = if matches!(notice, Notice::Refused(_) | Notice::NotRead) { "notice" } else { "notice good" };
+                view! {
+                    <div class=class data-testid="notice">
+                        {content(notice)}
+                        <button type="button" class="button small" aria-label=tr!(lab, app.close) on:click=handler(move |_| lab.notice.set(None))>"✕"</button>
+                    </div>
+                }
+                .into_any()
+            })}
+        </div>
+    }
+}
+
+/// In a course page: the way to the whole laboratory, which is this page without its query, with what is shown here.
+#[component]
+fn EmbedFooter() -> impl IntoView {
+    let lab = use_lab();
+    // The link is made when it is followed: to make it at every change would take a millisecond of each frame.
+    let on_click = move |event: ev::MouseEvent| {
+        let anchor = event.current_target().and_then(|target| target.dyn_into::<web_sys::HtmlAnchorElement>().ok());
+        match share::bare_reference(lab) {
+            Ok(reference) => {
+                if let Some(anchor) = anchor {
+                    anchor.set_href(&reference);
+                }
+            }
+            Err(error) => {
+                event.prevent_default();
+                lab.notice.set(Some(Notice::Refused(error)));
+            }
+        }
+    };
+    view! {
+        <footer class="page">
+            <a href=share::BARE target="_blank" rel="noopener" data-testid="full-lab" on:click=handler(on_click)>{say!(lab, app.embedded)}</a>
+        </footer>
+    }
+}
