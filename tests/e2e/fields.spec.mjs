@@ -3,7 +3,7 @@ import { readFileSync } from 'node:fs';
 import { expect, test } from './lab.mjs';
 
 /** The link of Johansson's rig as it is published, valves at 0.7 and 0.6. */
-const JOHANSSON = `lab=${readFileSync(new URL('../data/scenario-v1-johansson.link', import.meta.url), 'utf8').trim()}`;
+const JOHANSSON = `lab=${readFileSync(new URL('../../crates/quadtank-scenario/tests/data/scenario-v1-johansson.link', import.meta.url), 'utf8').trim()}`;
 
 test('a number out of range shows the limits and keeps the last valid value', async ({ lab, page }) => {
   await lab.open();
