@@ -11,12 +11,12 @@
 //! | 3 | [`sim`] | plant + controller + experiment → trajectories, events, metrics |
 //! | 4 | [`tuning`] | how gains are found: relay tests, ultimate points, critical curve, rules, placement |
 //!
-//! Under all of them lies `scalar`, a few private operations on numbers.
+//! Under all of them lies `numeric`: roots, matrix exponential, singular values, guarded eigenvalues.
 //!
 //! The crate compiles without a browser, holds no text for people, and is in SI units (m, m², m³/s, s,
 //! V, rad/s) unless a name says otherwise. Tanks 1 and 2 are the lower ones; indices in code start at 0.
 
-mod scalar;
+mod numeric;
 
 pub mod control;
 pub mod interaction;

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 /// Modules from the ground up. Those of one floor do not know each other.
-const FLOORS: [&[&str]; 5] = [&["scalar"], &["plant", "linear"], &["interaction", "control"], &["sim"], &["tuning"]];
+const FLOORS: [&[&str]; 5] = [&["numeric"], &["plant", "linear"], &["interaction", "control"], &["sim"], &["tuning"]];
 
 fn floor_of(module: &str) -> usize {
     FLOORS.iter().position(|floor| floor.contains(&module)).unwrap_or_else(|| panic!("`{module}` stands on no floor"))

@@ -1,5 +1,4 @@
 use super::{Estimator, EstimatorError, EstimatorSettings, FedWith, MAX_WINDOW_SAMPLES, Pairing};
-use crate::scalar::{larger, smaller};
 
 /// What keeps the integral of the law from winding up while its output is limited. The source has nothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -172,7 +171,7 @@ impl ModelFreeLoop {
         let error = reference - measured;
         let phi = self.estimate();
         let asked = |sum: f64| (-phi + proportional * error + integral * sum) / model_gain;
-        let limited = |output: f64| smaller(larger(output, self.limits.0), self.limits.1);
+        let limited = |output: f64| output.max(self.limits.0).min(self.limits.1);
         // Backward Euler (eq. 17).
         let mut sum = self.integral + self.sampling_time_s * error;
         let mut command = asked(sum);
@@ -187,7 +186,7 @@ impl ModelFreeLoop {
             }
             ModelFreeWindup::BackCalculation { tracking_time_s } => {
                 if integral > 0.0 {
-                    let share = smaller(self.sampling_time_s / tracking_time_s, 1.0);
+                    let share = (self.sampling_time_s / tracking_time_s).min(1.0);
                     sum -= share * excess * model_gain / integral;
                 }
             }

@@ -1,5 +1,3 @@
-use crate::scalar::{larger, smaller};
-
 /// What keeps the integral from winding up while the output is limited.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AntiWindup {
@@ -143,7 +141,7 @@ impl Pi {
 /// Limits in the wrong order: the upper one wins. A value that is not a number becomes the lower limit.
 #[inline]
 fn limited(value: f64, (min, max): (f64, f64)) -> f64 {
-    smaller(larger(value, min), max)
+    value.max(min).min(max)
 }
 
 #[cfg(test)]

@@ -3,7 +3,6 @@
 use nalgebra::Matrix2;
 
 use crate::linear::{Complex, LinearError, TransferFunction, TransferMatrix};
-use crate::scalar::larger;
 
 /// The derivative filter is this many times quicker than the derivative time.
 const FILTER: f64 = 100.0;
@@ -148,7 +147,7 @@ impl SeriesPid {
         if !(discriminant >= -EQUAL && isa.integral_time.is_finite()) {
             return None;
         }
-        let integral_time = isa.integral_time * 0.5 * (1.0 + larger(discriminant, 0.0).sqrt());
+        let integral_time = isa.integral_time * 0.5 * (1.0 + discriminant.max(0.0).sqrt());
         let derivative_time = isa.integral_time - integral_time;
         Some(Self { gain: isa.gain * integral_time / isa.integral_time, integral_time, derivative_time })
     }

@@ -1,9 +1,8 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::error::expect_shape;
-use super::exponential::exponential;
 use super::{Complex, LinearError, StateSpace, eigenvalues};
-use crate::scalar::nearest_power_of_two;
+use crate::numeric::{matrix_exponential, nearest_power_of_two};
 
 /// A sampled linear model `x[k+1] = A x[k] + B u[k]`, `y[k] = C x[k] + D u[k]`.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,7 +42,7 @@ impl StateSpace {
         let mut augmented = DMatrix::zeros(n + m, n + m);
         augmented.view_mut((0, 0), (n, n)).copy_from(&(&self.a * sampling_time_s));
         augmented.view_mut((0, n), (n, m)).copy_from(&(&self.b * (sampling_time_s / unit)));
-        let transition = exponential(&augmented).ok_or(failure)?;
+        let transition = matrix_exponential(&augmented).ok_or(failure)?;
         let b = transition.view((0, n), (n, m)) * unit;
         if !b.iter().all(|x| x.is_finite()) {
             return Err(failure);

@@ -6,7 +6,7 @@ use nalgebra::Matrix2;
 
 use super::return_ratio::ReturnRatio;
 use super::taylor_model::{Cell, TaylorModel, size_of};
-use super::{Complex, turn};
+use super::Complex;
 
 /// Stability of a loop of stable parts, by the number of encirclements of −1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -119,7 +119,7 @@ fn turn_over(ratio: &ReturnRatio, cell: Cell) -> Option<f64> {
     }
     let is_told = sum.radius() < size_of(sum.value);
     is_told.then(|| {
-        let [before, after] = [cell.low, cell.high].map(|w| return_difference(ratio, w) * turn(frame * w));
+        let [before, after] = [cell.low, cell.high].map(|w| return_difference(ratio, w) * Complex::cis(frame * w));
         (after / before).arg() - frame * (cell.high - cell.low)
     })
 }

@@ -1,7 +1,6 @@
 //! The motion of one transfer function without its dead time, exact for an input that is held.
 
 use super::{LinearError, TransferFunction};
-use crate::scalar::power;
 
 /// Highest order of an element that is simulated.
 pub const MAX_ORDER: usize = 8;
@@ -99,7 +98,7 @@ impl Motion {
             .iter()
             .position(|&a| a != 0.0)
             .filter(|&lowest| lowest < order)
-            .map_or(1.0, |lowest| power((leading / denominator[lowest]).abs(), 1.0 / (order - lowest) as f64));
+            .map_or(1.0_f64, |lowest| (leading / denominator[lowest]).abs().powf(1.0 / (order - lowest) as f64));
         let (mut alpha, mut beta) = ([0.0; MAX_ORDER], [0.0; MAX_ORDER]);
         for k in 0..order {
             let scale = unit.powi(i32::try_from(order - k).unwrap_or(0)) / leading;

@@ -4,8 +4,8 @@
 
 use nalgebra::Matrix2;
 
-use super::{Complex, square_root};
-use crate::scalar::root;
+use super::Complex;
+use crate::numeric::{root, square_root};
 
 /// Values λ1, λ2 of both loci: the eigenvalues of the return ratio (Campestrini 2006, eqs. 68, 69 and 100).
 pub fn locus_values(ratio: &Matrix2<Complex>) -> [Complex; 2] {

@@ -10,7 +10,7 @@ use super::Complex;
 use super::loci::{locus_values, nearest_order};
 use super::return_ratio::ReturnRatio;
 use super::taylor_model::{Cell, size_of};
-use crate::scalar::{golden_section, root};
+use crate::numeric::{golden_section, root};
 
 /// How far a loop is from instability when all of it is scaled or turned. Meant for stable loops.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -9,7 +9,7 @@
 //! Nothing here allocates: a chart asks thousands of times.
 
 use super::LinearError;
-use crate::scalar::{complements, excess_over_one};
+use crate::numeric::{complements, excess_over_one};
 
 /// The finite zeros, at most two, real, the smaller first (1/s).
 #[derive(Clone, Copy, Debug, PartialEq)]

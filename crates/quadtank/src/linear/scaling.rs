@@ -3,7 +3,7 @@
 use nalgebra::linalg::balancing::balance_parlett_reinsch;
 
 use super::{LinearError, StateSpace};
-use crate::scalar::nearest_power_of_two;
+use crate::numeric::nearest_power_of_two;
 
 /// Sweeps over all rows and columns; two or three settle an ordinary model.
 const SWEEPS: usize = 8;

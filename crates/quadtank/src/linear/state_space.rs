@@ -1,7 +1,7 @@
 use nalgebra::DMatrix;
 
 use super::error::expect_shape;
-use super::{Complex, LinearError, eigen};
+use super::{Complex, LinearError, eigenvalues};
 
 /// A continuous-time linear model `dx/dt = A x + B u`, `y = C x + D u`.
 ///
@@ -59,7 +59,7 @@ impl StateSpace {
     /// [`LinearError::Dimension`], or [`LinearError::NoConvergence`] when an entry is not finite.
     pub fn poles(&self) -> Result<Vec<Complex>, LinearError> {
         self.check()?;
-        eigen::eigenvalues(&self.a)
+        eigenvalues(&self.a)
     }
 
     /// Steady-state gain `G(0) = D − C A⁻¹ B`, p × m.

@@ -2,7 +2,7 @@
 
 use std::ops::{Add, Mul, Neg};
 
-use super::{Complex, TransferFunction, turn};
+use super::{Complex, TransferFunction};
 
 /// A cell of frequencies (rad per unit of time of the plant).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,7 +64,7 @@ impl TaylorModel {
     /// `e^(−jωθ)`.
     pub fn dead_time(dead_time: f64, cell: Cell) -> Self {
         let angle = dead_time * cell.half_width();
-        let value = turn(-dead_time * cell.middle());
+        let value = Complex::cis(-dead_time * cell.middle());
         Self { value, slope: value * Complex::new(0.0, -angle), rest: 0.5 * angle * angle }
     }
 

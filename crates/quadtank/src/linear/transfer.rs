@@ -1,7 +1,7 @@
 use nalgebra::{DMatrix, Matrix2};
 
 use super::error::expect_shape;
-use super::{Complex, LinearError, StateSpace, eigenvalues, exponential};
+use super::{Complex, LinearError, StateSpace, eigenvalues};
 
 /// A rational transfer function with a dead time, `g(s) = b(s)/a(s) e^(−θ s)`. The unit of time is that of the plant.
 #[derive(Clone, Debug, PartialEq)]
@@ -131,7 +131,7 @@ impl TransferFunction {
     /// Value at a point of the s-plane; not finite at a pole.
     pub fn at(&self, s: Complex) -> Complex {
         let horner = |c: &[f64]| c.iter().rev().fold(Complex::ZERO, |sum, &c| sum * s + c);
-        horner(&self.numerator) / horner(&self.denominator) * exponential(s * -self.dead_time)
+        horner(&self.numerator) / horner(&self.denominator) * (s * -self.dead_time).exp()
     }
 
     /// g(0); not finite for an integrating plant.

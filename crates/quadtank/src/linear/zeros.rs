@@ -6,7 +6,6 @@ use super::null_vectors::null_vectors;
 use super::reduction::{minimal, reduce};
 use super::scaling::Scaled;
 use super::{Complex, LinearError, StateSpace, eigenvalues};
-use crate::scalar::sort_few;
 
 /// Rounding errors allowed for, in units of the last place of the largest entry, before a number counts as zero.
 const ROUNDINGS: f64 = 64.0;
@@ -75,7 +74,7 @@ pub fn transmission_zeros(model: &StateSpace) -> Result<Vec<TransmissionZero>, L
         }
         zeros.push(zero);
     }
-    sort_few(&mut zeros, |x, y| x.value.re.total_cmp(&y.value.re).then(x.value.im.total_cmp(&y.value.im)));
+    zeros.sort_by(|x, y| x.value.re.total_cmp(&y.value.re).then(x.value.im.total_cmp(&y.value.im)));
     Ok(zeros)
 }
 

@@ -1,7 +1,7 @@
 use serde::Serialize;
 
 use super::{Disturbance, PlantError, QuadrupleTank};
-use crate::scalar::{complements, excess_over_one};
+use crate::numeric::{complements, excess_over_one};
 
 /// Distance of γ1 + γ2 from 1 below which the plant counts as singular at steady state.
 ///

@@ -1,7 +1,7 @@
 use nalgebra::{DMatrix, Matrix2x4, Matrix4, Matrix4x2};
 
 use super::{Disturbance, OperatingPoint, QuadrupleTank};
-use crate::scalar::complements;
+use crate::numeric::complements;
 
 /// An upper tank whose time constant is at most this share of the longest is quasi-steady: slow poles and zeros move by no
 /// larger share when its state is left out. With it, from 4e-9 on zeros get lost in the rounding of the fast entries of A.

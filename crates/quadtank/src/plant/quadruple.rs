@@ -1,8 +1,8 @@
+use crate::numeric::complements;
 use std::array::from_fn;
 
 use super::Tank;
 use super::tank::torricelli_speed;
-use crate::scalar::{complements, larger, smaller};
 
 /// A pump with its voltage limits; its flow is `gain × voltage` (Cocota 2009, eq. 2.25).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,7 +36,7 @@ impl Sensor {
     /// What the real sensor makes of the ideal `signal` (V): limited to its range, then rounded to its resolution.
     #[inline]
     pub fn quantise(&self, signal: f64) -> f64 {
-        let limited = smaller(larger(signal, 0.0), self.gain * self.range);
+        let limited = signal.max(0.0).min(self.gain * self.range);
         if self.resolution > 0.0 { (limited / self.resolution).round() * self.resolution } else { limited }
     }
 }
@@ -114,7 +114,7 @@ impl QuadrupleTank {
     #[inline]
     pub fn valve_flows_at(&self, valves: [f64; 2], pump_voltage: &[f64; 2], disturbance: &Disturbance) -> [f64; 4] {
         let [q1, q2]: [f64; 2] =
-            from_fn(|i| larger(self.pumps[i].gain * pump_voltage[i] + disturbance.pump_flow[i], 0.0));
+            from_fn(|i| (self.pumps[i].gain * pump_voltage[i] + disturbance.pump_flow[i]).max(0.0));
         let ([gamma_1, gamma_2], [above_1, above_2]) = (valves, complements(valves));
         [gamma_1 * q1, gamma_2 * q2, above_2 * q2, above_1 * q1]
     }

@@ -1,5 +1,3 @@
-use crate::scalar::sine_cosine;
-
 /// How a valve fraction γ moves in time (γ without unit, time in s).
 ///
 /// The schedules of Junqueira, Neves and Angelico (cases a, b and c) are constants and sines; steps and ramps are ours.
@@ -66,7 +64,7 @@ impl ValveSchedule {
                 }
             }
             Self::Sine { mean, amplitude, frequency, phase } => {
-                mean + amplitude * sine_cosine(frequency * time_s + phase).0
+                mean + amplitude * (frequency * time_s + phase).sin_cos().0
             }
         }
     }

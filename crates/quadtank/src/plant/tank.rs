@@ -1,5 +1,3 @@
-use crate::scalar::{larger, sine_cosine};
-
 /// Horizontal cross-section of a tank as a function of level, `A(h) = area_at_empty + area_slope h` (m²).
 ///
 /// `area_slope` is 0 for a prismatic tank and `b tan θ` for a trapezoidal one (Cocota 2009, eq. 2.28).
@@ -20,19 +18,19 @@ impl CrossSection {
     /// A tank of breadth `b` (m) whose bottom has the length `c` (m) and one of whose end walls leans outwards by the
     /// angle `θ` (rad) from the vertical: `A(h) = b (c + h tan θ)` (Cocota 2009, eq. 2.28).
     pub fn trapezoidal(breadth: f64, bottom_length: f64, wall_angle_rad: f64) -> Self {
-        let (sine, cosine) = sine_cosine(wall_angle_rad);
+        let (sine, cosine) = wall_angle_rad.sin_cos();
         Self { area_at_empty: breadth * bottom_length, area_slope: breadth * sine / cosine }
     }
 
     /// Area of the water surface at `level` (m²); below the bottom the tank goes on as it is at the bottom.
     #[inline]
     pub fn area(&self, level: f64) -> f64 {
-        self.area_at_empty + self.area_slope * larger(level, 0.0)
+        self.area_at_empty + self.area_slope * level.max(0.0)
     }
 
     /// Water held up to `level` (m³), the integral of [`area`](Self::area).
     pub fn volume(&self, level: f64) -> f64 {
-        let level = larger(level, 0.0);
+        let level = level.max(0.0);
         level * (self.area_at_empty + 0.5 * self.area_slope * level)
     }
 }
@@ -88,7 +86,7 @@ impl Tank {
 /// Speed of water that leaves a hole under `level` (m/s), `√(2 g h)` (Torricelli; Cocota 2009, eq. 2.22).
 #[inline]
 pub(super) fn torricelli_speed(level: f64, gravity: f64) -> f64 {
-    (2.0 * gravity * larger(level, 0.0)).sqrt()
+    (2.0 * gravity * level.max(0.0)).sqrt()
 }
 
 #[cfg(test)]

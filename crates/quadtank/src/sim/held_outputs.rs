@@ -1,7 +1,6 @@
 //! What the upper tanks do while the lower ones stand still: the zero dynamics of the nonlinear plant.
 
 use crate::plant::{Disturbance, QuadrupleTank};
-use crate::scalar::larger;
 
 /// Step of the integration, as a share of the smaller time constant of the upper tanks at the start.
 const STEP: f64 = 1.0 / 50.0;
@@ -48,7 +47,7 @@ impl<'a> HeldOutputs<'a> {
     pub fn voltages(&self, upper: [f64; 2]) -> [f64; 2] {
         let plant = self.plant;
         [0, 1].map(|i| {
-            let from_above = plant.tanks[i + 2].outflow(larger(upper[i], 0.0), plant.gravity);
+            let from_above = plant.tanks[i + 2].outflow(upper[i].max(0.0), plant.gravity);
             (self.outflow[i] - from_above) / (plant.valves[i] * plant.pumps[i].gain)
         })
     }
@@ -58,7 +57,7 @@ impl<'a> HeldOutputs<'a> {
     pub fn rates(&self, upper: [f64; 2]) -> [f64; 2] {
         let flows = self.plant.valve_flows(&self.voltages(upper), &Disturbance::default());
         [0, 1].map(|i| {
-            let (tank, level) = (&self.plant.tanks[i + 2], larger(upper[i], 0.0));
+            let (tank, level) = (&self.plant.tanks[i + 2], upper[i].max(0.0));
             (flows[i + 2] - tank.outflow(level, self.plant.gravity)) / tank.section.area(level)
         })
     }
@@ -66,7 +65,7 @@ impl<'a> HeldOutputs<'a> {
     /// What ends the holding, from upper levels (m) on, within a time (s); `None` when nothing does.
     pub fn ends(&self, upper: [f64; 2], within_s: f64) -> Option<HoldingEnds> {
         let quickest = [0, 1].map(|i| {
-            let (tank, level) = (&self.plant.tanks[i + 2], larger(upper[i], 1e-3));
+            let (tank, level) = (&self.plant.tanks[i + 2], upper[i].max(1e-3));
             tank.section.area(level) / tank.outflow_slope(level, self.plant.gravity)
         });
         let step = (STEP * quickest[0].min(quickest[1])).max(within_s / MOST_STEPS);

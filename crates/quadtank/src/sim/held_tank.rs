@@ -2,7 +2,6 @@
 
 use crate::control::Pairing;
 use crate::plant::{Disturbance, OperatingPoint, QuadrupleTank};
-use crate::scalar::{larger, smaller};
 
 use super::hydraulics::Hydraulics;
 use super::two_loops::HeldPlant;
@@ -77,7 +76,7 @@ impl HeldPlant for HeldTank<'_> {
         let rest = self.op.pump_voltage;
         let taken = [0, 1].map(|i| {
             let pump = &self.plant.pumps[i];
-            smaller(larger(wanted[i], pump.voltage_min - rest[i]), pump.voltage_max - rest[i])
+            wanted[i].max(pump.voltage_min - rest[i]).min(pump.voltage_max - rest[i])
         });
         self.water.set_inputs(self.plant, &[rest[0] + taken[0], rest[1] + taken[1]], &Disturbance::default());
         self.pairing.by_loop(taken)

@@ -2,8 +2,6 @@
 
 use nalgebra::{Matrix4, Vector4};
 
-use crate::scalar::{larger, power_of_two};
-
 /// Terms of the power series; with the norm scaled below 1/2 the next one is below rounding.
 const TERMS: u32 = 14;
 
@@ -21,9 +19,9 @@ impl Hold {
     #[expect(clippy::cast_possible_truncation, reason = "a logarithm of a float is small, and the cast saturates")]
     pub(super) fn new(a: &Matrix4<f64>, duration: f64) -> Self {
         let norm = a.abs().row_sum().max() * duration;
-        let doublings = (larger(2.0 * norm, 1.0).ln() / std::f64::consts::LN_2).ceil() as i32;
+        let doublings = ((2.0 * norm).max(1.0).ln() / std::f64::consts::LN_2).ceil() as i32;
         let doublings = doublings.min(f64::MAX_EXP - 1);
-        let short = duration * power_of_two(-doublings);
+        let short = duration * 2.0_f64.powi(-doublings);
         let step = a * short;
         let mut series = Matrix4::identity();
         for k in (2..=TERMS + 1).rev() {

@@ -9,8 +9,8 @@
 
 use std::array::from_fn;
 
+use super::comparison::{larger, smaller};
 use crate::plant::{CrossSection, Disturbance, QuadrupleTank};
-use crate::scalar::{larger, smaller};
 
 /// What rounding leaves of the flow balance of a tank at rest, as a share of the flow.
 const REST: f64 = 8.0 * f64::EPSILON;

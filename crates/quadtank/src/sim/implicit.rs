@@ -2,8 +2,8 @@
 
 use std::array::from_fn;
 
+use super::comparison::larger;
 use crate::plant::CrossSection;
-use crate::scalar::larger;
 
 use super::hydraulics::{Hydraulics, emptying_volume};
 

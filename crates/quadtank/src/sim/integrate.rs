@@ -12,7 +12,7 @@
 
 use std::cell::Cell;
 
-use crate::scalar::{larger, smaller};
+use super::comparison::{larger, smaller};
 
 use super::hydraulics::Hydraulics;
 use super::implicit::NODES;

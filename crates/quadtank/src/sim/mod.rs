@@ -1,6 +1,7 @@
 //! Plant + controller + experiment → trajectories, events and metrics; and the poles of the sampled closed loop.
 
 mod closed_loop;
+mod comparison;
 mod course;
 mod experiment;
 mod explicit;

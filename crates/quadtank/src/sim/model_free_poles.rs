@@ -1,5 +1,6 @@
 //! The linear loop of the model-free law, with its estimator, and how small α̂ may be.
 
+use crate::numeric::root;
 use std::array::from_fn;
 use std::cmp::Ordering;
 
@@ -8,7 +9,6 @@ use nalgebra::{DMatrix, Matrix6, Vector4};
 use crate::control::{EstimatorError, EstimatorSettings, ModelFree, Window};
 use crate::linear::{Complex, LinearError, eigenvalues};
 use crate::plant::Jacobian;
-use crate::scalar::{power, root, sort_few};
 
 use super::hold::Hold;
 use super::poles::Stability;
@@ -50,7 +50,7 @@ pub fn model_free_poles(jacobian: &Jacobian, law: &ModelFree, power_gain: f64) -
     let stability = Stability::of(&multipliers);
     let mut poles_s: Vec<Complex> =
         multipliers.into_iter().filter(|z| z.norm() > nothing).map(|z| z.ln() / period_s).collect();
-    sort_few(&mut poles_s, falling);
+    poles_s.sort_by(falling);
     Ok(ModelFreePoles { poles_s, stability })
 }
 
@@ -77,7 +77,7 @@ pub fn continuous_model_free_poles(
     }
     let wet: Vec<usize> = (0..6).filter(|&k| k > 3 || !jacobian.quasi_steady[k]).collect();
     let mut poles = eigenvalues(&DMatrix::from_fn(wet.len(), wet.len(), |i, j| a[(wet[i], wet[j])]))?;
-    sort_few(&mut poles, falling);
+    poles.sort_by(falling);
     Ok(poles)
 }
 
@@ -181,7 +181,7 @@ impl<'a> LinearLoop<'a> {
     fn shifted(&self) -> f64 {
         match &self.estimator {
             Some((settings, weights)) if settings.window == Window::Sliding => {
-                power(SHIFTED, 1.0 / (weights[0].len() - 1) as f64)
+                SHIFTED.powf(1.0 / (weights[0].len() - 1) as f64)
             }
             _ => 0.0,
         }

@@ -3,9 +3,8 @@
 use nalgebra::{DMatrix, Matrix2, Matrix4, Matrix4x2};
 
 use crate::control::{DecentralisedPi, PiSettings};
-use crate::linear::{Complex, turn};
+use crate::linear::Complex;
 use crate::plant::Jacobian;
-use crate::scalar::{larger, power};
 
 use super::hold::Hold;
 
@@ -62,7 +61,7 @@ impl<'a> OpenLoop<'a> {
 
     /// Largest singular value of the sensitivity `S = (I + L)⁻¹` at the frequency `w` (rad/s).
     fn sensitivity(&self, w: f64) -> f64 {
-        let z = turn(w * self.controller.sampling_time_s);
+        let z = Complex::cis(w * self.controller.sampling_time_s);
         largest_singular_value_of_inverse(&(Matrix2::identity() + self.loop_gain(z)))
     }
 
@@ -84,8 +83,8 @@ impl<'a> OpenLoop<'a> {
         let nyquist = std::f64::consts::PI / self.controller.sampling_time_s;
         let resonances = poles_s.iter().map(|s| s.norm().min(nyquist));
         let slowest = BELOW_SLOWEST * resonances.clone().fold(nyquist, f64::min);
-        let ratio = power(nyquist / slowest, 1.0 / f64::from(GRID));
-        let grid = (0..=GRID).map(|k| nyquist * power(ratio, -f64::from(k)));
+        let ratio = (nyquist / slowest).powf(1.0 / f64::from(GRID));
+        let grid = (0..=GRID).map(|k| nyquist * ratio.powf(-f64::from(k)));
         let sampled = grid.chain(resonances).map(|w| (self.sensitivity(w), w));
         let highest = sampled.fold((0.0, nyquist), |best, new| if new.0 > best.0 { new } else { best });
         self.refine(highest, ratio, nyquist)
@@ -98,7 +97,7 @@ impl<'a> OpenLoop<'a> {
         for _ in 0..REFINEMENTS {
             let (left, right) = (high - golden * (high - low), low + golden * (high - low));
             let (at_left, at_right) = (self.sensitivity(left.exp()), self.sensitivity(right.exp()));
-            peak = larger(peak, larger(at_left, at_right));
+            peak = peak.max(at_left.max(at_right));
             if at_left > at_right { high = right } else { low = left }
         }
         peak
@@ -115,6 +114,6 @@ fn tustin_pi(settings: &PiSettings, sampling_time_s: f64, z: Complex) -> Complex
 fn largest_singular_value_of_inverse(m: &Matrix2<Complex>) -> f64 {
     let sum = m.iter().map(Complex::norm_sqr).sum::<f64>();
     let product = (m[(0, 0)] * m[(1, 1)] - m[(0, 1)] * m[(1, 0)]).norm();
-    let difference = larger((sum - 2.0 * product) * (sum + 2.0 * product), 0.0).sqrt();
+    let difference = ((sum - 2.0 * product) * (sum + 2.0 * product)).max(0.0).sqrt();
     f64::midpoint(sum, difference).sqrt() / product
 }

@@ -3,7 +3,6 @@ use serde::Serialize;
 use crate::control::DecentralisedPi;
 use crate::linear::{Complex, LinearError, eigenvalues};
 use crate::plant::Jacobian;
-use crate::scalar::sort_few;
 
 use super::open_loop::OpenLoop;
 
@@ -83,7 +82,7 @@ pub fn closed_loop(
 ) -> Result<ClosedLoop, LinearError> {
     let open = OpenLoop::new(jacobian, controller, power_gain);
     let mut poles_z = eigenvalues(&open.closed(jacobian.quasi_steady))?;
-    sort_few(&mut poles_z, |x, y| y.norm().total_cmp(&x.norm()).then(y.im.total_cmp(&x.im)));
+    poles_z.sort_by(|x, y| y.norm().total_cmp(&x.norm()).then(y.im.total_cmp(&x.im)));
     let stability = Stability::of(&poles_z);
     let images = poles_z.iter().filter(|&&z| z != Complex::ZERO);
     // What rounding leaves of a pole at z = 1 would be told as a growth or a decay.

@@ -2,8 +2,6 @@
 
 use serde::Serialize;
 
-use crate::scalar::larger;
-
 use super::course::TIME_SLACK;
 use super::experiment::{Experiment, LEAST_STEP, net};
 use super::trajectory::Trajectory;
@@ -149,17 +147,17 @@ impl<'a> Response<'a> {
 
     /// Furthest beyond the new reference, as a fraction of the step.
     pub(super) fn overshoot(&self) -> f64 {
-        (0..self.level.len()).map(|row| self.progress(row) - 1.0).fold(0.0, larger)
+        (0..self.level.len()).map(|row| self.progress(row) - 1.0).fold(0.0, f64::max)
     }
 
     /// Furthest in the wrong direction, as a fraction of the step.
     pub(super) fn undershoot(&self) -> f64 {
-        (0..self.level.len()).map(|row| -self.progress(row)).fold(0.0, larger)
+        (0..self.level.len()).map(|row| -self.progress(row)).fold(0.0, f64::max)
     }
 
     /// Furthest that the other level moves from where it was (m).
     pub(super) fn other_peak(&self) -> f64 {
-        self.other_level.iter().map(|h| (h - self.other_level[0]).abs()).fold(0.0, larger)
+        self.other_level.iter().map(|h| (h - self.other_level[0]).abs()).fold(0.0, f64::max)
     }
 }
 

@@ -4,7 +4,7 @@ use std::cell::Cell;
 
 use crate::control::{PidMatrix, Relay};
 use crate::linear::DelayedPlant;
-use crate::scalar::root;
+use crate::numeric::root;
 
 /// A plant whose inputs are held between changes, in deviations from its rest.
 pub trait HeldPlant {

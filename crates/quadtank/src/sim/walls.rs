@@ -1,6 +1,6 @@
 //! Where within a step a tank reaches the top of its wall, comes down from it or runs dry.
 
-use crate::scalar::root;
+use crate::numeric::root;
 
 use super::hydraulics::Hydraulics;
 

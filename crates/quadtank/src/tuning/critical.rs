@@ -2,8 +2,8 @@ use std::f64::consts::{LN_10, TAU};
 
 use nalgebra::Matrix2;
 
-use crate::linear::{Complex, LinearError, TransferMatrix, square_root};
-use crate::scalar::{golden_section, root};
+use crate::linear::{Complex, LinearError, TransferMatrix};
+use crate::numeric::{golden_section, root, square_root};
 
 /// Cells of the frequency grid for each decade, and most cells of all: a wide range has fewer for each decade.
 const PER_DECADE: f64 = 400.0;

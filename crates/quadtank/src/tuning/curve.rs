@@ -2,7 +2,6 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::critical::{CriticalPoint, CriticalSearch, GainLimit};
 use crate::linear::TransferMatrix;
-use crate::scalar::sine_cosine;
 
 /// Ratio of the frequencies of neighbours on the curve beyond which there is a corner between them.
 const JUMP: f64 = 1.25;
@@ -46,7 +45,7 @@ impl CriticalCurve {
     pub fn of(plant: &TransferMatrix, search: &CriticalSearch, directions: usize) -> Self {
         let gain = plant.dc_gain();
         let direction = |angle: f64| {
-            let (sine, cosine) = sine_cosine(angle);
+            let (sine, cosine) = angle.sin_cos();
             [cosine / gain[(0, 0)], sine / gain[(1, 1)]]
         };
         let last = directions.max(2) - 1;
@@ -100,7 +99,7 @@ fn corner(
     }
     // A steep but smooth change of frequency ends in one point, not in two.
     let last = last.filter(|last| jumps(&first, last))?;
-    let (sine, cosine) = sine_cosine(low);
+    let (sine, cosine) = low.sin_cos();
     let points = if first.frequency < last.frequency { [first, last] } else { [last, first] };
     Some(Corner { importance: sine / cosine, points })
 }

@@ -5,8 +5,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::Matrix2;
 
-use crate::linear::{Complex, DelayedPlant, TransferMatrix, exponential, turn};
-use crate::scalar::sine_cosine;
+use crate::linear::{Complex, DelayedPlant, TransferMatrix};
 
 use super::TuningError;
 use super::error::positive;
@@ -34,13 +33,13 @@ pub fn sine_test(
     for k in 0..(periods + 1) * STEPS {
         let angle = TAU * f64::from(k % STEPS) / f64::from(STEPS);
         let mut inputs = [0.0; 2];
-        inputs[input] = sine_cosine(angle).0;
+        inputs[input] = angle.sin_cos().0;
         moving.set_inputs(inputs);
         if k >= periods * STEPS {
-            let turn = turn(-angle);
+            let turn = Complex::cis(-angle);
             // The input is held, so its harmonic is that of a step that begins here; the output is sampled.
             let held = Complex::new(0.0, TAU / f64::from(STEPS));
-            sent += turn * inputs[input] * (Complex::ONE - exponential(-held)) / held;
+            sent += turn * inputs[input] * (Complex::ONE - (-held).exp()) / held;
             for (sum, output) in received.iter_mut().zip(moving.outputs()) {
                 *sum += turn * output;
             }

@@ -5,7 +5,6 @@ use std::f64::consts::PI;
 use nalgebra::{DMatrix, DVector};
 
 use crate::linear::{Complex, DiscreteStateSpace, LinearError, StateSpace, TransferFunction, eigenvalues};
-use crate::scalar::power;
 
 /// Half periods that are tried for each decade, to find changes of sign.
 const PER_DECADE: f64 = 60.0;
@@ -54,7 +53,7 @@ pub fn limit_cycles(plant: &TransferFunction, shortest: f64, longest: f64) -> Re
     let model = plant.state_space()?;
     let switch = |h: f64| switching_state(&model, h);
     let output = |h: f64| Ok::<f64, LinearError>((&model.c * switch(h)?.1)[0]);
-    let growth = power(10.0, 1.0 / PER_DECADE);
+    let growth = 10.0_f64.powf(1.0 / PER_DECADE);
     let mut cycles = Vec::new();
     let (mut low, mut at_low) = (shortest, output(shortest)?);
     while low < longest {

@@ -1,7 +1,8 @@
 use nalgebra::Matrix2;
 
 use crate::control::ParallelPid;
-use crate::linear::{Complex, square_root};
+use crate::linear::Complex;
+use crate::numeric::square_root;
 
 /// What the two controllers have to be at the frequency of the critical point: p1 and p2.
 pub type ControllerPair = [Complex; 2];

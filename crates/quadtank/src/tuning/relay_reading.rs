@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::linear::{Complex, turn};
+use crate::linear::Complex;
 use crate::sim::{Halt, LoopTrace};
 
 use super::critical::CriticalSearch;
@@ -190,7 +190,7 @@ fn measure(trace: &LoopTrace, index: usize, exciter: Option<Exciter>, period: f6
             continue;
         }
         let at = |time: f64| outputs[k - 1] + (outputs[k] - outputs[k - 1]) * ((time - times[k - 1]) / whole);
-        let (turn_from, turn_to) = (turn(-w * from), turn(-w * to));
+        let (turn_from, turn_to) = (Complex::cis(-w * from), Complex::cis(-w * to));
         let held = (turn_from - turn_to) / Complex::new(0.0, w);
         input += held * inputs[k - 1];
         let slope = (at(to) - at(from)) / (to - from);

@@ -26,7 +26,7 @@ const PADE_REACH: f64 = 5.371_920_351_148_152;
 /// `e^M` by scaling and squaring; `None` when M or the result is not finite.
 ///
 /// The exponential of nalgebra panics on overflow, hence this one.
-pub(super) fn exponential(matrix: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+pub fn matrix_exponential(matrix: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     let size = matrix.nrows();
     let norm = matrix.column_iter().map(|column| column.lp_norm(1)).fold(0.0, f64::max);
     if !norm.is_finite() || !matrix.iter().all(|x| x.is_finite()) {
@@ -63,20 +63,20 @@ mod tests {
 
     #[test]
     fn rotations_shears_and_decays() {
-        let turn = exponential(&dmatrix![0.0, -100.0; 100.0, 0.0]).unwrap();
+        let turn = matrix_exponential(&dmatrix![0.0, -100.0; 100.0, 0.0]).unwrap();
         let (sine, cosine) = 100.0_f64.sin_cos();
         assert_relative_eq!(turn, dmatrix![cosine, -sine; sine, cosine], epsilon = 1e-13);
-        let shear = exponential(&dmatrix![0.0, 7.0, 0.0; 0.0, 0.0, 3.0; 0.0, 0.0, 0.0]).unwrap();
+        let shear = matrix_exponential(&dmatrix![0.0, 7.0, 0.0; 0.0, 0.0, 3.0; 0.0, 0.0, 0.0]).unwrap();
         assert_relative_eq!(shear, dmatrix![1.0, 7.0, 10.5; 0.0, 1.0, 3.0; 0.0, 0.0, 1.0], epsilon = 1e-14);
-        let decay = exponential(&dmatrix![-1e6]).unwrap();
+        let decay = matrix_exponential(&dmatrix![-1e6]).unwrap();
         assert_eq!(decay, dmatrix![0.0]);
     }
 
     #[test]
     fn overflow_and_nan_are_none() {
-        assert_eq!(exponential(&dmatrix![1e3, 0.0; 0.0, 0.0]), None);
-        assert_eq!(exponential(&dmatrix![1e300, 1e300; 1e300, 1e300]), None);
-        assert_eq!(exponential(&dmatrix![f64::NAN]), None);
-        assert_eq!(exponential(&dmatrix![f64::INFINITY]), None);
+        assert_eq!(matrix_exponential(&dmatrix![1e3, 0.0; 0.0, 0.0]), None);
+        assert_eq!(matrix_exponential(&dmatrix![1e300, 1e300; 1e300, 1e300]), None);
+        assert_eq!(matrix_exponential(&dmatrix![f64::NAN]), None);
+        assert_eq!(matrix_exponential(&dmatrix![f64::INFINITY]), None);
     }
 }

@@ -1,0 +1,17 @@
+//! Methods of numerical mathematics that the libraries lack, or that are more exact or safer here than there.
+
+mod complex;
+mod eigenvalues;
+mod matrix_exponential;
+mod powers;
+mod search;
+mod shares;
+mod singular_values;
+
+pub use complex::{Complex, square_root};
+pub use eigenvalues::eigenvalues;
+pub use matrix_exponential::matrix_exponential;
+pub use powers::nearest_power_of_two;
+pub use search::{golden_section, root};
+pub use shares::{complements, excess_over_one};
+pub use singular_values::singular_values;

@@ -1,0 +1,25 @@
+//! The larger and the smaller of two numbers, for the integration alone. On wasm32 `f64::max` is a call into the mathematics
+//! library and this is one instruction: MEASURED. Where the first number is NaN, the second is the result.
+
+/// The larger of two numbers.
+#[inline]
+pub fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+/// The smaller of two numbers.
+#[inline]
+pub fn smaller(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn not_a_number_gives_way_to_the_second() {
+        assert_eq!((larger(1.0, 2.0), larger(2.0, 1.0), larger(f64::NAN, 0.0)), (2.0, 2.0, 0.0));
+        assert_eq!((smaller(1.0, 2.0), smaller(2.0, 1.0), smaller(f64::NAN, 0.0)), (1.0, 1.0, 0.0));
+    }
+}
