@@ -23,10 +23,7 @@ const ROOT: &str = "app";
 
 /// Starts the laboratory in the page: reads the address, fills the root element, and removes the outline.
 pub fn mount() {
-    // In the release a panic has no message (`tools/env.sh`).
-    if cfg!(debug_assertions) {
-        console_error_panic_hook::set_once();
-    }
+    console_error_panic_hook::set_once();
     let Some(root) = document().get_element_by_id(ROOT).and_then(|e| e.dyn_into::<web_sys::HtmlElement>().ok()) else {
         return;
     };

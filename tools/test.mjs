@@ -42,7 +42,12 @@ const STEPS = [
   { name: 'licences', run: ['node', 'tools/licences.mjs'] },
   {
     name: 'tests in headless Chromium',
-    run: ['cargo', 'test', ...CARGO, '--target', 'wasm32-unknown-unknown', '--test', 'web'],
+    run: ['cargo', 'test', ...CARGO, '--target', 'wasm32-unknown-unknown', '--package', 'quadtank-lab', '--test', 'browser'],
+    counts: cargoCounts,
+  },
+  {
+    name: 'published tables as WebAssembly',
+    run: ['cargo', 'test', ...CARGO, '--target', 'wasm32-unknown-unknown', '--package', 'quadtank', '--test', 'published'],
     counts: cargoCounts,
   },
   { name: 'release build', run: ['tools/build.sh'] },

@@ -42,6 +42,18 @@ pub struct Analysis {
 /// # Errors
 /// [`ScenarioError::Plant`] when levels are given and no input holds them, [`ScenarioError::Linear`] when the model has
 /// no poles or no steady-state gain. Questions that only singular plants leave open are answered by an error in place.
+///
+/// # Examples
+/// λ11 = γ1 γ2/(γ1 + γ2 − 1) = 1.4 for the valves 0.7 and 0.6 of Johansson (2000).
+/// ```
+/// use quadtank::plant::PresetId;
+/// use quadtank_scenario::{analyse, setup_of};
+///
+/// let analysis = analyse(&setup_of(PresetId::JohanssonMinimumPhase))?;
+/// let lambda = analysis.rga_11.expect("the gain is not singular");
+/// assert!((lambda - 1.4).abs() < 1e-9);
+/// # Ok::<(), quadtank_scenario::ScenarioError>(())
+/// ```
 pub fn analyse(setup: &Setup) -> Result<Analysis, ScenarioError> {
     let plant = setup.plant();
     let operating_point = setup.operating_point()?;

@@ -30,6 +30,16 @@ const DICTIONARIES: [&[u8]; 3] =
 ///
 /// # Errors
 /// [`ScenarioError::TooLong`] beyond [`LINK_LIMIT`], or what [`Scenario::validate`] finds.
+///
+/// # Examples
+/// ```
+/// use quadtank_scenario::{Document, Scenario, document_from_link, to_link};
+///
+/// let scenario = Scenario::default();
+/// let link = to_link(&scenario)?;
+/// assert_eq!(document_from_link(&link)?, Document::Quadruple(scenario));
+/// # Ok::<(), quadtank_scenario::ScenarioError>(())
+/// ```
 pub fn to_link(scenario: &Scenario) -> Result<String, ScenarioError> {
     write(1, &to_json(scenario)?)
 }

@@ -18,6 +18,17 @@ const SINGULAR: f64 = 1e-12;
 /// # Errors
 /// [`LinearError::NotSquare`]; [`LinearError::SingularGain`] when G, with rows and columns scaled to size 1, has a
 /// reciprocal condition below 1e-12; [`LinearError::NoConvergence`] when an entry is not finite.
+///
+/// # Examples
+/// The distillation column of Wood and Berry: λ11 = 2.01, so each loop is paired with the product that it steers most.
+/// ```
+/// use nalgebra::dmatrix;
+/// use quadtank::interaction::relative_gain_array;
+///
+/// let lambda = relative_gain_array(&dmatrix![12.8, -18.9; 6.6, -19.4])?;
+/// assert!((lambda[(0, 0)] - 2.01).abs() < 5e-3);
+/// # Ok::<(), quadtank::linear::LinearError>(())
+/// ```
 pub fn relative_gain_array(gain: &DMatrix<f64>) -> Result<DMatrix<f64>, LinearError> {
     relative_gains(gain.clone())
 }

@@ -4,9 +4,9 @@ use std::f64::consts::PI;
 
 use nalgebra::Matrix2;
 
+use super::Complex;
 use super::return_ratio::ReturnRatio;
 use super::taylor_model::{Cell, TaylorModel, size_of};
-use super::Complex;
 
 /// Stability of a loop of stable parts, by the number of encirclements of −1.
 #[derive(Clone, Copy, Debug, PartialEq)]

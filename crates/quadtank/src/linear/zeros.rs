@@ -51,6 +51,21 @@ pub fn place_nearest_at_origin(zeros: &mut [TransmissionZero]) {
 /// # Errors
 /// [`LinearError::NotSquare`]; [`LinearError::DegenerateRank`] when det G(s) ≡ 0;
 /// [`LinearError::NoConvergence`] when an entry is not finite, or too far from the others for f64.
+///
+/// # Examples
+/// The rig of Johansson (2000) in its non-minimum-phase setting has a zero in the right half-plane, at 0.013 1/s.
+/// ```
+/// use quadtank::linear::{StateSpace, transmission_zeros};
+/// use quadtank::plant::PresetId;
+///
+/// let rig = PresetId::JohanssonNonMinimumPhase.preset();
+/// let rest = rig.plant.equilibrium(rig.pump_voltage)?;
+/// let (a, b, c) = rig.plant.linearise(&rest).reduced();
+/// let model = StateSpace::strictly_proper(a, b, c)?;
+/// let zeros = transmission_zeros(&model)?;
+/// assert!((zeros[1].value.re - 0.013).abs() < 5e-4);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn transmission_zeros(model: &StateSpace) -> Result<Vec<TransmissionZero>, LinearError> {
     model.check()?;
     model.check_square()?;

@@ -39,6 +39,36 @@ impl Process for Rig<'_> {
 /// load begins at its exact time. A tank that receives more than drains at the top of its wall stays full, and the excess
 /// leaves the plant. There is a row per sample, and rows in between where samples are
 /// further apart than 1/1500 of the duration. A run of more than [`MAX_ROWS`](super::MAX_ROWS) rows is cut there.
+///
+/// # Examples
+/// A step of one level by 1 cm on the rig of Johansson (2000), and what becomes of it:
+/// ```
+/// use quadtank::control::{AntiWindup, DecentralisedPi, LoopMode, Pairing, PiSettings};
+/// use quadtank::plant::PresetId;
+/// use quadtank::sim::{Experiment, Measurement, SetPointStep, loop_metrics, simulate};
+///
+/// let rig = PresetId::JohanssonMinimumPhase.preset();
+/// let rest = rig.plant.equilibrium(rig.pump_voltage)?;
+/// let pi = PiSettings {
+///     gain: 3.0,
+///     integral_time_s: 30.0,
+///     set_point_weight: 1.0,
+///     anti_windup: AntiWindup::BackCalculation { tracking_ratio: 0.5 },
+///     mode: LoopMode::Automatic,
+/// };
+/// let controller = DecentralisedPi { pairing: Pairing::Diagonal, loops: [pi; 2], sampling_time_s: 1.0 };
+/// let experiment = Experiment {
+///     duration_s: 600.0,
+///     set_point_steps: vec![SetPointStep { level: 0, time_s: 100.0, size: 0.01 }],
+///     load_steps: vec![],
+///     measurement: Measurement { noise_std: 0.0, seed: 0, quantised: false },
+/// };
+/// let run = simulate(&rig.plant, &rest, &controller, &experiment);
+/// let [stepped, other] = loop_metrics(&run, &rig.plant, &controller, &experiment);
+/// assert!(stepped.rise_time_s.is_some_and(|time_s| time_s < 60.0));
+/// assert_eq!(other.rise_time_s, None);
+/// # Ok::<(), quadtank::plant::PlantError>(())
+/// ```
 pub fn simulate(
     plant: &QuadrupleTank,
     op: &OperatingPoint,

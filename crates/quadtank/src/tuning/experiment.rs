@@ -240,6 +240,22 @@ pub fn modulus_estimator(element: &TransferFunction, r: f64) -> Result<TransferF
 ///
 /// # Errors
 /// As [`relay_test`].
+///
+/// # Examples
+/// 1/(s + 1)³ oscillates at ω = √3 rad/s under a gain of 8; the relay finds both to a few percent.
+/// ```
+/// use quadtank::control::Relay;
+/// use quadtank::linear::TransferFunction;
+/// use quadtank::tuning::{TestTime, single_loop_test, ultimate_point};
+///
+/// let plant = TransferFunction::lags(1.0, &[1.0; 3], 0.0)?;
+/// let time = TestTime { duration: 200.0, release: 2.0, step: 0.02 };
+/// let test = single_loop_test(&plant, Relay::ideal(1.0, 1.0), time)?;
+/// let point = ultimate_point(&test, 0).expect("the oscillation settles");
+/// assert!((point.gain / 8.0 - 1.0).abs() < 0.05);
+/// assert!((point.period * 3.0_f64.sqrt() / std::f64::consts::TAU - 1.0).abs() < 0.05);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn single_loop_test(element: &TransferFunction, relay: Relay, time: TestTime) -> Result<RelayTest, TuningError> {
     let path = Path { input: 0, output: 0, element: element.clone() };
     relay_test(&mut DelayedPlant::new(&[path])?, [Some(relay), None], PidMatrix::default(), time)

@@ -13,6 +13,8 @@ use quadtank::tuning::{
     CriticalSearch, Design, GainLimit, PublishedPlant, RelayVerdict, TestTime, complete_response, frequency_range,
     importance_direction, place_both_loci, place_one_locus, relay_test, simultaneous_test, sine_test,
 };
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
 
 fn pid([proportional, integral, derivative]: [f64; 3]) -> ParallelPid {
     ParallelPid { proportional, integral, derivative }

@@ -9,6 +9,8 @@ use quadtank::linear::Complex;
 use quadtank::tuning::{
     ControllerPair, PublishedPlant, TuningRule, integral_action_may_be_stable, place_both_loci, place_one_locus,
 };
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
 
 /// Periods of the printed critical points, by their numbers (Tables 7 and 13).
 const WOOD_BERRY: [f64; 4] = [11.57, 12.70, 12.25, 12.00];

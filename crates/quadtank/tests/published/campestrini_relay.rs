@@ -9,6 +9,8 @@ use quadtank::tuning::{
     TuningRule, distance_from_curve, frequency_range, independent_tuning, limit_cycles, modulus_estimator,
     read_relay_test, sequential_tuning, simultaneous_test, single_loop_test, with_integrator,
 };
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
 
 /// Plants of the exact test: 1/(s+1)³, 1/(s+1)⁴, and both diagonal elements of Process II.
 fn plants() -> [TransferFunction; 4] {

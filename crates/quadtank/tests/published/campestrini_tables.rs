@@ -7,6 +7,8 @@ use quadtank::tuning::{
     CriticalCurve, CriticalSearch, GainLimit, PublishedPlant, TuningRule, USOL, UltimatePoint, frequency_range,
     importance_direction,
 };
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
 
 fn with_search<T>(plant: PublishedPlant, work: impl FnOnce(&TransferMatrix, &CriticalSearch) -> T) -> T {
     let transfer = plant.transfer_matrix().unwrap();

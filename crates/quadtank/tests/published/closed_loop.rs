@@ -7,6 +7,8 @@ use quadtank::sim::{
     EventKind, Experiment, Load, LoadStep, LoopMetrics, Measurement, SetPointStep, Settling, Stability, Trajectory,
     closed_loop, loop_metrics, simulate, simulate_linear,
 };
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
 
 const NO_NOISE: Measurement = Measurement { noise_std: 0.0, seed: 0, quantised: false };
 

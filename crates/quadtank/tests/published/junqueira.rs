@@ -9,6 +9,8 @@ use quadtank::sim::{
     TrackingFigures, continuous_model_free_poles, model_free_poles, simulate_model_free, smallest_model_gain,
     smallest_model_gain_of_integrator, tracking_figures,
 };
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
 
 const CM: f64 = 0.01;
 

@@ -9,6 +9,8 @@ use nalgebra::{DMatrix, Vector2, Vector4, dmatrix};
 use quadtank::interaction::{PairingVerdict, recommend_pairing, relative_gain_array};
 use quadtank::linear::{StateSpace, eigenvalues, quadruple, transmission_zeros};
 use quadtank::plant::{Disturbance, Jacobian, OperatingPoint, Outlet, Preset, PresetId, Printed, QuadrupleTank};
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
 
 const CM: f64 = 1e-2;
 const MM: f64 = 1e-3;

@@ -1,15 +1,11 @@
-//! The core in the browser that it is made for: the same figures as on the host, compiled to wasm.
-#![cfg(target_arch = "wasm32")]
+//! Documents, links and runs as WebAssembly: the same figures as on the host. The published tables have a run of their own, in
+//! `crates/quadtank/tests/published`.
 
-#[path = "../crates/quadtank-scenario/tests/seeded/mod.rs"]
-mod seeded;
-
+use crate::seeded;
 use quadtank::plant::PresetId;
 use quadtank_scenario::model_free::{PublishedExperiment, PublishedValves, published_model_free, run_model_free};
 use quadtank_scenario::{Document, Scenario, ScenarioError, analyse, document_from_link, run, setup_of, to_link};
-use wasm_bindgen_test::{wasm_bindgen_test, wasm_bindgen_test_configure};
-
-wasm_bindgen_test_configure!(run_in_browser);
+use wasm_bindgen_test::wasm_bindgen_test;
 
 /// The scenario of a link.
 fn from_link(link: &str) -> Result<Scenario, ScenarioError> {
