@@ -7,8 +7,8 @@ use crate::plant::{Disturbance, Jacobian, OperatingPoint, QuadrupleTank};
 
 use super::course::{self, Events, Process};
 use super::experiment::Experiment;
-use super::hold::Hold;
 use super::trajectory::Trajectory;
+use super::zero_order_hold::ZeroOrderHold;
 
 /// Durations that differ by less than this fraction are the same, up to the rounding of times.
 const SAME_DURATION: f64 = 1e-9;
@@ -23,7 +23,7 @@ struct LinearModel<'a> {
     leak_rate: [f64; 4],
     /// `B u` plus the loads (m/s).
     forcing: Vector4<f64>,
-    hold: Hold,
+    hold: ZeroOrderHold,
     hold_duration: f64,
     /// `Ψ forcing` (m).
     push: Vector4<f64>,
@@ -42,7 +42,7 @@ impl<'a> LinearModel<'a> {
             deviation: Vector4::zeros(),
             leak_rate,
             forcing: Vector4::zeros(),
-            hold: Hold::new(&jacobian.a, duration),
+            hold: ZeroOrderHold::new(&jacobian.a, duration),
             hold_duration: duration,
             push: Vector4::zeros(),
         }
@@ -82,7 +82,7 @@ impl Process for LinearModel<'_> {
         if (duration - self.hold_duration).abs() <= SAME_DURATION * self.hold_duration {
             self.deviation = self.hold.pass(&self.deviation, &self.push);
         } else {
-            let hold = Hold::new(&self.jacobian.a, duration);
+            let hold = ZeroOrderHold::new(&self.jacobian.a, duration);
             self.deviation = hold.pass(&self.deviation, &hold.push(&self.forcing));
         }
     }

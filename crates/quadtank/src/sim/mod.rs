@@ -7,7 +7,7 @@ mod experiment;
 mod explicit;
 mod held_outputs;
 mod held_tank;
-mod hold;
+
 mod hydraulics;
 mod implicit;
 mod integrate;
@@ -24,6 +24,7 @@ mod tracking;
 mod trajectory;
 mod two_loops;
 mod walls;
+mod zero_order_hold;
 
 pub use closed_loop::simulate;
 pub use course::{MAX_ROWS, MAX_RUN_WORK};

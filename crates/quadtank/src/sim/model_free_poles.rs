@@ -10,8 +10,8 @@ use crate::control::{EstimatorError, EstimatorSettings, ModelFree, Window};
 use crate::linear::{Complex, LinearError, eigenvalues};
 use crate::plant::Jacobian;
 
-use super::hold::Hold;
 use super::poles::Stability;
+use super::zero_order_hold::ZeroOrderHold;
 
 /// Samples of a sliding window up to which its poles are computed: each is two states.
 const MOST_SLIDING_SAMPLES: usize = 30;
@@ -135,7 +135,7 @@ fn unusable(error: EstimatorError) -> LinearError {
 /// The loop as linear steps, in deviations from a point of rest.
 struct LinearLoop<'a> {
     law: &'a ModelFree,
-    hold: Hold,
+    hold: ZeroOrderHold,
     /// What an output of loop i held for one sample does to the levels (m/V).
     input: [Vector4<f64>; 2],
     /// Tanks that hold water.
@@ -156,7 +156,7 @@ struct State {
 impl<'a> LinearLoop<'a> {
     fn new(jacobian: &Jacobian, law: &'a ModelFree, power_gain: f64) -> Result<Self, LinearError> {
         law.check().map_err(unusable)?;
-        let hold = Hold::new(&jacobian.a, law.sampling_time_s);
+        let hold = ZeroOrderHold::new(&jacobian.a, law.sampling_time_s);
         let by_pump = hold.response * jacobian.b * power_gain;
         let weights = |settings: EstimatorSettings| {
             let of_loop = |i: usize| settings.weights(law.loops[i].model_gain, law.sampling_time_s);

@@ -6,7 +6,7 @@ use crate::control::{DecentralisedPi, PiSettings};
 use crate::linear::Complex;
 use crate::plant::Jacobian;
 
-use super::hold::Hold;
+use super::zero_order_hold::ZeroOrderHold;
 
 /// Frequencies of the grid, from below the slowest pole of the loop up to Nyquist.
 const GRID: u32 = 80;
@@ -30,7 +30,7 @@ pub(super) struct OpenLoop<'a> {
 
 impl<'a> OpenLoop<'a> {
     pub(super) fn new(jacobian: &Jacobian, controller: &'a DecentralisedPi, power_gain: f64) -> Self {
-        let hold = Hold::new(&jacobian.a, controller.sampling_time_s);
+        let hold = ZeroOrderHold::new(&jacobian.a, controller.sampling_time_s);
         let by_pump = hold.response * jacobian.b * power_gain;
         let input = Matrix4x2::from_fn(|tank, i| by_pump[(tank, controller.pairing.pump_of(i))]);
         let sensor = [jacobian.c[(0, 0)], jacobian.c[(1, 1)]];
