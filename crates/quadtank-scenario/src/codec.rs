@@ -1,11 +1,12 @@
-use super::error::quoted;
-use super::fields::{self, Part, malformed};
+use serde::{Deserialize, Serialize};
+
+use super::error::{malformed, quoted};
 use super::model_free::ModelFreeScenario;
 use super::path::{byte_at, decimal_comma, path_before};
 use super::text::text_of;
 use super::tree::Tree;
 use super::tuning::TuningScenario;
-use super::{Scenario, ScenarioError};
+use super::{Scenario, ScenarioError, reader};
 
 /// Longest document that is read (bytes): far more than any scenario needs.
 pub const DOCUMENT_LIMIT: usize = 64 * 1024;
@@ -29,7 +30,7 @@ pub enum Document {
 pub fn from_json(text: &str) -> Result<Scenario, ScenarioError> {
     let tree = tree_of(text)?;
     match version_of(&tree)? {
-        1 => read(Scenario::default(), &tree),
+        1 => read(&tree, Scenario::validate),
         found => Err(ScenarioError::UnknownVersion { found, newest: Scenario::VERSION }),
     }
 }
@@ -56,9 +57,9 @@ pub fn document_from_bytes(bytes: &[u8]) -> Result<Document, ScenarioError> {
 /// A later version of a document is read here too: into its own types, then brought up to date.
 fn document_from_tree(tree: &Tree) -> Result<Document, ScenarioError> {
     match version_of(tree)? {
-        1 => read(Scenario::default(), tree).map(Document::Quadruple),
-        2 => read(TuningScenario::default(), tree).map(Document::Tuning),
-        3 => read(ModelFreeScenario::default(), tree).map(Document::ModelFree),
+        1 => read(tree, Scenario::validate).map(Document::Quadruple),
+        2 => read(tree, TuningScenario::validate).map(Document::Tuning),
+        3 => read(tree, ModelFreeScenario::validate).map(Document::ModelFree),
         found => Err(ScenarioError::UnknownVersion { found, newest: ModelFreeScenario::VERSION }),
     }
 }
@@ -107,9 +108,18 @@ fn version_of(tree: &Tree) -> Result<u64, ScenarioError> {
     }
 }
 
-/// Reads a document into `blank`, which is one of its type whose optional fields are as they are where they are absent.
-fn read<T: Part>(mut blank: T, tree: &Tree) -> Result<T, ScenarioError> {
-    fields::read(&mut blank, tree).map(|()| blank)
+/// Reads a document into its type, shape first, then every number.
+fn read<'t, T: Deserialize<'t>>(
+    tree: &'t Tree,
+    validate: fn(&T) -> Result<(), ScenarioError>,
+) -> Result<T, ScenarioError> {
+    let document = reader::read(tree)?;
+    validate(&document)?;
+    Ok(document)
+}
+
+fn written(document: &impl Serialize) -> Result<String, ScenarioError> {
+    serde_json::to_string_pretty(document).map_err(|error| malformed(String::new(), error.to_string()))
 }
 
 /// Writes a scenario as JSON, indented; all digits of all numbers are kept.
@@ -117,7 +127,8 @@ fn read<T: Part>(mut blank: T, tree: &Tree) -> Result<T, ScenarioError> {
 /// # Errors
 /// What [`Scenario::validate`] finds: a document that could not be read again is not written.
 pub fn to_json(scenario: &Scenario) -> Result<String, ScenarioError> {
-    fields::write(&mut scenario.clone())
+    scenario.validate()?;
+    written(scenario)
 }
 
 /// Writes a relay-tuning session as JSON, as [`to_json`] writes a scenario.
@@ -125,7 +136,8 @@ pub fn to_json(scenario: &Scenario) -> Result<String, ScenarioError> {
 /// # Errors
 /// What [`TuningScenario::validate`] finds.
 pub fn tuning_to_json(scenario: &TuningScenario) -> Result<String, ScenarioError> {
-    fields::write(&mut scenario.clone())
+    scenario.validate()?;
+    written(scenario)
 }
 
 /// Writes a run under the model-free law as JSON, as [`to_json`] writes a scenario.
@@ -133,16 +145,6 @@ pub fn tuning_to_json(scenario: &TuningScenario) -> Result<String, ScenarioError
 /// # Errors
 /// What [`ModelFreeScenario::validate`] finds.
 pub fn model_free_to_json(scenario: &ModelFreeScenario) -> Result<String, ScenarioError> {
-    fields::write(&mut scenario.clone())
-}
-
-/// The JSON Schema of the documents of a version; `None` for one that is not known.
-#[cfg(not(target_arch = "wasm32"))]
-pub fn schema_of(version: u32) -> Option<serde_json::Value> {
-    Some(match version {
-        1 => fields::schema(&mut Scenario::default(), "Scenario"),
-        2 => fields::schema(&mut TuningScenario::default(), "TuningScenario"),
-        3 => fields::schema(&mut ModelFreeScenario::default(), "ModelFreeScenario"),
-        _ => return None,
-    })
+    scenario.validate()?;
+    written(scenario)
 }

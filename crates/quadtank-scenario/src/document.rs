@@ -1,11 +1,14 @@
 use quadtank::control::DecentralisedPi;
 use quadtank::plant::{DisplayUnit, OperatingPoint, PresetId, QuadrupleTank};
 use quadtank::sim::Experiment;
+use serde::{Deserialize, Serialize};
 
-use super::{ScenarioError, fields};
+use super::{ScenarioError, params, validate};
 
 /// The plant of a setup: a published rig by name, or all its parameters.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 #[expect(clippy::large_enum_variant, reason = "one per scenario, and plain data is easier to share than a box")]
 pub enum PlantSpec {
     /// A published rig; its valves are overridden by those of the setup.
@@ -20,7 +23,9 @@ pub enum PlantSpec {
 }
 
 /// How the operating point is given.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
 pub enum OperatingPointSpec {
     /// The pump voltages (V); the levels follow, for any valves.
     PumpVoltage([f64; 2]),
@@ -29,7 +34,9 @@ pub enum OperatingPointSpec {
 }
 
 /// Everything that one run depends on.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct Setup {
     /// The plant.
     pub plant: PlantSpec,
@@ -75,13 +82,16 @@ impl Setup {
 }
 
 /// What the screen shows beside the run itself. Nothing here changes a number.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct View {
     /// Time at which the cursor of the responses stands (s); `None` at rest.
     pub cursor_s: Option<f64>,
     /// Shown part of the time axis (s); `None` for all of it.
     pub zoom_s: Option<[f64; 2]>,
     /// Whether the linear responses are hidden.
+    #[serde(default)]
     pub hide_linear: bool,
 }
 
@@ -89,15 +99,19 @@ pub struct View {
 ///
 /// In JSON every key is in snake case, also the name of a choice that holds fields, and every name of a rig in kebab
 /// case; units are SI.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct Scenario {
     /// Version of the document: 1. It is checked before anything else is read.
     pub version: u32,
     /// The run that is worked on.
     pub setup: Setup,
     /// Runs pinned to compare with, at most 3.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub pinned: Vec<Setup>,
     /// What the screen shows.
+    #[serde(default)]
     pub view: View,
 }
 
@@ -107,11 +121,15 @@ impl Scenario {
     /// How many pinned runs a scenario holds.
     pub const MAX_PINNED: usize = 3;
 
-    /// Checks every number against [`limits`](super::limits), and the lengths of all lists.
+    /// Checks every number against its [row](super::params), the lengths of all lists, and what has to hold between numbers.
     ///
     /// # Errors
     /// [`ScenarioError::OutOfRange`] or [`ScenarioError::TooMany`] for the first field that is not allowed.
     pub fn validate(&self) -> Result<(), ScenarioError> {
-        fields::check(&mut self.clone())
+        params::check(self)?;
+        validate::version(self.version, Self::VERSION)?;
+        validate::setup(&self.setup, "setup")?;
+        validate::each(&self.pinned, "pinned", validate::setup)?;
+        validate::view(&self.view, "view")
     }
 }

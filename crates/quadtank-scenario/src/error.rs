@@ -4,6 +4,7 @@ use quadtank::control::EstimatorError;
 use quadtank::linear::LinearError;
 use quadtank::plant::PlantError;
 
+use super::limits::Limits;
 use super::tuning::ElementFault;
 
 /// Why a document is not a scenario, or a scenario cannot be computed.
@@ -108,6 +109,17 @@ pub enum ScenarioError {
     /// The linear model does not answer.
     #[error(transparent)]
     Linear(#[from] LinearError),
+}
+
+/// The number at a path of a document that is not within its limits.
+pub(super) fn out_of_range(path: &str, value: f64, Limits { min, max }: Limits) -> ScenarioError {
+    ScenarioError::OutOfRange { field: path.to_owned(), value, min, max }
+}
+
+/// A document of the wrong shape.
+pub(super) fn malformed(path: String, reason: String) -> ScenarioError {
+    let path = if path.is_empty() { "document".to_owned() } else { path };
+    ScenarioError::Malformed { path, reason }
 }
 
 /// Longest quotation of a document in an error (characters).

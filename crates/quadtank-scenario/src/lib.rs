@@ -2,8 +2,7 @@
 //!
 //! A [`Scenario`], [`TuningScenario`](tuning::TuningScenario) or [`ModelFreeScenario`](model_free::ModelFreeScenario) is a file, a
 //! link, an embed, a command-line run. It comes in by [`document_from_bytes`] or [`document_from_link`], which check every number
-//! against [`limits`] and take any bytes; [`to_json`] and [`to_link`] write it, with all digits. All of it follows from one table
-//! of `fields` per type.
+//! against its row in the table of [parameters](params) and take any bytes; [`to_json`] and [`to_link`] write it, with all digits.
 //! [`setup_of`] gives the published rigs. [`analyse()`] says what theory says about a setup, [`run()`] what happens, and
 //! [`ValveMap`] where the zeros go when its valves move: the lower rooms put together, here and nowhere else.
 
@@ -12,24 +11,26 @@ mod codec;
 mod csv;
 mod document;
 mod error;
-mod fields;
 pub mod limits;
 mod link;
 mod margins;
 pub mod model_free;
 mod pack;
+pub mod params;
 mod path;
 mod presets;
+mod reader;
 mod report;
 mod run;
+#[cfg(feature = "schema")]
+mod schema;
 mod text;
 mod tree;
 pub mod tuning;
+mod validate;
 mod valve_map;
 
 pub use analyse::{Analysis, analyse};
-#[cfg(not(target_arch = "wasm32"))]
-pub use codec::schema_of;
 pub use codec::{
     DOCUMENT_LIMIT, Document, check_length, document_from_bytes, document_from_json, from_json, model_free_to_json,
     to_json, tuning_to_json,
@@ -42,5 +43,6 @@ pub use margins::Margins;
 pub use presets::setup_of;
 pub use report::AnalysisReport;
 pub use run::{Run, run};
-use tree::Tree;
+#[cfg(feature = "schema")]
+pub use schema::schema_of;
 pub use valve_map::ValveMap;

@@ -1,4 +1,5 @@
-//! Between which values every number of a scenario lies: the one table that validation, sliders and number fields share.
+//! Between which values the numbers of a document lie. Which number has which is said in the table of
+//! [parameters](super::params); what depends on other numbers is a function here.
 //!
 //! The limits are wide on purpose: they keep a document computable (no overflow, no endless run), not sensible. What a
 //! rig can really do is a matter of its walls and pumps, which [`quadtank::plant::QuadrupleTank::violations`] checks.
@@ -112,6 +113,36 @@ pub const SENSOR_RESOLUTION: Limits = Limits::new(0.0, 10.0);
 pub const LEAST_SENSOR_RESOLUTION: f64 = 1e-9;
 /// Acceleration of gravity (m/s²).
 pub const GRAVITY: Limits = Limits::new(0.1, 100.0);
+
+/// A number of a relay-tuning session: a gain, a signal or a time in the unit of its plant.
+pub const TUNING_VALUE: Limits = Limits::new(-1e6, 1e6);
+/// A number of a session that is not negative.
+pub const TUNING_NOT_NEGATIVE: Limits = Limits::new(0.0, TUNING_VALUE.max);
+/// A number of a session where only positive ones make sense.
+pub const TUNING_POSITIVE: Limits = Limits::new(1e-6, TUNING_VALUE.max);
+/// Number of a loop or of a root.
+pub const ONE_OR_TWO: Limits = Limits::new(1.0, 2.0);
+/// Passes of a sequential relay test.
+pub const PASSES: Limits = Limits::new(1.0, 20.0);
+/// Rows of one record.
+pub const MAX_ROWS: f64 = 100_000.0;
+/// Rows of all records of a sequential relay test together.
+pub const ROWS_OF_ALL: Limits = Limits::new(0.0, 500_000.0);
+/// Coefficient of a transfer function; see also [`COEFFICIENT_MAGNITUDE`].
+pub const COEFFICIENT: Limits = Limits::new(-COEFFICIENT_MAGNITUDE.max, COEFFICIENT_MAGNITUDE.max);
+/// Magnitude of a coefficient that is not zero: products of such coefficients stay numbers.
+pub const COEFFICIENT_MAGNITUDE: Limits = Limits::new(1e-12, 1e12);
+/// Coefficients of one polynomial.
+pub const MAX_COEFFICIENTS: usize = 8;
+/// How much quicker than a record the quickest pole of a plant may be: it asks for more steps than anyone waits for.
+pub const QUICKEST_IN_RECORD: Limits = Limits::new(0.0, 2e6);
+/// How much quicker than a dead time the quickest pole of a plant may be.
+pub const QUICKEST_IN_DEAD_TIME: Limits = Limits::new(0.0, 1e4);
+
+/// Allowed times between the rows of a record of a duration (any unit): at least one row, at most [`MAX_ROWS`].
+pub fn row_step(duration: f64) -> Limits {
+    Limits::new(duration / MAX_ROWS, duration)
+}
 
 /// Allowed sampling times (s) in an experiment of a duration (s): those of [`SAMPLING_TIME_S`] with at most [`MAX_SAMPLES`]
 /// samples.

@@ -1,4 +1,4 @@
-//! A document as a tree, between its text and its [fields](super::fields).
+//! A document as a tree, between its text and its types.
 
 use std::fmt;
 

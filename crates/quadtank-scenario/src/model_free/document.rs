@@ -1,12 +1,15 @@
-use crate::{Limits, PlantSpec, ScenarioError, fields, limits, setup_of};
+use crate::{Limits, PlantSpec, ScenarioError, limits, params, setup_of, validate};
 use quadtank::control::{DecentralisedPi, ModelFree};
 use quadtank::plant::{OperatingPoint, PresetId, QuadrupleTank, ValveSchedule};
 use quadtank::sim::{Experiment, SetPointStep};
+use serde::{Deserialize, Serialize};
 
 use super::{PublishedExperiment, PublishedValves, published_model_free};
 
 /// Where a run begins.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
 pub enum StartSpec {
     /// At rest with these levels of tanks 1 and 2 (m), as the valves stand at the start.
     Rest([f64; 2]),
@@ -15,7 +18,9 @@ pub enum StartSpec {
 }
 
 /// Everything that a run under the model-free law depends on.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct ModelFreeSetup {
     /// The plant; its valves are those of the schedules.
     pub plant: PlantSpec,
@@ -26,6 +31,7 @@ pub struct ModelFreeSetup {
     /// The law.
     pub controller: ModelFree,
     /// Two PI loops to compare it with in the same experiment.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub compare: Option<DecentralisedPi>,
     /// What is done to the loops. Steps of the references count from the levels of the start.
     pub experiment: Experiment,
@@ -107,13 +113,16 @@ impl ModelFreeSetup {
 }
 
 /// A run under the model-free law.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct ModelFreeScenario {
     /// Version of the document: 3. It is checked before anything else is read.
     pub version: u32,
     /// The run.
     pub model_free: ModelFreeSetup,
     /// Time at which the cursor stands (s); `None` at the end.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub cursor_s: Option<f64>,
 }
 
@@ -121,13 +130,15 @@ impl ModelFreeScenario {
     /// The version of these documents.
     pub const VERSION: u32 = 3;
 
-    /// Checks every number and the lengths of all lists.
+    /// Checks every number, the lengths of all lists, and what has to hold between numbers.
     ///
     /// # Errors
     /// [`ScenarioError::OutOfRange`], [`ScenarioError::Law`] or [`ScenarioError::TooMany`] for the first field that is
     /// not allowed.
     pub fn validate(&self) -> Result<(), ScenarioError> {
-        fields::check(&mut self.clone())
+        params::check(self)?;
+        validate::version(self.version, Self::VERSION)?;
+        super::validate::setup(&self.model_free, "model_free")
     }
 }
 

@@ -4,8 +4,8 @@ mod answer;
 mod claims;
 mod csv;
 mod document;
-mod fields;
 mod published;
+mod validate;
 mod verdict;
 
 pub use answer::{ModelFreeAnalysis, ModelFreeAnswer, Moment, PredictedLoss, analyse_model_free, run_model_free};

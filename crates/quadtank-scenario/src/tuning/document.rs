@@ -1,10 +1,13 @@
-use crate::{ScenarioError, fields};
+use crate::{ScenarioError, params, validate};
 use quadtank::tuning::{Action, PlacementMethod, TuningError, TuningRule, importance};
+use serde::{Deserialize, Serialize};
 
 use super::TuningPlant;
 
 /// Which relay test is run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
 pub enum TestKind {
     /// One element of the diagonal alone, perhaps with something behind the relay.
     Single,
@@ -17,7 +20,9 @@ pub enum TestKind {
 }
 
 /// What stands behind the relay of a single test, and which point of the frequency response it finds.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
 pub enum Behind {
     /// Nothing: the point with −180°, if the relay has no hysteresis.
     #[default]
@@ -29,25 +34,33 @@ pub enum Behind {
 }
 
 /// A relay test.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct TestSpec {
     /// Which one.
     pub kind: TestKind,
     /// Number of the loop of a single test, 1 or 2.
+    #[serde(default = "one")]
     pub number: usize,
     /// What stands behind the relay of a single test.
+    #[serde(default)]
     pub behind: Behind,
     /// Amplitudes d1, d2.
     pub amplitudes: [f64; 2],
     /// Half widths ε of the hysteresis.
+    #[serde(default)]
     pub hysteresis: [f64; 2],
     /// Means of the relay outputs.
+    #[serde(default)]
     pub bias: [f64; 2],
     /// The rule of independent and sequential tests.
     pub rule: TuningRule,
     /// Factors f by which independent tests are made weaker.
+    #[serde(default = "not_weaker")]
     pub detuning: [f64; 2],
     /// Passes of a sequential test.
+    #[serde(default = "one")]
     pub passes: usize,
     /// How long.
     pub duration: f64,
@@ -57,8 +70,20 @@ pub struct TestSpec {
     pub step: f64,
 }
 
+/// What a document without the field has: the first loop, a single pass.
+fn one() -> usize {
+    1
+}
+
+/// What a document without detuning has.
+fn not_weaker() -> [f64; 2] {
+    [1.0; 2]
+}
+
 /// The critical point that a design starts from.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum CriticalSpec {
     /// The point of the curve where loop 2 has this importance r2.
     Importance(f64),
@@ -72,7 +97,9 @@ pub enum CriticalSpec {
 }
 
 /// What stands between controllers and plant.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case")]
 pub enum DecouplerSpec {
     /// Nothing.
     #[default]
@@ -88,7 +115,9 @@ pub enum DecouplerSpec {
 }
 
 /// A placement of the critical point.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct DesignSpec {
     /// From where.
     pub critical: CriticalSpec,
@@ -101,11 +130,14 @@ pub struct DesignSpec {
     /// Root 1 or 2; root 1 has the larger controller in loop 1.
     pub root: usize,
     /// Decoupler of the response.
+    #[serde(default)]
     pub decoupler: DecouplerSpec,
 }
 
 /// What the response is compared with.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case")]
 pub enum CompareSpec {
     /// Nothing.
     #[default]
@@ -119,7 +151,9 @@ pub enum CompareSpec {
 }
 
 /// Steps of the references.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct ResponseSpec {
     /// References of both loops, from the start on.
     pub references: [f64; 2],
@@ -128,11 +162,14 @@ pub struct ResponseSpec {
     /// Sampling time of the controllers.
     pub step: f64,
     /// What it is compared with.
+    #[serde(default)]
     pub compare: CompareSpec,
 }
 
 /// Everything that a tuning session depends on.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct TuningSetup {
     /// The plant.
     pub plant: TuningPlant,
@@ -145,13 +182,16 @@ pub struct TuningSetup {
 }
 
 /// A relay-tuning session.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct TuningScenario {
     /// Version of the document: 2. It is checked before anything else is read.
     pub version: u32,
     /// The session.
     pub tuning: TuningSetup,
     /// Sessions whose responses stay in sight, oldest first.
+    #[serde(default)]
     pub pinned: Vec<TuningSetup>,
 }
 
@@ -161,12 +201,15 @@ impl TuningScenario {
     /// Most pinned sessions.
     pub const MAX_PINNED: usize = 3;
 
-    /// Checks every number and the lengths of all lists.
+    /// Checks every number, the lengths of all lists, and what has to hold between numbers.
     ///
     /// # Errors
     /// [`ScenarioError::OutOfRange`] or [`ScenarioError::TooMany`] for the first field that is not allowed.
     pub fn validate(&self) -> Result<(), ScenarioError> {
-        fields::check(&mut self.clone())
+        params::check(self)?;
+        validate::version(self.version, Self::VERSION)?;
+        super::validate::setup(&self.tuning, "tuning")?;
+        validate::each(&self.pinned, "pinned", super::validate::setup)
     }
 }
 

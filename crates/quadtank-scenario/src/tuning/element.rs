@@ -1,15 +1,19 @@
 use thiserror::Error;
 
 use quadtank::linear::{LinearError, TransferFunction};
+use serde::{Deserialize, Serialize};
 
 /// An element `b(s)/a(s) e^(−θ s)` of a plant of one's own.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct Element {
     /// Coefficients of b by rising powers of s.
     pub numerator: Vec<f64>,
     /// Coefficients of a by rising powers of s.
     pub denominator: Vec<f64>,
     /// Dead time θ.
+    #[serde(default)]
     pub dead_time: f64,
 }
 

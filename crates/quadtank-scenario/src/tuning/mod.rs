@@ -6,13 +6,13 @@ mod designed;
 mod details;
 mod document;
 mod element;
-mod fields;
 mod plant;
 mod printed;
 mod published;
 mod rig;
 mod start;
 mod steady_state;
+mod validate;
 mod warnings;
 
 pub use answer::{FoundPoint, Study, Tested, Tuning, tune};

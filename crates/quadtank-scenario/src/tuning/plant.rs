@@ -2,11 +2,14 @@ use quadtank::control::Pairing;
 use quadtank::linear::{Complex, TransferFunction, TransferMatrix};
 use quadtank::plant::PresetId;
 use quadtank::tuning::{PublishedPlant, TuningError, tank_transfer_matrix};
+use serde::{Deserialize, Serialize};
 
 use super::Element;
 
 /// The plant that is tuned. Times are in its own unit.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum TuningPlant {
     /// A plant of the literature.
     Published(PublishedPlant),
@@ -19,10 +22,13 @@ pub enum TuningPlant {
         /// Which pump each loop drives.
         pairing: Pairing,
         /// A dead time in every element (s).
+        #[serde(default)]
         dead_time_s: f64,
         /// A lag in every element (s), of pump or sensor.
+        #[serde(default)]
         lag_s: f64,
         /// Whether simultaneous relays and the response run on the nonlinear plant, which has neither dead time nor lag.
+        #[serde(default)]
         nonlinear: bool,
     },
     /// Four elements, row by output.

@@ -1,7 +1,11 @@
+use serde::{Deserialize, Serialize};
+
 use super::{Pi, PiSettings};
 
 /// Which pump each level commands.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
 pub enum Pairing {
     /// Level 1 – pump 1, level 2 – pump 2.
     Diagonal,
@@ -54,7 +58,9 @@ impl Pairing {
 }
 
 /// Two PI loops that know nothing of each other. Loop 1 controls level 1, loop 2 level 2, whatever pump they drive.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct DecentralisedPi {
     /// Which pump each loop drives.
     pub pairing: Pairing,

@@ -18,6 +18,7 @@
 //! which is exact for `y = (φ + α u) t + y0` with constant u. The sums of eq. 15 replace the integrals; print leaves out their
 //! factor Ts, which is 1 s there.
 
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 /// Most samples of a window.
@@ -26,7 +27,9 @@ pub const MAX_WINDOW_SAMPLES: usize = 1000;
 const WHOLE: f64 = 1e-6;
 
 /// When the estimate is renewed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
 pub enum Window {
     /// Every T seconds, from the samples since the last time, both ends included; it is held in between (the source).
     Block,
@@ -35,7 +38,9 @@ pub enum Window {
 }
 
 /// How the integrals of eq. 14 become sums.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
 pub enum Quadrature {
     /// All samples of the window count the same, its two ends included (eq. 15). With ten samples of a window a slope then
     /// weighs 1.32 instead of 1, an input 0.99.
@@ -45,7 +50,9 @@ pub enum Quadrature {
 }
 
 /// Which input the estimator is told.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
 pub enum FedWith {
     /// What the pump got, within its limits.
     Applied,
@@ -54,7 +61,9 @@ pub enum FedWith {
 }
 
 /// Settings of the estimator.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct EstimatorSettings {
     /// Length T of the window (s): a whole number of samples, two at least.
     pub window_s: f64,

@@ -1,7 +1,11 @@
+use serde::{Deserialize, Serialize};
+
 use super::{Estimator, EstimatorError, EstimatorSettings, FedWith, MAX_WINDOW_SAMPLES, Pairing};
 
 /// What keeps the integral of the law from winding up while its output is limited. The source has nothing.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum ModelFreeWindup {
     /// Nothing: the integral runs on.
     Off,
@@ -16,7 +20,9 @@ pub enum ModelFreeWindup {
 
 /// Settings of one loop of the law, `u = (−φ̂ + Kp e + Ki ∫ e dt)/α̂` with e = r − y in metres
 /// (Junqueira, Neves and Angelico, eqs. 16 and 17).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct ModelFreeSettings {
     /// Gain α̂ of the ultra-local model (m/(s V)), positive.
     pub model_gain: f64,
@@ -29,16 +35,26 @@ pub struct ModelFreeSettings {
 }
 
 /// Two loops of the law that know nothing of each other. Loop 1 controls level 1, loop 2 level 2, whatever pump they drive.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct ModelFree {
     /// Which pump each loop drives.
     pub pairing: Pairing,
     /// Settings of the loops that control levels 1 and 2.
     pub loops: [ModelFreeSettings; 2],
-    /// The estimator of φ in both loops; `None` leaves φ̂ as it begins, 0 from empty tanks.
+    /// The estimator of φ in both loops; `None` leaves φ̂ as it begins, 0 from empty tanks. A document that says nothing about it
+    /// has the published one.
+    #[serde(default = "published_estimator")]
     pub estimator: Option<EstimatorSettings>,
     /// Sampling time Ts of both loops (s).
     pub sampling_time_s: f64,
+}
+
+/// What a document without the field has: `null` is for no estimator.
+#[expect(clippy::unnecessary_wraps, reason = "the default of an optional field")]
+fn published_estimator() -> Option<EstimatorSettings> {
+    Some(EstimatorSettings::PUBLISHED)
 }
 
 impl ModelFree {

@@ -1,5 +1,9 @@
+use serde::{Deserialize, Serialize};
+
 /// What keeps the integral from winding up while the output is limited.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum AntiWindup {
     /// Nothing: the integral runs on.
     Off,
@@ -11,7 +15,9 @@ pub enum AntiWindup {
 }
 
 /// Who moves the output of a loop.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum LoopMode {
     /// The controller.
     Automatic,
@@ -25,7 +31,9 @@ pub enum LoopMode {
 }
 
 /// Settings of one PI loop, `u = K (b r − y + (1/Ti) ∫ (r − y) dt)` in volts of measured signal and controller output.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct PiSettings {
     /// Gain K (V/V); negative where the loop needs it.
     pub gain: f64,

@@ -1,19 +1,28 @@
+use serde::{Deserialize, Serialize};
+
 use super::{QuadrupleTank, published};
 
 /// The published rigs. The names are those of the scenario document.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum PresetId {
     /// Johansson (2000), minimum-phase setting P−.
+    #[serde(rename = "johansson-2000-minimum-phase")]
     JohanssonMinimumPhase,
     /// Johansson (2000), non-minimum-phase setting P+.
+    #[serde(rename = "johansson-2000-non-minimum-phase")]
     JohanssonNonMinimumPhase,
     /// Cocota (2009), minimum-phase setting P−, tank 2 trapezoidal.
+    #[serde(rename = "cocota-2009-minimum-phase")]
     CocotaMinimumPhase,
     /// Cocota (2009), non-minimum-phase setting P+, tank 2 trapezoidal.
+    #[serde(rename = "cocota-2009-non-minimum-phase")]
     CocotaNonMinimumPhase,
     /// Junqueira, Neves and Angelico, case a: γ = 0.6, minimum phase.
+    #[serde(rename = "junqueira-case-a")]
     JunqueiraA,
     /// Junqueira, Neves and Angelico, case b: γ = 0.4, non-minimum phase.
+    #[serde(rename = "junqueira-case-b")]
     JunqueiraB,
 }
 
@@ -59,7 +68,9 @@ impl PresetId {
 }
 
 /// The unit in which a source prints its levels.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
 pub enum DisplayUnit {
     /// Centimetres.
     Cm,
@@ -129,6 +140,13 @@ mod tests {
             assert_eq!(id.preset().id, id);
         }
         assert_eq!(PresetId::from_name("johansson-2000"), None);
+    }
+
+    #[test]
+    fn documents_call_every_rig_by_its_name() {
+        for id in PresetId::ALL {
+            assert_eq!(serde_json::to_value(id).unwrap(), id.name());
+        }
     }
 
     #[test]

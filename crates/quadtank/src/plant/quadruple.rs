@@ -1,11 +1,15 @@
 use crate::numeric::complements;
 use std::array::from_fn;
 
+use serde::{Deserialize, Serialize};
+
 use super::Tank;
 use super::tank::torricelli_speed;
 
 /// A pump with its voltage limits; its flow is `gain × voltage` (Cocota 2009, eq. 2.25).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct Pump {
     /// Flow per volt `k` (m³/(s V)).
     pub gain: f64,
@@ -16,7 +20,9 @@ pub struct Pump {
 }
 
 /// The level sensors of the two lower tanks: `y = gain × level`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct Sensor {
     /// Sensor gain `k_c` (V/m).
     pub gain: f64,
@@ -46,7 +52,9 @@ impl Sensor {
 ///
 /// Tanks 1 and 2 are below, 3 drains into 1, 4 into 2. Pump 1 feeds tank 1 with the fraction γ1 and tank 4 with the
 /// rest; pump 2 feeds tank 2 with the fraction γ2 and tank 3 with the rest.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct QuadrupleTank {
     /// Tanks 1 to 4.
     pub tanks: [Tank; 4],

@@ -1,7 +1,11 @@
+use serde::{Deserialize, Serialize};
+
 /// How a valve fraction γ moves in time (γ without unit, time in s).
 ///
 /// The schedules of Junqueira, Neves and Angelico (cases a, b and c) are constants and sines; steps and ramps are ours.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum ValveSchedule {
     /// It stands still.
     Constant {

@@ -1,7 +1,11 @@
+use serde::{Deserialize, Serialize};
+
 /// Horizontal cross-section of a tank as a function of level, `A(h) = area_at_empty + area_slope h` (m²).
 ///
 /// `area_slope` is 0 for a prismatic tank and `b tan θ` for a trapezoidal one (Cocota 2009, eq. 2.28).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct CrossSection {
     /// Cross-section at level 0 (m²).
     pub area_at_empty: f64,
@@ -36,7 +40,9 @@ impl CrossSection {
 }
 
 /// The hole through which a tank drains.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct Outlet {
     /// Geometric area `a` (m²).
     pub area: f64,
@@ -53,7 +59,9 @@ impl Outlet {
 }
 
 /// One tank with its outlet.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct Tank {
     /// Cross-section as a function of level.
     pub section: CrossSection,

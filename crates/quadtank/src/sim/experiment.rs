@@ -1,5 +1,7 @@
 use std::array::from_fn;
 
+use serde::{Deserialize, Serialize};
+
 /// A step of a reference of at most this size has no figures (m): no sensor resolves it, and rounding errors of a level, which
 /// are up to 2e-15 m, would show in shares of a still smaller one.
 pub(super) const LEAST_STEP: f64 = 1e-9;
@@ -12,7 +14,9 @@ pub(super) fn net(changes: impl Iterator<Item = f64> + Clone) -> f64 {
 }
 
 /// A step of one reference, relative to the operating point.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct SetPointStep {
     /// Index of the loop (and lower tank), 0 or 1.
     pub level: usize,
@@ -23,7 +27,9 @@ pub struct SetPointStep {
 }
 
 /// What a load step changes.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Load {
     /// Flow added to that of a pump, ahead of its valve.
     PumpFlow {
@@ -52,7 +58,9 @@ impl Load {
 }
 
 /// A load that begins at a time and stays.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct LoadStep {
     /// When (s).
     pub time_s: f64,
@@ -61,7 +69,9 @@ pub struct LoadStep {
 }
 
 /// What the sensors add to the true level.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct Measurement {
     /// Standard deviation of white Gaussian noise at each sample (m of level); 0 for none.
     pub noise_std: f64,
@@ -72,7 +82,9 @@ pub struct Measurement {
 }
 
 /// What is done to the closed loop, from the operating point on.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct Experiment {
     /// How long (s).
     pub duration_s: f64,

@@ -1,11 +1,14 @@
 use nalgebra::Matrix2;
+use serde::{Deserialize, Serialize};
 
 use crate::control::{ParallelPid, PidMatrix};
 use crate::linear::{LinearError, TransferFunction, TransferMatrix};
 use crate::plant::Jacobian;
 
 /// A published plant with two inputs and two outputs, as transfer functions.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case")]
 pub enum PublishedPlant {
     /// Distillation column of Wood and Berry (1973), as in Campestrini (2006, eq. 86). Time in minutes, which that source
     /// calls seconds. Loop 2 has negative gain.

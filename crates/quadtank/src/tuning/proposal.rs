@@ -1,5 +1,5 @@
 use nalgebra::Matrix2;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::control::{ParallelPid, PidMatrix};
 use crate::linear::{Complex, LinearError, TransferMatrix};
@@ -9,7 +9,9 @@ use super::error::positive;
 use super::placement::{ControllerPair, integral_action_may_be_stable, place_both_loci, place_one_locus};
 
 /// Which loci a placement moves to the target.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case")]
 pub enum PlacementMethod {
     /// Method A: one locus, both controllers alike.
     OneLocus,
@@ -18,7 +20,9 @@ pub enum PlacementMethod {
 }
 
 /// Which actions the controllers have.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case")]
 pub enum Action {
     /// Proportional and integral.
     Pi,

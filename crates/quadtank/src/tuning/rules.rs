@@ -1,5 +1,7 @@
 use std::f64::consts::TAU;
 
+use serde::{Deserialize, Serialize};
+
 use crate::control::IsaPid;
 use crate::linear::Complex;
 
@@ -13,7 +15,9 @@ pub struct UltimatePoint {
 }
 
 /// A rule that makes controller settings of an ultimate point.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case")]
 pub enum TuningRule {
     /// Ziegler and Nichols, P (Campestrini 2006, Table 1).
     ZieglerNicholsP,

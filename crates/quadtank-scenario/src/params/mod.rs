@@ -1,0 +1,167 @@
+//! The numbers of documents: what each is, in which unit, and between which limits.
+//!
+//! There is one [row](PARAMS) for each number, whatever the version of the document. Reading and writing check every number of a
+//! document against its row, the JSON Schema describes it by its row, and so can a number field, a slider or `--set`.
+
+mod rows;
+
+use serde::Serialize;
+use serde_json::Value;
+
+pub use rows::{LISTS, PARAMS};
+
+use super::ScenarioError;
+use super::error::{malformed, out_of_range};
+use super::limits::Limits;
+
+/// How the values of a number are spread, as on a slider.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scale {
+    /// Evenly.
+    Linear,
+    /// By their magnitude.
+    Logarithmic,
+}
+
+/// A number of a document.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Param {
+    /// Where it stands in a setup, with `[]` for any index, such as `plant.parameters.rig.tanks[].height`.
+    pub path: &'static str,
+    /// Its unit; empty for a number without one.
+    pub unit: &'static str,
+    /// The values that are allowed whatever the other numbers are.
+    pub limits: Limits,
+    /// How its values are spread.
+    pub scale: Scale,
+    /// What it is, in plain words, without unit and limits.
+    pub description: &'static str,
+}
+
+impl Param {
+    /// The number at a path of a document of any version, such as `pinned[0].plant.parameters.rig.tanks[2].height`.
+    pub fn at(path: &str) -> Option<&'static Self> {
+        let place = place_in_setup(path);
+        PARAMS.iter().find(|param| param.path == place)
+    }
+}
+
+/// A list of a document whose length is limited.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct List {
+    /// As of a [`Param`].
+    pub path: &'static str,
+    /// Most entries.
+    pub max: usize,
+}
+
+impl List {
+    /// The list at a path of a document of any version.
+    pub fn at(path: &str) -> Option<&'static Self> {
+        let place = place_in_setup(path);
+        LISTS.iter().find(|list| list.path == place)
+    }
+}
+
+/// Where a path of a document leads within a setup, with `[]` for any index. The setup that is worked on and the pinned ones are
+/// alike, and so are the PI loops that a model-free run is compared with and those of a setup of the tank.
+fn place_in_setup(path: &str) -> String {
+    let mut pieces = path.split('[');
+    let first = pieces.next().unwrap_or_default().to_owned();
+    let place = pieces.fold(first, |place, piece| place + "[" + piece.trim_start_matches(|c: char| c.is_ascii_digit()));
+    let inside = ["setup.", "tuning.", "model_free.", "pinned[]."].iter().find_map(|root| place.strip_prefix(root));
+    match inside.map(|inside| (inside, inside.strip_prefix("compare."))) {
+        Some((_, Some(compared))) => format!("controller.{compared}"),
+        Some((inside, None)) => inside.to_owned(),
+        None => place,
+    }
+}
+
+/// The only number that a document may have as `null`.
+const MAY_BE_NULL: &str = "view.cursor_s";
+
+/// Checks every number of a document against its row, and the lengths of its lists.
+///
+/// # Errors
+/// [`ScenarioError::OutOfRange`] or [`ScenarioError::TooMany`] for the first one that is not allowed.
+pub(super) fn check(document: &impl Serialize) -> Result<(), ScenarioError> {
+    let document = serde_json::to_value(document).map_err(|error| malformed(String::new(), error.to_string()))?;
+    check_value(&document, "")
+}
+
+fn check_value(value: &Value, path: &str) -> Result<(), ScenarioError> {
+    match value {
+        Value::Object(fields) => fields.iter().try_for_each(|(name, value)| check_value(value, &field_of(path, name))),
+        Value::Array(items) => {
+            check_length(items.len(), path)?;
+            items.iter().enumerate().try_for_each(|(index, item)| check_value(item, &format!("{path}[{index}]")))
+        }
+        Value::Number(number) => check_number(number.as_f64().unwrap_or(f64::NAN), path),
+        // What is not finite is null in JSON.
+        Value::Null if path != MAY_BE_NULL => check_number(f64::NAN, path),
+        _ => Ok(()),
+    }
+}
+
+fn check_number(value: f64, path: &str) -> Result<(), ScenarioError> {
+    match Param::at(path) {
+        Some(param) => param.limits.check(path, value),
+        None => Ok(()),
+    }
+}
+
+fn check_length(count: usize, path: &str) -> Result<(), ScenarioError> {
+    match List::at(path) {
+        Some(&List { max, .. }) if count > max => Err(ScenarioError::TooMany { field: path.to_owned(), count, max }),
+        _ => Ok(()),
+    }
+}
+
+/// The path of a field of the value at a path.
+pub(super) fn field_of(path: &str, name: &str) -> String {
+    if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") }
+}
+
+impl Limits {
+    /// Whether the number at a path is allowed.
+    ///
+    /// # Errors
+    /// [`ScenarioError::OutOfRange`] if it is not.
+    pub(super) fn check(self, path: &str, value: f64) -> Result<(), ScenarioError> {
+        if self.contains(value) { Ok(()) } else { Err(out_of_range(path, value, self)) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_path_leads_to_the_same_row_from_every_document() {
+        for path in [
+            "setup.plant.parameters.rig.tanks[2].height",
+            "pinned[1].plant.parameters.rig.tanks[0].height",
+            "model_free.plant.parameters.rig.tanks[3].height",
+        ] {
+            assert_eq!(Param::at(path).map(|param| param.path), Some("plant.parameters.rig.tanks[].height"), "{path}");
+        }
+        let compared = Param::at("model_free.compare.loops[1].gain");
+        assert_eq!(
+            (compared, compared),
+            (Param::at("setup.controller.loops[0].gain"), Param::at("controller.loops[].gain"))
+        );
+        assert_eq!(Param::at("setup.plant.preset"), None);
+        assert_eq!(Param::at(""), None);
+    }
+
+    #[test]
+    fn every_row_has_its_own_place_and_can_be_shown() {
+        for (index, param) in PARAMS.iter().enumerate() {
+            let Param { path, limits, scale, description, .. } = param;
+            assert!(PARAMS[..index].iter().all(|other| other.path != *path), "{path}");
+            assert!(!description.is_empty() && !description.ends_with('.'), "{path}");
+            assert!(limits.min < limits.max && limits.min.is_finite() && limits.max.is_finite(), "{path}");
+            assert!(*scale == Scale::Linear || limits.min > 0.0, "{path}: no logarithm");
+        }
+    }
+}

@@ -1,0 +1,133 @@
+use super::Scale::{Linear, Logarithmic};
+use super::{List, Param, Scale};
+use crate::Scenario;
+use crate::limits::{self, Limits};
+use crate::model_free::ModelFreeScenario;
+use crate::tuning::TuningScenario;
+
+const fn row(path: &'static str, unit: &'static str, limits: Limits, scale: Scale, description: &'static str) -> Param {
+    Param { path, unit, limits, scale, description }
+}
+
+/// Indices count from 0.
+const INDEX_OF_PAIR: Limits = Limits::new(0.0, 1.0);
+const INDEX_OF_TANK: Limits = Limits::new(0.0, 3.0);
+const VERSION: Limits = Limits::new(Scenario::VERSION as f64, ModelFreeScenario::VERSION as f64);
+
+/// Unit of a time of a session: that of its plant.
+const OWN_TIME: &str = "unit of time of the plant";
+
+/// Every number of every document.
+#[rustfmt::skip]
+pub const PARAMS: &[Param] = &[
+    row("version", "", VERSION, Linear, "Version of the document: which bench it is for"),
+
+    // The rig.
+    row("plant.parameters.rig.tanks[].section.area_at_empty", "m²", limits::TANK_AREA, Logarithmic, "Cross-section of the tank at its bottom"),
+    row("plant.parameters.rig.tanks[].section.area_slope", "m²/m", limits::TANK_AREA_SLOPE, Linear, "Growth of the cross-section with the level; 0 for straight walls"),
+    row("plant.parameters.rig.tanks[].outlet.area", "m²", limits::OUTLET_AREA, Logarithmic, "Area of the outlet of the tank"),
+    row("plant.parameters.rig.tanks[].outlet.loss_coefficient", "", limits::LOSS_COEFFICIENT, Linear, "Share of Torricelli's flow that the outlet lets through; 1 for an ideal outlet"),
+    row("plant.parameters.rig.tanks[].height", "m", limits::TANK_HEIGHT, Linear, "Height of the walls; water above them overflows"),
+    row("plant.parameters.rig.pumps[].gain", "m³/(s V)", limits::PUMP_GAIN, Logarithmic, "Flow of the pump for each volt"),
+    row("plant.parameters.rig.pumps[].voltage_min", "V", limits::PUMP_VOLTAGE, Linear, "Lowest voltage of the pump"),
+    row("plant.parameters.rig.pumps[].voltage_max", "V", limits::PUMP_VOLTAGE, Linear, "Highest voltage of the pump"),
+    row("plant.parameters.rig.valves[]", "", limits::VALVE, Linear, "Valve fractions γ1, γ2 of the rig; those of the setup take their place"),
+    row("plant.parameters.rig.power_gain", "", limits::POWER_GAIN, Logarithmic, "Gain between controller output and pump voltage; 1 without a power module"),
+    row("plant.parameters.rig.sensor.gain", "V/m", limits::SENSOR_GAIN, Logarithmic, "Signal of a level sensor for each metre"),
+    row("plant.parameters.rig.sensor.range", "m", limits::SENSOR_RANGE, Linear, "Level above which a quantised signal saturates"),
+    row("plant.parameters.rig.sensor.resolution", "V", limits::SENSOR_RESOLUTION, Linear, "Smallest difference of a quantised signal; 0 for an ideal sensor"),
+    row("plant.parameters.rig.gravity", "m/s²", limits::GRAVITY, Linear, "Acceleration of gravity"),
+
+    // Where it stands.
+    row("valves[]", "", limits::VALVE, Linear, "Valve fractions γ1, γ2: the share of the flow of each pump that goes to the lower tank"),
+    row("operating_point.pump_voltage[]", "V", limits::PUMP_VOLTAGE, Linear, "Voltages of pumps 1 and 2 at rest; the levels follow"),
+    row("operating_point.levels[]", "m", limits::LEVEL, Linear, "Levels of tanks 1 and 2 at rest; the voltages follow"),
+
+    // Two PI loops.
+    row("controller.loops[].gain", "V/V", limits::GAIN, Linear, "Gain K of the loop, of either sign but not 0"),
+    row("controller.loops[].integral_time_s", "s", limits::INTEGRAL_TIME_S, Logarithmic, "Integral time Ti of the loop"),
+    row("controller.loops[].set_point_weight", "", limits::SET_POINT_WEIGHT, Linear, "Set-point weight b in the proportional part"),
+    row("controller.loops[].anti_windup.back_calculation.tracking_ratio", "", limits::TRACKING_RATIO, Logarithmic, "Tracking time over integral time, Tt/Ti"),
+    row("controller.loops[].mode.manual.output", "V", limits::MANUAL_OUTPUT, Linear, "Controller output in manual mode"),
+    row("controller.loops[].mode.manual.until_s", "s", limits::TIME_S, Linear, "Time at which the controller takes over"),
+    row("controller.sampling_time_s", "s", limits::SAMPLING_TIME_S, Logarithmic, "Sampling time Ts of both loops"),
+
+    // The model-free law.
+    row("controller.loops[].model_gain", "m/(s V)", limits::MODEL_GAIN, Logarithmic, "Gain α̂ of the ultra-local model"),
+    row("controller.loops[].proportional", "1/s", limits::MODEL_FREE_FEEDBACK, Linear, "Proportional gain Kp of the law"),
+    row("controller.loops[].integral", "1/s²", limits::MODEL_FREE_FEEDBACK, Linear, "Integral gain Ki of the law"),
+    row("controller.loops[].anti_windup.back_calculation.tracking_time_s", "s", limits::INTEGRAL_TIME_S, Logarithmic, "Tracking time Tt of the anti-windup"),
+    row("controller.estimator.window_s", "s", limits::WINDOW_S, Linear, "Length T of the window of the estimator: a whole number of samples, two at least"),
+    row("start.rest[]", "m", limits::LEVEL, Linear, "Levels of tanks 1 and 2 at which the run begins at rest"),
+    row("valves[].constant.gamma", "", limits::VALVE, Linear, "Valve fraction γ"),
+    row("valves[].step.from", "", limits::VALVE, Linear, "Valve fraction γ before the step"),
+    row("valves[].step.to", "", limits::VALVE, Linear, "Valve fraction γ after the step"),
+    row("valves[].step.at_s", "s", limits::TIME_S, Linear, "Time of the step"),
+    row("valves[].ramp.from", "", limits::VALVE, Linear, "Valve fraction γ before the ramp"),
+    row("valves[].ramp.to", "", limits::VALVE, Linear, "Valve fraction γ after the ramp"),
+    row("valves[].ramp.begin_s", "s", limits::TIME_S, Linear, "Time at which the ramp begins"),
+    row("valves[].ramp.end_s", "s", limits::TIME_S, Linear, "Time at which the ramp ends, not before it begins"),
+    row("valves[].sine.mean", "", limits::VALVE, Linear, "Mean of the valve fraction γ"),
+    row("valves[].sine.amplitude", "", limits::VALVE_AMPLITUDE, Linear, "Amplitude of the valve fraction γ, which stays from 0 to 1"),
+    row("valves[].sine.frequency", "rad/s", limits::VALVE_FREQUENCY, Linear, "Angular frequency ω of the swing"),
+    row("valves[].sine.phase", "rad", limits::VALVE_PHASE, Linear, "Phase of the swing at the beginning"),
+
+    // The experiment.
+    row("experiment.duration_s", "s", limits::DURATION_S, Logarithmic, "Duration of the experiment: at most 20 000 samples"),
+    row("experiment.set_point_steps[].level", "", INDEX_OF_PAIR, Linear, "Index of the level whose reference steps: 0 for tank 1, 1 for tank 2"),
+    row("experiment.set_point_steps[].time_s", "s", limits::TIME_S, Linear, "Time of the step"),
+    row("experiment.set_point_steps[].size", "m", limits::SET_POINT_STEP, Linear, "How far the reference steps, of either sign"),
+    row("experiment.load_steps[].time_s", "s", limits::TIME_S, Linear, "Time from which the load acts"),
+    row("experiment.load_steps[].load.pump_flow.pump", "", INDEX_OF_PAIR, Linear, "Index of the pump: 0 for pump 1, 1 for pump 2"),
+    row("experiment.load_steps[].load.pump_flow.flow", "m³/s", limits::LOAD_FLOW, Linear, "Flow added to that of the pump, ahead of its valve"),
+    row("experiment.load_steps[].load.leak.tank", "", INDEX_OF_TANK, Linear, "Index of the tank, 0 to 3 for tanks 1 to 4"),
+    row("experiment.load_steps[].load.leak.area", "m²", limits::LEAK_AREA, Linear, "Area of the hole in the bottom of the tank"),
+    row("experiment.measurement.noise_std", "m", limits::NOISE_STD, Linear, "Standard deviation of the white noise at each sample; 0 for none"),
+    row("experiment.measurement.seed", "", limits::SEED, Linear, "Seed of the noise: the same seed gives the same run"),
+
+    // What is shown.
+    row("view.cursor_s", "s", limits::TIME_S, Linear, "Time at which the cursor stands; null at rest"),
+    row("view.zoom_s[]", "s", limits::TIME_S, Linear, "Begin and end of the shown part of the time axis; null for all of it"),
+    row("cursor_s", "s", limits::TIME_S, Linear, "Time at which the cursor stands; absent at the end"),
+
+    // The plant of a relay-tuning session.
+    row("plant.quadruple_tank.valves[]", "", limits::VALVE, Linear, "Valve fractions γ1, γ2; null for those of the rig"),
+    row("plant.quadruple_tank.dead_time_s", "s", limits::TUNING_NOT_NEGATIVE, Linear, "Dead time of every element; 0 on the nonlinear plant"),
+    row("plant.quadruple_tank.lag_s", "s", limits::TUNING_NOT_NEGATIVE, Linear, "Time constant of a lag in every element; 0 on the nonlinear plant"),
+    row("plant.elements[][].numerator[]", "", limits::COEFFICIENT, Linear, "Coefficients of the numerator by rising powers of s: [2, 1] is 2 + s"),
+    row("plant.elements[][].denominator[]", "", limits::COEFFICIENT, Linear, "Coefficients of the denominator by rising powers of s: [1, 10] is 1 + 10 s"),
+    row("plant.elements[][].dead_time", OWN_TIME, limits::TUNING_NOT_NEGATIVE, Linear, "Dead time of the element"),
+
+    // The relay test.
+    row("test.number", "", limits::ONE_OR_TWO, Linear, "Number of the loop of a single test, 1 or 2"),
+    row("test.behind.modulus", "", limits::TUNING_POSITIVE, Logarithmic, "Modulus r of the point of the frequency response that the test finds"),
+    row("test.amplitudes[]", "unit of the inputs", limits::TUNING_POSITIVE, Logarithmic, "Amplitudes d1, d2 of the relays"),
+    row("test.hysteresis[]", "unit of the outputs", limits::TUNING_NOT_NEGATIVE, Linear, "Half widths ε1, ε2 of the hysteresis of the relays"),
+    row("test.bias[]", "unit of the inputs", limits::TUNING_VALUE, Linear, "Means of the relay outputs"),
+    row("test.detuning[]", "", limits::TUNING_POSITIVE, Logarithmic, "Factors f1, f2 by which the loops of independent tests are made weaker"),
+    row("test.passes", "", limits::PASSES, Linear, "Passes of a sequential test"),
+    row("test.duration", OWN_TIME, limits::TUNING_POSITIVE, Logarithmic, "Duration of the record"),
+    row("test.release", OWN_TIME, limits::TUNING_NOT_NEGATIVE, Linear, "Time at which the relays begin to switch, within the record"),
+    row("test.step", OWN_TIME, limits::TUNING_NOT_NEGATIVE, Linear, "Time between the rows of the record: at most 100 000 rows"),
+
+    // The design and its response.
+    row("design.critical.importance", "", limits::TUNING_POSITIVE, Logarithmic, "Importance r2 of loop 2 at the critical point"),
+    row("design.critical.point.gains[]", "", limits::TUNING_VALUE, Linear, "Critical gains kc1, kc2"),
+    row("design.critical.point.period", OWN_TIME, limits::TUNING_POSITIVE, Logarithmic, "Critical period Tc"),
+    row("design.target[]", "", limits::TUNING_VALUE, Linear, "Target λ of the placement: real and imaginary part"),
+    row("design.root", "", limits::ONE_OR_TWO, Linear, "Root of the placement, 1 or 2; root 1 has the larger controller in loop 1"),
+    row("response.references[]", "unit of the outputs", limits::TUNING_VALUE, Linear, "References of both loops, from the start on"),
+    row("response.duration", OWN_TIME, limits::TUNING_POSITIVE, Logarithmic, "Duration of the response"),
+    row("response.step", OWN_TIME, limits::TUNING_NOT_NEGATIVE, Linear, "Sampling time of the controllers: at most 100 000 samples"),
+];
+
+const _: () = assert!(Scenario::MAX_PINNED == TuningScenario::MAX_PINNED, "documents of both versions share a row");
+
+/// Every list of any length.
+pub const LISTS: &[List] = &[
+    List { path: "pinned", max: Scenario::MAX_PINNED },
+    List { path: "experiment.set_point_steps", max: limits::MAX_STEPS },
+    List { path: "experiment.load_steps", max: limits::MAX_STEPS },
+    List { path: "plant.elements[][].numerator", max: limits::MAX_COEFFICIENTS },
+    List { path: "plant.elements[][].denominator", max: limits::MAX_COEFFICIENTS },
+];

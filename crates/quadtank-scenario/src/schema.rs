@@ -1,0 +1,108 @@
+//! The JSON Schema of documents: the shape from their types, what numbers are from their [rows](super::params).
+
+use schemars::JsonSchema;
+use schemars::generate::SchemaSettings;
+use serde_json::{Map, Value, json};
+
+use super::Scenario;
+use super::model_free::ModelFreeScenario;
+use super::params::{List, Param, field_of};
+use super::tuning::TuningScenario;
+
+type Object = Map<String, Value>;
+
+/// The JSON Schema of the documents of a version; `None` for one that is not known.
+pub fn schema_of(version: u32) -> Option<Value> {
+    let mut schema = match version {
+        Scenario::VERSION => shape_of::<Scenario>(),
+        TuningScenario::VERSION => shape_of::<TuningScenario>(),
+        ModelFreeScenario::VERSION => shape_of::<ModelFreeScenario>(),
+        _ => return None,
+    };
+    describe(&mut schema, "");
+    let only = f64::from(version);
+    merge(&mut schema["properties"]["version"], json!({ "minimum": only, "maximum": only }));
+    Some(schema)
+}
+
+fn shape_of<T: JsonSchema>() -> Value {
+    // Without references: one type stands at several places, whose numbers may have rows of their own.
+    let settings = SchemaSettings::draft2020_12().with(|settings| settings.inline_subschemas = true);
+    settings.into_generator().into_root_schema_for::<T>().to_value()
+}
+
+/// Adds limits and descriptions to the schema of the values at a path, which has `[]` for any index.
+fn describe(schema: &mut Value, path: &str) {
+    let Some(object) = schema.as_object_mut() else { return };
+    join_names(object);
+    limit(object, path);
+    let described = object.get("description").cloned();
+    if let Some(Value::Object(properties)) = object.get_mut("properties") {
+        for (name, property) in properties {
+            describe_property(property, &field_of(path, name), described.as_ref());
+        }
+    }
+    if let Some(items) = object.get_mut("items") {
+        describe(items, &format!("{path}[]"));
+    }
+    for choice in ["oneOf", "anyOf"] {
+        if let Some(Value::Array(alternatives)) = object.get_mut(choice) {
+            alternatives.iter_mut().for_each(|alternative| describe(alternative, path));
+        }
+    }
+}
+
+/// A number, or a list of numbers, is described by its row. What a choice contains, and has no words of its own, is described by
+/// those of the choice.
+fn describe_property(property: &mut Value, path: &str, choice: Option<&Value>) {
+    describe(property, path);
+    if let Some(param) = Param::at(path).or_else(|| Param::at(&format!("{path}[]"))) {
+        merge(property, json!({ "description": words(param) }));
+    } else if let (None, Some(choice)) = (property.get("description"), choice) {
+        merge(property, json!({ "description": choice }));
+    }
+}
+
+fn words(param: &Param) -> String {
+    let Param { description, unit, limits, .. } = param;
+    let unit = if unit.is_empty() { String::new() } else { format!(" ({unit})") };
+    format!("{description}{unit}; from {} to {}.", limits.min, limits.max)
+}
+
+fn limit(object: &mut Object, path: &str) {
+    if let Some(Param { limits, .. }) = Param::at(path) {
+        // That a number is stored in 64 bits is nothing that a document has to know.
+        object.remove("format");
+        object.insert("minimum".to_owned(), json!(limits.min));
+        object.insert("maximum".to_owned(), json!(limits.max));
+    }
+    if let Some(List { max, .. }) = List::at(path) {
+        object.insert("maxItems".to_owned(), json!(max));
+    }
+}
+
+/// A choice between names alone becomes one list of names, with what they mean in one description.
+fn join_names(object: &mut Object) {
+    let Some(Value::Array(alternatives)) = object.get("oneOf") else { return };
+    let named = |alternative: &Value| {
+        let meaning = alternative.get("description").and_then(Value::as_str).unwrap_or_default();
+        Some((alternative.get("const")?.clone(), format!("`{}`: {meaning}", alternative["const"].as_str()?)))
+    };
+    let Some((names, meanings)) = alternatives.iter().map(named).collect::<Option<(Vec<Value>, Vec<String>)>>() else {
+        return;
+    };
+    let whole = object.get("description").and_then(Value::as_str).unwrap_or_default();
+    let description = format!("{whole}\n\n{}", meanings.join("\n"));
+    object.remove("oneOf");
+    object.extend([
+        ("type".to_owned(), json!("string")),
+        ("enum".to_owned(), json!(names)),
+        ("description".to_owned(), json!(description)),
+    ]);
+}
+
+fn merge(schema: &mut Value, words: Value) {
+    if let (Value::Object(schema), Value::Object(words)) = (schema, words) {
+        schema.extend(words);
+    }
+}

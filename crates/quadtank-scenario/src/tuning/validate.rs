@@ -1,0 +1,62 @@
+use crate::limits::{self, Limits};
+use crate::{ScenarioError, validate};
+
+use super::{Element, ResponseSpec, TestSpec, TuningPlant, TuningSetup};
+
+type Checked = Result<(), ScenarioError>;
+
+/// Checks what has to hold between the numbers of the session at a path.
+pub fn setup(setup: &TuningSetup, at: &str) -> Checked {
+    plant(&setup.plant, &format!("{at}.plant"))?;
+    test(&setup.test, &format!("{at}.test"))?;
+    response(&setup.response, &format!("{at}.response"))?;
+    pace(setup, at)
+}
+
+fn plant(plant: &TuningPlant, at: &str) -> Checked {
+    match plant {
+        // The nonlinear plant has neither dead time nor lag.
+        TuningPlant::QuadrupleTank { dead_time_s, lag_s, nonlinear: true, .. } => {
+            let none = Limits::new(0.0, 0.0);
+            none.check(&format!("{at}.quadruple_tank.dead_time_s"), *dead_time_s)?;
+            none.check(&format!("{at}.quadruple_tank.lag_s"), *lag_s)
+        }
+        TuningPlant::Elements(rows) => {
+            validate::each(rows, &format!("{at}.elements"), |row, at| validate::each(row, at, element))
+        }
+        TuningPlant::Published(_) | TuningPlant::QuadrupleTank { .. } => Ok(()),
+    }
+}
+
+fn element(element: &Element, at: &str) -> Checked {
+    validate::each(&element.numerator, &format!("{at}.numerator"), coefficient)?;
+    validate::each(&element.denominator, &format!("{at}.denominator"), coefficient)?;
+    match element.fault() {
+        Some(fault) => Err(ScenarioError::Element { field: at.to_owned(), fault }),
+        None => Ok(()),
+    }
+}
+
+fn coefficient(value: &f64, at: &str) -> Checked {
+    if *value == 0.0 { Ok(()) } else { limits::COEFFICIENT_MAGNITUDE.check(at, value.abs()) }
+}
+
+fn test(test: &TestSpec, at: &str) -> Checked {
+    Limits::new(0.0, test.duration).check(&format!("{at}.release"), test.release)?;
+    limits::row_step(test.duration).check(&format!("{at}.step"), test.step)?;
+    let rows = test.passes as f64 * test.duration / test.step;
+    limits::ROWS_OF_ALL.check(&format!("{at}: passes * duration / step"), rows)
+}
+
+fn response(response: &ResponseSpec, at: &str) -> Checked {
+    limits::row_step(response.duration).check(&format!("{at}.step"), response.step)
+}
+
+/// The quickest part of the plant can be followed over the longest record and over its dead times.
+fn pace(setup: &TuningSetup, at: &str) -> Checked {
+    // A plant that is none is told when it is used.
+    let (quickest, dead_time) = setup.plant.pace().unwrap_or_default();
+    let longest = setup.test.duration.max(setup.response.duration);
+    limits::QUICKEST_IN_RECORD.check(&format!("{at}.plant: quickest pole * duration"), quickest * longest)?;
+    limits::QUICKEST_IN_DEAD_TIME.check(&format!("{at}.plant: quickest pole * dead time"), quickest * dead_time)
+}
