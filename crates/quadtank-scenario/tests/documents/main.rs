@@ -3,11 +3,14 @@
 mod answers;
 mod bounded_work;
 mod every_version;
+mod examples;
 mod extremes;
 mod junqueira;
 mod model_free;
 mod model_free_properties;
 mod noise;
+mod nothing_ignored;
+mod parameters;
 mod quadruple;
 mod random;
 mod rest;

@@ -1,0 +1,179 @@
+//! Nothing is accepted and ignored: whatever is changed in a document changes an answer, or a warning, or is refused.
+
+use quadtank_scenario::model_free::{analyse_model_free, run_model_free};
+use quadtank_scenario::tuning::tune;
+use quadtank_scenario::{Document, analyse, document_from_json, run};
+use serde_json::{Value, json};
+
+use super::examples::{leaves, pointer, sessions};
+
+/// What is meant to change no answer, by the beginning or the end of its path, and why.
+const EXCEPTIONS: [(&str, &str); 3] = [
+    ("display_unit", "the unit that a page shows levels in; answers are in SI"),
+    ("parameters.rig.valves", "a rig is written with its valves, and those of the setup take their place"),
+    ("version", "it is what all else is read by, and another one is another kind of document"),
+];
+
+/// Names of choices without content. A name that a field does not know is refused.
+const NAMES: [&str; 39] = [
+    "automatic",
+    "off",
+    "conditional",
+    "diagonal",
+    "swapped",
+    "cm",
+    "mm",
+    "block",
+    "sliding",
+    "rectangular",
+    "trapezoidal",
+    "applied",
+    "commanded",
+    "empty",
+    "single",
+    "independent",
+    "sequential",
+    "simultaneous",
+    "nothing",
+    "integrator",
+    "one-locus",
+    "both-loci",
+    "pi",
+    "pid",
+    "none",
+    "static",
+    "dynamic",
+    "first-output",
+    "second-output",
+    "ziegler-nichols",
+    "tyreus-luyben",
+    "full",
+    "ziegler-nichols-p",
+    "ziegler-nichols-pi",
+    "ziegler-nichols-pid",
+    "tyreus-luyben-pi",
+    "tyreus-luyben-pid",
+    "process-two",
+    "junqueira-case-b",
+];
+
+/// Everything that is computed from a document.
+fn answers(document: &Document) -> String {
+    match document {
+        Document::Quadruple(scenario) => format!("{:?} {:?}", analyse(&scenario.setup), run(&scenario.setup)),
+        Document::Tuning(scenario) => format!("{:?} {:?}", tune(&scenario.tuning), scenario.tuning.warnings()),
+        Document::ModelFree(scenario) => {
+            let setup = &scenario.model_free;
+            format!("{:?} {:?}", analyse_model_free(setup), run_model_free(setup))
+        }
+    }
+}
+
+fn is_answered(document: &Document) -> bool {
+    match document {
+        Document::Quadruple(scenario) => run(&scenario.setup).is_ok(),
+        Document::Tuning(scenario) => tune(&scenario.tuning).is_ok_and(|tuning| tuning.design.is_some()),
+        Document::ModelFree(scenario) => run_model_free(&scenario.model_free).is_ok(),
+    }
+}
+
+/// Other values that may stand in the place of one.
+fn others(value: &Value) -> Vec<Value> {
+    match value {
+        Value::Bool(flag) => vec![json!(!flag)],
+        Value::String(name) => NAMES.iter().filter(|other| *other != name).map(|name| json!(name)).collect(),
+        Value::Number(number) => match number.as_u64() {
+            Some(whole) => {
+                [whole + 1, whole.saturating_sub(1)].iter().filter(|&w| *w != whole).map(|w| json!(w)).collect()
+            }
+            None => {
+                let number = number.as_f64().unwrap();
+                vec![json!(number * 1.25 + 0.001), json!(number * 0.5), json!(number + 1.0), json!(0.0)]
+            }
+        },
+        _ => Vec::new(),
+    }
+}
+
+/// Fields of documents of one kind of which no change changes an answer in any of them, though one is accepted.
+fn ignored(documents: &[Value]) -> Vec<String> {
+    let fields = documents.iter().map(idle).collect::<Vec<_>>();
+    fields[0].iter().filter(|path| fields.iter().all(|idle| idle.contains(path))).cloned().collect()
+}
+
+/// Fields of a document of which no change changes an answer.
+fn idle(document: &Value) -> Vec<String> {
+    let before = answers(&document_from_json(&document.to_string()).unwrap());
+    assert!(is_answered(&document_from_json(&document.to_string()).unwrap()), "{before}");
+    let acts = |path: &str, value: Value| {
+        let mut changed = document.clone();
+        *changed.pointer_mut(&pointer(path)).unwrap() = value;
+        document_from_json(&changed.to_string()).ok().map(|changed| answers(&changed) != before)
+    };
+    let is_exception = |path: &str| EXCEPTIONS.iter().any(|(name, _)| path.split('[').next().unwrap().ends_with(name));
+    let fields = leaves(document, "").into_iter().filter(|(path, _)| !is_exception(path));
+    let is_idle = |(path, value): (String, Value)| {
+        let mut tried = others(&value).into_iter().filter_map(|other| acts(&path, other)).peekable();
+        (tried.peek().is_some() && !tried.any(|acts| acts)).then_some(path)
+    };
+    fields.filter_map(is_idle).collect()
+}
+
+fn parsed(text: &str) -> Value {
+    serde_json::from_str(text).unwrap()
+}
+
+/// A run in which everything acts, and the same run driven to its limits: pumps stop and run at full speed, sensors saturate and
+/// all tanks overflow.
+fn run_and_driven(text: &str) -> [Value; 2] {
+    let calm = parsed(text);
+    let mut driven = calm.clone();
+    let setup = driven.as_object_mut().unwrap().values_mut().find(|value| value.is_object()).unwrap();
+    let rig = &mut setup["plant"]["parameters"]["rig"];
+    (0..4).for_each(|tank| rig["tanks"][tank]["height"] = json!(if tank < 2 { 0.08 } else { 0.06 }));
+    rig["sensor"]["range"] = json!(0.05);
+    setup["experiment"]["set_point_steps"] = json!([
+        { "level": 0, "time_s": 2.0, "size": 0.2 },
+        { "level": 1, "time_s": 12.0, "size": 0.2 },
+        { "level": 0, "time_s": 40.0, "size": -2.0 },
+        { "level": 1, "time_s": 40.0, "size": -2.0 },
+        { "level": 0, "time_s": 50.0, "size": 1.8 },
+        { "level": 1, "time_s": 50.0, "size": 1.8 },
+    ]);
+    [calm, driven]
+}
+
+#[test]
+fn in_a_run_of_the_tank() {
+    assert_eq!(ignored(&run_and_driven(include_str!("../data/everything-acts.json"))), [""; 0]);
+}
+
+#[test]
+fn in_a_run_under_the_model_free_law() {
+    assert_eq!(ignored(&run_and_driven(include_str!("../data/everything-acts-model-free.json"))), [""; 0]);
+}
+
+/// Every test has a rule and two amplitudes, of which a single one uses one: no value of the others says that they are not meant, so
+/// there is nothing to warn of.
+const IDLE_IN_A_SINGLE_TEST: [&str; 2] = ["tuning.test.amplitudes[1]", "tuning.test.rule"];
+
+#[test]
+fn in_relay_tuning_sessions() {
+    for session in sessions() {
+        let test = &session["tuning"]["test"];
+        let expected = if test["kind"] == "single" { &IDLE_IN_A_SINGLE_TEST[..] } else { &[] };
+        let test = test.to_string();
+        assert_eq!(ignored(&[session]), expected, "{test}");
+    }
+}
+
+/// What a document shows beside its run, and earlier runs beside it, change no answer.
+#[test]
+fn what_is_only_shown_is_not_computed() {
+    let document = parsed(include_str!("../data/scenario-v1-own-rig.json"));
+    let before = answers(&document_from_json(&document.to_string()).unwrap());
+    let mut bare = document.clone();
+    let fields = bare.as_object_mut().unwrap();
+    assert!(fields.remove("view").is_some() && fields.remove("pinned").is_some());
+    assert_eq!(answers(&document_from_json(&bare.to_string()).unwrap()), before);
+}
