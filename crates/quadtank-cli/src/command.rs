@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::error::ErrorKind;
-use clap::{Parser, Subcommand, ValueEnum};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 use quadtank::plant::PresetId;
 use quadtank::tuning::TuningError;
 use quadtank_scenario::model_free::{ModelFreeScenario, ModelFreeSetup, published_model_free};
@@ -16,6 +16,7 @@ use quadtank_scenario::{
     document_from_bytes, model_free_to_json, run, schema_of, setup_of, to_json, tuning_to_json,
 };
 use serde::Serialize;
+use serde_json::Value;
 use thiserror::Error;
 
 mod message;
@@ -43,21 +44,21 @@ enum Command {
     /// Of a relay-tuning session (version 2): steady-state gain, relative gain, critical curve. The coefficients of its elements
     /// are by rising powers of s: [1, 10] is 1 + 10 s.
     Analyse {
-        /// Scenario file (JSON), or - for standard input
-        file: PathBuf,
+        #[command(flatten)]
+        source: Source,
     },
     /// Run the experiment of a scenario on the nonlinear plant and on its linear model
     Simulate {
-        /// Scenario file (JSON), or - for standard input
-        file: PathBuf,
+        #[command(flatten)]
+        source: Source,
         /// csv: trajectories; json: trajectories, events and metrics
         #[arg(long, value_enum, default_value_t = Format::Csv)]
         format: Format,
     },
     /// Draw a chart of a scenario
     Plot {
-        /// Scenario file (JSON), or - for standard input
-        file: PathBuf,
+        #[command(flatten)]
+        source: Source,
         /// File to write, or - for standard output
         #[arg(long, value_name = "OUT")]
         svg: PathBuf,
@@ -82,8 +83,8 @@ enum Command {
     /// The coefficients of its elements are by rising powers of s: [1, 10] is 1 + 10 s. What it compares its response with is in
     /// the report too.
     Tune {
-        /// Scenario file (JSON), or - for standard input
-        file: PathBuf,
+        #[command(flatten)]
+        source: Source,
         /// json: readings, both roots, stability and margins; csv: the record of the relay test
         #[arg(long, value_enum, default_value_t = Format::Json)]
         format: Format,
@@ -100,6 +101,24 @@ enum Command {
         #[arg(long, default_value_t = Scenario::VERSION, value_parser = clap::value_parser!(u32).range(1..=3))]
         version: u32,
     },
+}
+
+/// The document that a command is about.
+#[derive(Args)]
+struct Source {
+    /// Scenario file (JSON), or - for standard input
+    file: PathBuf,
+    /// Set a value of the document before anything is computed, such as setup.controller.loops[0].gain=2; may be repeated
+    ///
+    /// The value is JSON, or the name of a choice. It is refused like one of the file.
+    #[arg(long = "set", value_name = "PATH=VALUE", value_parser = setting_of)]
+    settings: Vec<(String, Value)>,
+}
+
+fn setting_of(setting: &str) -> Result<(String, Value), &'static str> {
+    let (path, value) = setting.split_once('=').ok_or("a path, =, and a value")?;
+    let value = serde_json::from_str(value).unwrap_or_else(|_| Value::from(value));
+    Ok((path.to_owned(), value))
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -181,50 +200,50 @@ fn wrong_command(error: &clap::Error) -> ExitCode {
 
 fn execute(command: Command) -> Result<(), Failure> {
     match command {
-        Command::Analyse { file } => answer(
-            &file,
-            |setup| print_json(&AnalysisReport::from(&told(&file, analyse(setup))?)),
-            |session| print_json(&tuned(&file, tune::analysis(session))?),
+        Command::Analyse { source } => answer(
+            &source,
+            |setup| print_json(&AnalysisReport::from(&told(&source.file, analyse(setup))?)),
+            |session| print_json(&tuned(&source.file, tune::analysis(session))?),
             |setup| print_json(&model_free::analysis(setup)),
         ),
-        Command::Simulate { file, format } => answer(
-            &file,
+        Command::Simulate { source, format } => answer(
+            &source,
             |setup| {
-                let run = told(&file, run(setup))?;
+                let run = told(&source.file, run(setup))?;
                 match format {
                     Format::Csv => print(&run.to_csv()),
                     Format::Json => print_json(&run),
                 }
             },
             |session| match format {
-                Format::Csv => print(&tuned(&file, tune::response_csv(session))?),
-                Format::Json => print_json(&tuned(&file, tune::report(session))?),
+                Format::Csv => print(&tuned(&source.file, tune::response_csv(session))?),
+                Format::Json => print_json(&tuned(&source.file, tune::report(session))?),
             },
             |setup| match format {
-                Format::Csv => print(&told(&file, model_free::csv(setup))?),
-                Format::Json => print_json(&told(&file, model_free::report(setup))?),
+                Format::Csv => print(&told(&source.file, model_free::csv(setup))?),
+                Format::Json => print_json(&told(&source.file, model_free::report(setup))?),
             },
         ),
-        Command::Plot { file, svg, chart, picture, theme } => {
+        Command::Plot { source, svg, chart, picture, theme } => {
             let style = theme.style();
             let write = |drawing: String| {
                 if is_standard_stream(&svg) { print(&drawing) } else { write_file(&svg, &drawing) }
             };
             answer(
-                &file,
-                |setup| write(told(&file, plot::svg(setup, chart, &style))?),
-                |session| write(tuned(&file, tune::svg(session, picture, &style))?),
-                |setup| write(told(&file, model_free::svg(setup, &style))?),
+                &source,
+                |setup| write(told(&source.file, plot::svg(setup, chart, &style))?),
+                |session| write(tuned(&source.file, tune::svg(session, picture, &style))?),
+                |setup| write(told(&source.file, model_free::svg(setup, &style))?),
             )
         }
-        Command::Tune { file, format } => answer(
-            &file,
-            |_| Err(Failure::NoTuning { file: file_name(&file) }),
+        Command::Tune { source, format } => answer(
+            &source,
+            |_| Err(Failure::NoTuning { file: file_name(&source.file) }),
             |session| match format {
-                Format::Json => print_json(&tuned(&file, tune::report(session))?),
-                Format::Csv => print(&tuned(&file, tune::test_csv(session))?),
+                Format::Json => print_json(&tuned(&source.file, tune::report(session))?),
+                Format::Csv => print(&tuned(&source.file, tune::test_csv(session))?),
             },
-            |_| Err(Failure::NoTuning { file: file_name(&file) }),
+            |_| Err(Failure::NoTuning { file: file_name(&source.file) }),
         ),
         Command::Cases { name: None } => print(&list_of_cases()),
         Command::Cases { name: Some(Case::Tuning(case)) } => {
@@ -241,12 +260,15 @@ fn execute(command: Command) -> Result<(), Failure> {
 
 /// Reads a document and answers for its kind.
 fn answer(
-    file: &Path,
+    source: &Source,
     of_run: impl Fn(&Setup) -> Result<(), Failure>,
     of_session: impl Fn(&TuningSetup) -> Result<(), Failure>,
     of_model_free: impl Fn(&ModelFreeSetup) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
-    match document(file)? {
+    let file = &source.file;
+    let read = document(file)?;
+    let document = if source.settings.is_empty() { read } else { told(file, read.with_values(&source.settings))? };
+    match document {
         Document::Quadruple(scenario) => of_run(&scenario.setup),
         Document::Tuning(scenario) => {
             of_session(&scenario.tuning)?;

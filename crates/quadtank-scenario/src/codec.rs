@@ -148,3 +148,15 @@ pub fn model_free_to_json(scenario: &ModelFreeScenario) -> Result<String, Scenar
     scenario.validate()?;
     written(scenario)
 }
+
+/// Writes a document of any kind as JSON, as [`to_json`] writes a scenario.
+///
+/// # Errors
+/// What its validation finds.
+pub(super) fn document_to_json(document: &Document) -> Result<String, ScenarioError> {
+    match document {
+        Document::Quadruple(scenario) => to_json(scenario),
+        Document::Tuning(scenario) => tuning_to_json(scenario),
+        Document::ModelFree(scenario) => model_free_to_json(scenario),
+    }
+}

@@ -24,6 +24,7 @@ mod report;
 mod run;
 #[cfg(feature = "schema")]
 mod schema;
+mod setting;
 mod text;
 mod tree;
 pub mod tuning;

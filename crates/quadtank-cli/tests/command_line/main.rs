@@ -5,6 +5,7 @@ mod elements;
 mod model_free;
 mod quadruple;
 mod schema;
+mod set;
 mod tuning;
 
 use std::fs;

@@ -64,7 +64,7 @@ impl Load {
 pub struct LoadStep {
     /// When (s).
     pub time_s: f64,
-    /// What.
+    /// What acts from then on.
     pub load: Load,
 }
 

@@ -1,0 +1,43 @@
+//! Setting single values of a document by their paths.
+
+use serde_json::Value;
+
+use super::codec::{document_from_json, document_to_json};
+use super::error::{malformed, quoted};
+use super::{Document, ScenarioError};
+
+impl Document {
+    /// The same document with other values at some paths, such as `setup.plant.parameters.rig.tanks[2].height`. All of them are set
+    /// before the document is checked, so that they may depend on each other.
+    ///
+    /// # Errors
+    /// [`ScenarioError::Malformed`] for a path that leads nowhere, and what reading the document finds.
+    pub fn with_values<'a>(
+        &self,
+        values: impl IntoIterator<Item = &'a (String, Value)>,
+    ) -> Result<Self, ScenarioError> {
+        let unreadable = |error: serde_json::Error| malformed(String::new(), error.to_string());
+        let mut document: Value = serde_json::from_str(&document_to_json(self)?).map_err(unreadable)?;
+        for (path, value) in values {
+            set(&mut document, path, value.clone())?;
+        }
+        document_from_json(&document.to_string())
+    }
+}
+
+/// Sets the value at a path. A field that is not there is added, for it may be one that a document may be without.
+fn set(document: &mut Value, path: &str, value: Value) -> Result<(), ScenarioError> {
+    let pointer = format!("/{}", path.replace('[', ".").replace(']', "").replace('.', "/"));
+    if let Some(place) = document.pointer_mut(&pointer) {
+        *place = value;
+        return Ok(());
+    }
+    let (parent, name) = pointer.rsplit_once('/').unwrap_or_default();
+    match document.pointer_mut(parent) {
+        Some(Value::Object(fields)) => {
+            fields.insert(name.to_owned(), value);
+            Ok(())
+        }
+        _ => Err(malformed(quoted(path), "no such value in the document".to_owned())),
+    }
+}
