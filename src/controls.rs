@@ -1,7 +1,6 @@
 //! The controls of the benches as data: what they read and write of a document.
 //!
-//! A control is a constant with function pointers, not a view with closures: each closure is a type of its own, for which
-//! Leptos compiles signals and callbacks anew. [`knob`] makes the view and is there once for each kind of document.
+//! A number is a constant that says how it is read, written, limited and shown; [`KnobRow`] makes the view of any of them.
 
 use leptos::prelude::*;
 
@@ -100,50 +99,74 @@ impl<S> Knob<S> {
 }
 
 /// A slider with its number field, or a number field in a row of its own.
-pub fn knob<D: Document>(document: D, knob: &'static Knob<D::Setup>, index: usize) -> AnyView {
+#[component]
+pub fn KnobRow<D: Document>(
+    /// The document that it is a number of.
+    document: D,
+    /// The number.
+    knob: &'static Knob<D::Setup>,
+    /// Which one of a pair.
+    #[prop(optional)]
+    index: usize,
+) -> impl IntoView {
     let &Knob { ids, scale, digits, smallest, class, .. } = knob;
     let (id, class, lab) = (ids[index], class[index], document.lab());
     let label = Signal::derive(move || (knob.label)(lab, index).to_owned());
     let unit = lab.told(Signal::derive(move || document.read(knob.unit).to_owned()));
+    let Wires { name, value, on_change, limits, disabled } = wires(document, knob, index);
     let Some(travel) = knob.travel else {
-        let name = Signal::derive(move || (knob.name)(lab, index));
         return view! {
             <div class=format!("field-row {class}")>
                 <span title=name>{label}</span>
-                {number(document, knob, index)}
+                <KnobNumber document knob index />
                 <span class="unit">{unit}</span>
             </div>
         }
         .into_any();
     };
-    let Wires { name, value, on_change, limits, disabled } = wires(document, knob, index);
     let travel = Signal::derive(move || document.read(travel));
     view! { <SliderField id label name value on_change travel limits smallest scale digits unit class disabled /> }
         .into_any()
 }
 
 /// The number field alone, for a row of another shape.
-pub fn number<D: Document>(document: D, knob: &'static Knob<D::Setup>, index: usize) -> AnyView {
+#[component]
+pub fn KnobNumber<D: Document>(
+    /// The document that it is a number of.
+    document: D,
+    /// The number.
+    knob: &'static Knob<D::Setup>,
+    /// Which one of a pair.
+    #[prop(optional)]
+    index: usize,
+) -> impl IntoView {
     let &Knob { ids, scale, digits, smallest, .. } = knob;
     let Wires { name, value, on_change, limits, disabled } = wires(document, knob, index);
     let grid = Signal::derive(move || document.read(knob.grid));
-    view! { <NumberField id=ids[index].1 name value on_change limits scale digits smallest grid disabled /> }.into_any()
+    view! { <NumberField id=ids[index].1 name value on_change limits scale digits smallest grid disabled /> }
 }
 
-/// A choice among few: texts with their names for tests.
-pub fn segmented<D: Document>(
+/// A choice among few in a document.
+#[component]
+pub fn Switch<D: Document>(
+    /// The document.
     document: D,
+    /// What is chosen between, for screen readers.
+    #[prop(into)]
     label: Signal<String>,
+    /// The names of the choices for tests, and their texts.
     choices: Vec<(&'static str, Signal<String>)>,
+    /// The number of the choice in force.
     read: fn(&D::Setup) -> usize,
+    /// Makes another choice.
     write: fn(&mut D::Setup, usize),
+    /// What locks it.
     lock: Control,
-) -> AnyView {
+) -> impl IntoView {
     let choices = choices.into_iter().enumerate().map(|(index, (name, text))| (index, name, text)).collect();
-    let on_choose = Callback::new(move |index| document.write(|s| write(s, index)));
+    let on_choose = move |index| document.write(|s| write(s, index));
     let value = document.lab().told(Signal::derive(move || document.read(read)));
-    let disabled = document.lab().locks(lock);
-    view! { <Segmented<usize> label choices value on_choose disabled /> }.into_any()
+    view! { <Segmented label choices value on_choose disabled=document.lab().locks(lock) /> }
 }
 
 /// What connects a field with a document.

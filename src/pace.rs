@@ -11,7 +11,6 @@ use gloo_timers::callback::Timeout;
 use leptos::prelude::*;
 
 use super::timing::Stopwatch;
-use super::widgets::effect;
 
 /// Computes what changed and returns what hands it to the panels; nothing once the document is gone.
 type Compute = Rc<dyn Fn() -> Option<Box<dyn FnOnce()>>>;
@@ -44,7 +43,7 @@ impl Pace {
         let pace = Self { backstage };
         // The document as it stands is computed already.
         let mut known = false;
-        effect(move || {
+        Effect::new(move || {
             document.track();
             if known {
                 pace.request_frame();

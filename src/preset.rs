@@ -1,12 +1,11 @@
 //! The choice of a published rig.
 
-use crate::widgets::handler;
 use leptos::prelude::*;
 
-use super::lab::Lab;
+use super::lab::{Lab, use_lab};
 use super::start::Control;
 use super::texts::{say, tr};
-use super::widgets::html::option;
+use super::widgets::{Choice, Select};
 use quadtank::plant::PresetId;
 use quadtank_scenario::{PlantSpec, Scenario, setup_of};
 
@@ -57,48 +56,48 @@ pub fn load(lab: Lab, id: PresetId) {
 
 /// The rig in force, if it is a published one.
 pub fn chosen(lab: Lab) -> Signal<Option<PresetId>> {
-    let name = lab.part(|s| match s.plant {
-        PlantSpec::Preset(id) => id.name().to_owned(),
-        PlantSpec::Parameters { .. } => String::new(),
-    });
-    Signal::derive(move || name.with(|name| PresetId::from_name(name)))
+    lab.part(|s| match s.plant {
+        PlantSpec::Preset(id) => Some(id),
+        PlantSpec::Parameters { .. } => None,
+    })
 }
 
 /// What to know about the rig in force.
-pub fn preset_remark(lab: Lab) -> AnyView {
+#[component]
+pub fn PresetRemark() -> impl IntoView {
+    let lab = use_lab();
     let id = chosen(lab);
-    view! { <p class="remark" data-testid="preset-remark">{Signal::derive(move || remark_of(lab, id.get()))}</p> }
-        .into_any()
+    view! { <p class="remark" data-testid="preset-remark">{move || remark_of(lab, id.get())}</p> }
 }
 
-/// The select with all published rigs.
-pub fn preset_choice(lab: Lab) -> AnyView {
+/// The choice among all published rigs.
+#[component]
+pub fn PresetSelect() -> impl IntoView {
+    let lab = use_lab();
     let id = chosen(lab);
-    let on_change = move |event| {
-        if let Some(id) = PresetId::from_name(&event_target_value(&event)) {
+    // What was changed is none of the choices, so that choosing the same rig again brings it back.
+    let intact = Signal::derive(move || id.get().filter(|&id| lab.words.setup.with(|setup| **setup == setup_of(id))));
+    let choices = Signal::derive(move || {
+        let published =
+            PresetId::ALL.into_iter().map(|choice| Choice::new(Some(choice), choice.name(), name_of(lab, choice)));
+        let own = || id.get().map_or_else(|| tr!(lab, preset.own).to_owned(), |id| changed(lab, id));
+        let other = intact.get().is_none().then(|| Choice::new(None, "", own()));
+        other.into_iter().chain(published).collect::<Vec<_>>()
+    });
+    let choose = move |choice: Option<PresetId>| {
+        if let Some(id) = choice {
             load(lab, id);
         }
     };
-    let options = Signal::derive(move || {
-        // What was changed is none of the choices, so that choosing the same rig again brings it back.
-        let id = id.get();
-        let intact = id.filter(|&id| lab.words.setup.with(|setup| **setup == setup_of(id)));
-        let published = PresetId::ALL
-            .into_iter()
-            .map(|choice| option(choice.name(), &name_of(lab, choice), intact == Some(choice)));
-        let own = || id.map_or_else(|| tr!(lab, preset.own).to_owned(), |id| changed(lab, id));
-        let other = intact.is_none().then(|| option("", &own(), true));
-        other.into_iter().chain(published).collect::<String>()
-    });
     view! {
-        <select
-            data-testid="preset"
-            aria-label=say!(lab, preset.choose)
+        <Select
+            id="preset"
+            name=say!(lab, preset.choose)
             title=Signal::derive(move || remark_of(lab, id.get()))
+            choices
+            chosen=intact
+            on_choose=choose
             disabled=lab.locks(Control::Preset)
-            on:change=handler(on_change)
-            inner_html=options
-        ></select>
+        />
     }
-    .into_any()
 }

@@ -15,7 +15,6 @@ use super::start::{Bench, StartFlags};
 use super::stopped::Stopped;
 use super::storage::{LANGUAGE, THEME};
 use super::texts::{Language, say, tr};
-use super::widgets::{effect, handler};
 use quadtank_scenario::{Document, Scenario, setup_of};
 
 /// The element of the page that the laboratory fills; it holds the static outline until then.
@@ -27,7 +26,7 @@ pub fn mount() {
     let Some(root) = document().get_element_by_id(ROOT).and_then(|e| e.dyn_into::<web_sys::HtmlElement>().ok()) else {
         return;
     };
-    root.set_inner_html("");
+    root.set_text_content(None);
     leptos::mount::mount_to(root, || view! { <Laboratory /> }).forget();
 }
 
@@ -36,9 +35,9 @@ pub fn mount() {
 pub fn Laboratory() -> impl IntoView {
     let lab = start();
     provide_context(lab);
-    effect(move || show_on_root("data-theme", if lab.dark.get() { "dark" } else { "light" }));
-    effect(move || show_on_root("lang", lab.language.get().tag()));
-    effect(move || document().set_title(tr!(lab, app.page_title)));
+    Effect::new(move || show_on_root("data-theme", if lab.dark.get() { "dark" } else { "light" }));
+    Effect::new(move || show_on_root("lang", lab.language.get().tag()));
+    Effect::new(move || document().set_title(tr!(lab, app.page_title)));
     let on_hash = window_event_listener(ev::hashchange, move |_| {
         if let Some(outcome) = share::from_address() {
             lab.open(outcome);
@@ -85,7 +84,7 @@ pub fn Laboratory() -> impl IntoView {
 fn KeptBench(bench: Bench) -> impl IntoView {
     let lab = use_lab();
     let seen = RwSignal::new(false);
-    effect(move || {
+    Effect::new(move || {
         if lab.bench.get() == bench && !seen.get_untracked() {
             seen.set(true);
         }
@@ -153,7 +152,7 @@ fn Header() -> impl IntoView {
             <h1>{say!(lab, app.title)}</h1>
             <nav aria-label=say!(lab, app.benches)>{Vec::from(Bench::ALL.map(|bench| view! { <BenchLink bench /> }.into_any()))}</nav>
             <span class="spacer"></span>
-            <button type="button" class="button" data-testid="share" on:click=handler(move |_| share::share(lab))>
+            <button type="button" class="button" data-testid="share" on:click=move |_| share::share(lab)>
                 {say!(lab, app.share)}
             </button>
             <FileMenu />
@@ -190,7 +189,7 @@ fn BenchLink(bench: Bench) -> impl IntoView {
             href=format!("?bench={}", bench.name())
             data-testid=format!("bench-{}", bench.name())
             aria-current=move || (lab.bench.get() == bench).then(|| "page".to_owned())
-            on:click=handler(go)
+            on:click=go
         >
             {text}
         </a>
@@ -214,13 +213,13 @@ fn FileMenu() -> impl IntoView {
         <details class="menu" data-testid="file-menu">
             <summary>{say!(lab, app.export)}</summary>
             <div>
-                <button type="button" data-testid="save" on:click=handler(move |_| share::save(lab))>{say!(lab, app.export_scenario)}</button>
-                <button type="button" data-testid="open" on:click=handler(move |_| if let Some(input) = picker.get_untracked() { input.click() })>
+                <button type="button" data-testid="save" on:click=move |_| share::save(lab)>{say!(lab, app.export_scenario)}</button>
+                <button type="button" data-testid="open" on:click=move |_| if let Some(input) = picker.get_untracked() { input.click() }>
                     {say!(lab, app.open_scenario)}
                 </button>
                 {(!single).then(|| view! { <a href="quadtank.html" download="quadtank.html" data-testid="single-file">{say!(lab, app.single_file)}</a> }.into_any())}
             </div>
-            <input type="file" accept=".json,application/json" hidden node_ref=picker data-testid="open-input" on:change=handler(on_file) />
+            <input type="file" accept=".json,application/json" hidden node_ref=picker data-testid="open-input" on:change=on_file />
         </details>
     }
 }
@@ -238,21 +237,15 @@ fn LanguageChoice() -> impl IntoView {
         lab.language.set(language);
         LANGUAGE.write(language.tag());
     };
-    let options = Signal::derive(move || {
-        let spoken = |language: Language, name: &str| {
-            let tag = language.tag();
-            let chosen = if lab.language.get() == language { " selected" } else { "" };
-            format!("<option value=\"{tag}\" lang=\"{tag}\"{chosen}>{name}</option>")
-        };
-        spoken(Language::English, "English") + &spoken(Language::Portuguese, "Português")
-    });
+    let option = move |language: Language, name: &'static str| {
+        let tag = language.tag();
+        view! { <option value=tag lang=tag prop:selected=move || lab.language.get() == language>{name}</option> }
+    };
     view! {
-        <select
-            data-testid="language"
-            aria-label=say!(lab, app.language)
-            on:change=handler(choose)
-            inner_html=options
-        ></select>
+        <select data-testid="language" aria-label=say!(lab, app.language) on:change=choose>
+            {option(Language::English, "English")}
+            {option(Language::Portuguese, "Português")}
+        </select>
     }
 }
 
@@ -267,7 +260,7 @@ fn ThemeSwitch() -> impl IntoView {
         THEME.write(if lab.dark.get_untracked() { "dark" } else { "light" });
     };
     view! {
-        <button type="button" class="button" data-testid="theme" aria-label=name title=name on:click=handler(switch)>
+        <button type="button" class="button" data-testid="theme" aria-label=name title=name on:click=switch>
             {Signal::derive(move || if lab.dark.get() { "☀" } else { "☾" }.to_owned())}
         </button>
     }
@@ -298,7 +291,7 @@ fn Notices() -> impl IntoView {
                 view! {
                     <div class=class data-testid="notice">
                         {content(notice)}
-                        <button type="button" class="button small" aria-label=tr!(lab, app.close) on:click=handler(move |_| lab.notice.set(None))>"✕"</button>
+                        <button type="button" class="button small" aria-label=tr!(lab, app.close) on:click=move |_| lab.notice.set(None)>"✕"</button>
                     </div>
                 }
                 .into_any()
@@ -328,7 +321,7 @@ fn EmbedFooter() -> impl IntoView {
     };
     view! {
         <footer class="page">
-            <a href=share::BARE target="_blank" rel="noopener" data-testid="full-lab" on:click=handler(on_click)>{say!(lab, app.embedded)}</a>
+            <a href=share::BARE target="_blank" rel="noopener" data-testid="full-lab" on:click=on_click>{say!(lab, app.embedded)}</a>
         </footer>
     }
 }

@@ -3,13 +3,12 @@
 
 use gloo_timers::callback::Timeout;
 use js_sys::encode_uri_component;
+use leptos::attr::custom::custom_attribute;
 use leptos::prelude::*;
 
 use super::lab::{Lab, use_lab};
 use super::share::{FILE, address_of, json_of};
-use super::texts::{say, tr};
-use super::widgets::effect;
-use super::widgets::html::{element, escape};
+use super::texts::say;
 
 /// The longest time from a change to its being kept (ms). Writing file and link takes 0.3 ms for a short document and 3 ms for
 /// one with four pinned runs (measured in Chromium): too much for every frame.
@@ -38,13 +37,11 @@ pub fn Stopped() -> impl IntoView {
     let kept = kept(lab);
     let file = Signal::derive(move || kept.with(|kept| kept.file.clone()));
     let link = Signal::derive(move || kept.with(|kept| kept.link.clone()));
-    // The heading of the page from then on; a second h1 beside that of the header would be one too many until then.
-    let lead =
-        Signal::derive(move || element("b", "role=\"heading\" aria-level=\"1\"", &escape(tr!(lab, stopped.lead))));
     view! {
         <div class="notice stopped" id="stopped" data-testid="stopped" role="main" hidden>
             <div role="alert">
-                <p inner_html=lead></p>
+                // The heading of the page from then on; a second h1 beside that of the header would be one too many until then.
+                <p><b role="heading" {custom_attribute("aria-level", "1")}>{say!(lab, stopped.lead)}</b></p>
                 <p>{say!(lab, stopped.advice)}</p>
                 <div class="toolbar">
                     <a class="button" data-testid="stopped-save" download=FILE href=file hidden=move || file.get().is_none()>
@@ -65,7 +62,7 @@ pub fn Stopped() -> impl IntoView {
 fn kept(lab: Lab) -> Signal<Kept> {
     let kept = RwSignal::new(Kept::default());
     let next = StoredValue::new_local(None::<Timeout>);
-    effect(move || {
+    Effect::new(move || {
         lab.bench.track();
         lab.scenario.track();
         lab.tuning.track();

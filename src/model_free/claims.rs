@@ -3,34 +3,45 @@
 use leptos::prelude::*;
 
 use super::sentences::in_cm;
-use super::session::Session;
+use super::session::{Session, use_session};
 use crate::start::Control;
 use crate::texts::{say, tr};
-use crate::widgets::html::rich;
-use crate::widgets::{card as card_of, handler, remark};
+use crate::widgets::{Card, marked};
 use quadtank_scenario::model_free::{CheckedClaim, Claim, Standing, check_claims};
 
 const IDS: [&str; 5] = ["claim-a", "claim-b", "claim-zero", "claim-c", "claim-alpha"];
 
 /// The claims, each with its verdict, the figures behind it and the case that shows it.
-pub fn card(session: Session) -> AnyView {
-    let lab = session.lab;
+#[component]
+pub fn ClaimsCard() -> impl IntoView {
+    let lab = use_session().lab;
     // No published case is refused.
     let claims = check_claims().unwrap_or_default();
-    let items: Vec<AnyView> = claims.into_iter().zip(IDS).map(|(claim, id)| item(session, claim, id)).collect();
-    let list = view! { <ol>{items}</ol> };
-    card_of("claims", say!(lab, free.claims), vec![remark(say!(lab, free.claims_remark))], vec![list.into_any()])
+    let items = claims.into_iter().zip(IDS).map(|(claim, id)| view! { <Item claim id /> }).collect_view();
+    let about = move || view! { <span class="remark">{say!(lab, free.claims_remark)}</span> };
+    view! {
+        <Card name="claims" title=say!(lab, free.claims) beside=about>
+            <ol>{items}</ol>
+        </Card>
+    }
 }
 
-fn item(session: Session, claim: CheckedClaim, id: &'static str) -> AnyView {
+#[component]
+fn Item(claim: CheckedClaim, id: &'static str) -> impl IntoView {
+    let session = use_session();
     let lab = session.lab;
-    let content = Signal::derive(move || {
-        let class = if claim.standing == Standing::Reproduced { "good" } else { "warm" };
+    let content = move || {
         let (said, found) = texts(session, &claim);
-        let standing = standing(session, &claim);
-        format!("<b>{}</b> <span class=\"badge {class}\">{}</span><br>{}", rich(said), rich(standing), rich(&found))
-    });
-    let disabled = lab.locks(Control::Experiment);
+        view! {
+            <b>{marked(said)}</b>
+            " "
+            <span class=if claim.standing == Standing::Reproduced { "badge good" } else { "badge warm" }>
+                {standing(session, &claim)}
+            </span>
+            <br />
+            {marked(&found)}
+        }
+    };
     let show = move |_| {
         session.load(claim.setup());
         // The list stands below what it shows.
@@ -40,11 +51,18 @@ fn item(session: Session, claim: CheckedClaim, id: &'static str) -> AnyView {
     };
     view! {
         <li>
-            <span data-testid=id inner_html=content></span>
-            <button type="button" class="button small" data-testid=format!("{id}-show") disabled=disabled on:click=handler(show)>{say!(lab, free.show)}</button>
+            <span data-testid=id>{content}</span>
+            <button
+                type="button"
+                class="button small"
+                data-testid=format!("{id}-show")
+                disabled=lab.locks(Control::Experiment)
+                on:click=show
+            >
+                {say!(lab, free.show)}
+            </button>
         </li>
     }
-    .into_any()
 }
 
 fn standing(session: Session, claim: &CheckedClaim) -> &'static str {

@@ -4,11 +4,11 @@ use leptos::prelude::*;
 
 use super::pictures;
 use super::sentences::{self, in_cm};
-use super::session::Session;
+use super::session::{Session, use_session};
 use crate::texts::{say, tr};
-use crate::widgets::html::{element, escape, headings, rich, row};
 use crate::widgets::{
-    ChartCanvas, ChartMenu, DataTable, TimeAxis, TimeSurface, ZoomButtons, card as card_of, figures, sentence, verdict,
+    Card, ChartCanvas, ChartMenu, DataTable, Figures, Readout, Row, Sentence, TableContent, TimeAxis, TimeSurface,
+    Verdict, ZoomButtons, marked, unmarked,
 };
 use quadtank::sim::TrackingFigures;
 use quadtank_figure::Frame;
@@ -17,36 +17,46 @@ use quadtank_figure::Frame;
 const SHORTEST_S: f64 = 5.0;
 
 /// The course with its sentence and its figures.
-pub fn card(session: Session) -> AnyView {
+#[component]
+pub fn CourseCard() -> impl IntoView {
+    let session = use_session();
     let lab = session.lab;
     let frames = RwSignal::new(Vec::<Frame>::new());
     let axis = time_axis(session);
     let picture = pictures::course(session, axis.window);
+    let (for_menu, for_table) = (picture.clone(), picture.clone());
     let title = say!(lab, free.course);
-    let summary = Signal::derive(move || sentences::of_run(session).1.replace("**", ""));
-    let html = Signal::derive(move || rich(&sentences::of_run(session).1));
-    let readout = Signal::derive(move || if session.cursor.get().is_some() { readout(session) } else { String::new() });
-    let spoken = Signal::derive(move || plain(&readout.get()));
-    let beside = view! {
-        <div class="toolbar">
-            <ZoomButtons axis ids=["free-zoom-in", "free-zoom-out", "free-zoom-reset"] />
-        </div>
-        <ChartMenu picture=picture.clone() file="model-free" title />
+    // Read in three places, worked out once.
+    let found = Memo::new(move |_| sentences::of_run(session));
+    let readout = Signal::derive(move || session.cursor.get().and_then(|_| readout(session)));
+    let spoken = Signal::derive(move || readout.get().map_or_else(String::new, |readout| readout.spoken()));
+    let beside = move || {
+        view! {
+            <div class="toolbar">
+                <ZoomButtons axis ids=["free-zoom-in", "free-zoom-out", "free-zoom-reset"] />
+            </div>
+            <ChartMenu picture=for_menu file="model-free" title />
+        }
     };
-    let charts = view! {
-        <div class="chart">
-            <ChartCanvas picture=picture.clone() frames summary name="free-course" />
-            <TimeSurface axis frames label=say!(lab, responses.cursor) spoken readout id="free-surface" />
-        </div>
-    };
-    let content = vec![
-        verdict("free-verdict".to_owned(), Signal::derive(move || !sentences::of_run(session).0), html),
-        charts.into_any(),
-        figures("free-figures", say!(lab, responses.metrics), Signal::derive(move || table(session))),
-        sentence("free-comparison", Signal::derive(move || sentences::of_comparison(session))),
-        view! { <DataTable picture id="free-table" /> }.into_any(),
-    ];
-    card_of("course", title, vec![beside.into_any()], content)
+    view! {
+        <Card name="course" title beside>
+            <Verdict id="free-verdict" warm=Signal::derive(move || !found.get().0)>
+                {move || marked(&found.get().1)}
+            </Verdict>
+            <div class="chart">
+                <ChartCanvas
+                    picture
+                    frames
+                    summary=Signal::derive(move || unmarked(&found.get().1))
+                    name="free-course"
+                />
+                <TimeSurface axis frames label=say!(lab, responses.cursor) spoken readout id="free-surface" />
+            </div>
+            <Figures name="free-figures" caption=say!(lab, responses.metrics)>{move || table(session)}</Figures>
+            <Sentence id="free-comparison" text=Signal::derive(move || sentences::of_comparison(session)) />
+            <DataTable picture=for_table id="free-table" />
+        </Card>
+    }
 }
 
 fn time_axis(session: Session) -> TimeAxis {
@@ -65,68 +75,54 @@ fn time_axis(session: Session) -> TimeAxis {
     }
 }
 
-/// The values at the shown moment as HTML.
-fn readout(session: Session) -> String {
-    let Some(shown) = session.shown() else { return String::new() };
+/// The values at the shown moment.
+fn readout(session: Session) -> Option<Readout> {
+    let shown = session.shown()?;
     let style = session.lab.number_style();
-    let pair = |symbols: [&str; 2], values: [String; 2]| {
-        let one = |k: usize| {
-            element("span", ["class=\"loop1\"", "class=\"loop2\""][k], &format!("{} {}", symbols[k], values[k]))
-        };
-        element("div", "", &format!("{} · {}", one(0), one(1)))
-    };
+    let pair = |symbols: [&str; 2], values: [String; 2]| [0, 1].map(|k| format!("{} {}", symbols[k], values[k]));
     let [h1, h2, h3, h4] = shown.state.levels.map(|level| format!("{} cm", style.fixed(in_cm(level), 2)));
-    let head = element("div", "", &format!("t = {} s", style.fixed(shown.time_s, 0)));
-    let pumps = shown.state.pump_voltage.map(|v| format!("{} V", style.fixed(v, 2)));
-    let valves = shown.plant.valves.map(|gamma| style.fixed(gamma, 2));
-    let phi = session.words.with_answer(|answer| answer.run.phi_at(shown.time_s)).flatten().map(|phi| {
+    let mut pairs = vec![
+        pair(["h₁", "h₂"], [h1, h2]),
+        pair(["h₃", "h₄"], [h3, h4]),
+        pair(["v₁", "v₂"], shown.state.pump_voltage.map(|v| format!("{} V", style.fixed(v, 2)))),
+        pair(["γ₁", "γ₂"], shown.plant.valves.map(|gamma| style.fixed(gamma, 2))),
+    ];
+    if let Some(phi) = session.words.with_answer(|answer| answer.run.phi_at(shown.time_s)).flatten() {
         // The unit once: the row has to fit on a phone.
         let in_row = |[first, second]: [f64; 2]| {
             [style.fixed(in_cm(first), 3), format!("{} cm/s", style.fixed(in_cm(second), 3))]
         };
         let [estimates, true_values] = phi.map(in_row);
-        pair(["φ̂₁", "φ̂₂"], estimates) + &pair(["φ₁", "φ₂"], true_values)
-    });
-    head + &pair(["h₁", "h₂"], [h1, h2])
-        + &pair(["h₃", "h₄"], [h3, h4])
-        + &pair(["v₁", "v₂"], pumps)
-        + &pair(["γ₁", "γ₂"], valves)
-        + &phi.unwrap_or_default()
-}
-
-/// The words of a piece of HTML.
-fn plain(html: &str) -> String {
-    html.split('<').filter_map(|part| part.split_once('>')).map(|(_, words)| words).collect::<Vec<_>>().join(" ")
+        pairs.extend([pair(["φ̂₁", "φ̂₂"], estimates), pair(["φ₁", "φ₂"], true_values)]);
+    }
+    Some(Readout { time: format!("t = {} s", style.fixed(shown.time_s, 0)), pairs })
 }
 
 /// How the loops did, those of the comparison below them.
-fn table(session: Session) -> String {
+fn table(session: Session) -> impl IntoView {
     let lab = session.lab;
     let unit = "cm";
-    let names = [
+    let columns = vec![
         tr!(lab, responses.run).to_owned(),
-        tr!(lab, responses.iae, unit = unit).to_string(),
-        tr!(lab, responses.ise, unit = unit).to_string(),
+        tr!(lab, responses.iae, unit = unit),
+        tr!(lab, responses.ise, unit = unit),
         tr!(lab, responses.overshoot).to_owned(),
         tr!(lab, responses.settling_2).to_owned(),
         tr!(lab, responses.variation).to_owned(),
         tr!(lab, responses.saturated).to_owned(),
         tr!(lab, free.lost).to_owned(),
     ];
-    let caption = element("caption", "class=\"visually-hidden\"", &escape(tr!(lab, responses.metrics)));
+    let row = |name: String, k: usize, figures: &TrackingFigures| {
+        view! { <Row class=["loop1", "loop2"][k] name figures=figures_of(session, figures) /> }.into_any()
+    };
     let rows = session.words.with_answer(|answer| {
-        let of = |figures: &[TrackingFigures; 2], name: fn(Session, usize) -> String| -> String {
-            (0..2)
-                .map(|k| row(["loop1", "loop2"][k], &name(session, k + 1), &figures_of(session, &figures[k])))
-                .collect()
-        };
-        let law = of(&answer.figures, |session, level| tr!(session.lab, responses.row, number = level).to_string());
-        let pi = answer.comparison.as_ref().map(|(_, figures)| {
-            of(figures, |session, level| tr!(session.lab, free.row_pi, number = level).to_string())
-        });
-        law + &pi.unwrap_or_default()
+        let law = answer.figures.iter().enumerate();
+        let law = law.map(|(k, figures)| row(tr!(lab, responses.row, number = k + 1), k, figures));
+        let pi = answer.comparison.iter().flat_map(|(_, figures)| figures.iter().enumerate());
+        let pi = pi.map(|(k, figures)| row(tr!(lab, free.row_pi, number = k + 1), k, figures));
+        law.chain(pi).collect::<Vec<_>>()
     });
-    caption + &element("thead", "", &headings(&names)) + &element("tbody", "", &rows.unwrap_or_default())
+    view! { <TableContent caption=tr!(lab, responses.metrics) columns rows=rows.unwrap_or_default() /> }
 }
 
 fn figures_of(session: Session, figures: &TrackingFigures) -> [String; 7] {

@@ -3,11 +3,11 @@
 use leptos::prelude::*;
 
 use super::sentences::{in_cm, in_m};
-use super::session::Session;
-use crate::controls::{Knob, knob, segmented};
+use super::session::use_session;
+use crate::controls::{Knob, KnobRow, Switch};
 use crate::start::Control;
 use crate::texts::{say, tr};
-use crate::widgets::{Scale, card as card_of, handler, remark};
+use crate::widgets::{Card, Scale};
 use quadtank_scenario::model_free::{
     LONG_RUN_S, ModelFreeSetup, PublishedExperiment, PublishedValves, published_model_free,
 };
@@ -66,7 +66,9 @@ const DURATION: Knob<ModelFreeSetup> = Knob {
 };
 
 /// The case, the experiment, and their numbers.
-pub fn card(session: Session) -> AnyView {
+#[component]
+pub fn CaseCard() -> impl IntoView {
+    let session = use_session();
     let lab = session.lab;
     let cases = vec![
         ("free-a", say!(lab, free.case_a)),
@@ -75,43 +77,72 @@ pub fn card(session: Session) -> AnyView {
     ];
     let experiments =
         vec![("free-s1", say!(lab, free.s1)), ("free-s2", say!(lab, free.s2)), ("free-s3", say!(lab, free.s3))];
-    let numbers = [(&VALVE, 0), (&VALVE, 1), (&STEP, 0), (&STEP, 1), (&NOISE, 0), (&DURATION, 0)];
-    let numbers = numbers.map(|(number, index)| knob(session, number, index));
-    let long = session.flag(|s| s.experiment.duration_s == LONG_RUN_S);
-    let buttons = vec![
-        pressed(session, "free-long", say!(lab, free.long), long, |s| s.experiment.duration_s = LONG_RUN_S),
-        pressed(session, "free-pi", say!(lab, free.compare), session.flag(|s| s.compare.is_some()), compare),
-    ];
-    let content = vec![
-        segmented(session, say!(lab, free.case), cases, case_of, set_case, Control::Valves),
-        segmented(
-            session,
-            say!(lab, experiment.title),
-            experiments,
-            experiment_of,
-            set_experiment,
-            Control::Experiment,
-        ),
-        view! { <div class="pairs">{Vec::from(numbers)}</div> }.into_any(),
-        view! { <div class="toolbar">{buttons}</div> }.into_any(),
-    ];
-    card_of("case", say!(lab, free.case), vec![remark(say!(lab, free.source))], content)
+    let source = move || view! { <span class="remark">{say!(lab, free.source)}</span> };
+    view! {
+        <Card name="case" title=say!(lab, free.case) beside=source>
+            <Switch
+                document=session
+                label=say!(lab, free.case)
+                choices=cases
+                read=case_of
+                write=set_case
+                lock=Control::Valves
+            />
+            <Switch
+                document=session
+                label=say!(lab, experiment.title)
+                choices=experiments
+                read=experiment_of
+                write=set_experiment
+                lock=Control::Experiment
+            />
+            <div class="pairs">
+                <KnobRow document=session knob=&VALVE index=0 />
+                <KnobRow document=session knob=&VALVE index=1 />
+                <KnobRow document=session knob=&STEP index=0 />
+                <KnobRow document=session knob=&STEP index=1 />
+                <KnobRow document=session knob=&NOISE />
+                <KnobRow document=session knob=&DURATION />
+            </div>
+            <div class="toolbar">
+                <Pressed
+                    id="free-long"
+                    text=say!(lab, free.long)
+                    value=session.flag(|s| s.experiment.duration_s == LONG_RUN_S)
+                    press=|s| s.experiment.duration_s = LONG_RUN_S
+                />
+                <Pressed
+                    id="free-pi"
+                    text=say!(lab, free.compare)
+                    value=session.flag(|s| s.compare.is_some())
+                    press=compare
+                />
+            </div>
+        </Card>
+    }
 }
 
 /// A button that stays pressed while something is so.
-fn pressed(
-    session: Session,
+#[component]
+fn Pressed(
     id: &'static str,
     text: Signal<String>,
     value: Signal<bool>,
     press: fn(&mut ModelFreeSetup),
-) -> AnyView {
-    let disabled = session.lab.locks(Control::Experiment);
-    let is_pressed = Signal::derive(move || value.get().to_string());
+) -> impl IntoView {
+    let session = use_session();
     view! {
-        <button type="button" class="button small" data-testid=id aria-pressed=is_pressed disabled=disabled on:click=handler(move |_| session.edit(press))>{text}</button>
+        <button
+            type="button"
+            class="button small"
+            data-testid=id
+            aria-pressed=move || value.get().to_string()
+            disabled=session.lab.locks(Control::Experiment)
+            on:click=move |_| session.edit(press)
+        >
+            {text}
+        </button>
     }
-    .into_any()
 }
 
 /// The published case whose valves these are; none of them for others.

@@ -3,12 +3,11 @@
 use leptos::prelude::*;
 
 use super::sentences::{self, in_cm, in_m};
-use super::session::Session;
-use crate::controls::{Knob, knob, segmented};
+use super::session::use_session;
+use crate::controls::{Knob, KnobRow, Switch};
 use crate::start::Control;
 use crate::texts::{say, tr};
-use crate::widgets::html::rich;
-use crate::widgets::{Scale, card as card_of};
+use crate::widgets::{Card, Scale, Sentence};
 use quadtank::control::{EstimatorSettings, FedWith, ModelFreeSettings, ModelFreeWindup, Pairing, Quadrature, Window};
 use quadtank_scenario::limits;
 use quadtank_scenario::model_free::ModelFreeSetup;
@@ -19,11 +18,6 @@ const TRACKING_TIME_S: f64 = 10.0;
 const USUAL_SAMPLES: f64 = 10.0;
 /// Most samples of a window: more than a page computes in a frame.
 const MOST_SAMPLES: f64 = 100.0;
-
-/// The law, eqs. 16 and 17 of the paper.
-const FORMULA: &str = "<math><mi>v</mi><mo>=</mo><mfrac><mrow><mo>−</mo><mover><mi>φ</mi><mo>^</mo></mover><mo>+</mo>\
-    <msub><mi>K</mi><mi>p</mi></msub><mi>e</mi><mo>+</mo><msub><mi>K</mi><mi>i</mi></msub><mo>∫</mo><mi>e</mi></mrow>\
-    <mover><mi>α</mi><mo>^</mo></mover></mfrac></math>";
 
 const MODEL_GAIN: Knob<ModelFreeSetup> = Knob {
     ids: [("free-alpha", "free-alpha-number"); 2],
@@ -85,50 +79,105 @@ const SAMPLING: Knob<ModelFreeSetup> = Knob {
 };
 
 /// The settings of the law.
-pub fn card(session: Session) -> AnyView {
+#[component]
+pub fn LawCard() -> impl IntoView {
+    let session = use_session();
     let lab = session.lab;
     let windows = vec![
         ("free-off", say!(lab, free.off)),
         ("free-block", say!(lab, free.block)),
         ("free-sliding", say!(lab, free.sliding)),
     ];
-    let sums =
-        vec![("free-rectangular", say!(lab, free.rectangular)), ("free-trapezoidal", say!(lab, free.trapezoidal))];
-    let feeds = vec![("free-applied", say!(lab, free.applied)), ("free-commanded", say!(lab, free.commanded))];
     let windups = vec![
         ("free-windup", say!(lab, free.windup_off)),
         ("free-conditional", say!(lab, free.conditional)),
         ("free-back", say!(lab, free.back_calculation)),
     ];
     let pairings = vec![("free-diagonal", say!(lab, pi.diagonal)), ("free-swapped", say!(lab, pi.swapped))];
+    let stability = Memo::new(move |_| sentences::of_loop(session));
     let lock = Control::Gains;
-    let details = vec![
-        segmented(session, say!(lab, free.sum), sums, sum_of, set_sum, lock),
-        segmented(session, say!(lab, free.fed_with), feeds, feed_of, set_feed, lock),
-    ];
-    let times = vec![knob(session, &WINDOW, 0), knob(session, &SAMPLING, 0)];
-    let no_estimator = session.flag(|s| s.controller.estimator.is_none());
-    let content = vec![
-        view! { <div class="formula" inner_html=FORMULA></div> }.into_any(),
-        knob(session, &MODEL_GAIN, 0),
-        knob(session, &PROPORTIONAL, 0),
-        knob(session, &INTEGRAL, 0),
-        segmented(session, say!(lab, free.estimator), windows, window_of, set_window, lock),
-        view! { <div hidden=no_estimator class="estimator">{details}</div> }.into_any(),
-        view! { <div class="pairs">{times}</div> }.into_any(),
-        segmented(session, say!(lab, free.windup), windups, windup_of, set_windup, lock),
-        segmented(session, say!(lab, pi.pairing), pairings, pairing_of, set_pairing, Control::Pairing),
-        stability(session),
-    ];
-    card_of("law", say!(lab, free.law), Vec::new(), content)
+    view! {
+        <Card name="law" title=say!(lab, free.law)>
+            <div class="formula">{formula()}</div>
+            <KnobRow document=session knob=&MODEL_GAIN />
+            <KnobRow document=session knob=&PROPORTIONAL />
+            <KnobRow document=session knob=&INTEGRAL />
+            <Switch
+                document=session
+                label=say!(lab, free.estimator)
+                choices=windows
+                read=window_of
+                write=set_window
+                lock
+            />
+            <div hidden=session.flag(|s| s.controller.estimator.is_none()) class="estimator"><EstimatorDetails /></div>
+            <div class="pairs">
+                <KnobRow document=session knob=&WINDOW />
+                <KnobRow document=session knob=&SAMPLING />
+            </div>
+            <Switch
+                document=session
+                label=say!(lab, free.windup)
+                choices=windups
+                read=windup_of
+                write=set_windup
+                lock
+            />
+            <Switch
+                document=session
+                label=say!(lab, pi.pairing)
+                choices=pairings
+                read=pairing_of
+                write=set_pairing
+                lock=Control::Pairing
+            />
+            <Sentence
+                id="free-stability"
+                text=Signal::derive(move || stability.get().1)
+                warm=Signal::derive(move || !stability.get().0)
+                status=true
+            />
+        </Card>
+    }
 }
 
-/// What theory says of the loop.
-fn stability(session: Session) -> AnyView {
-    let class =
-        Signal::derive(move || if sentences::of_loop(session).0 { "sentence" } else { "sentence warm" }.to_owned());
-    let text = Signal::derive(move || rich(&sentences::of_loop(session).1));
-    view! { <p class=class role="status" data-testid="free-stability" inner_html=text></p> }.into_any()
+/// The law, eqs. 16 and 17 of the paper.
+fn formula() -> impl IntoView {
+    view! {
+        <math>
+            <mi>"v"</mi>
+            <mo>"="</mo>
+            <mfrac>
+                <mrow>
+                    <mo>"−"</mo>
+                    <mover><mi>"φ"</mi><mo>"^"</mo></mover>
+                    <mo>"+"</mo>
+                    <msub><mi>"K"</mi><mi>"p"</mi></msub>
+                    <mi>"e"</mi>
+                    <mo>"+"</mo>
+                    <msub><mi>"K"</mi><mi>"i"</mi></msub>
+                    <mo>"∫"</mo>
+                    <mi>"e"</mi>
+                </mrow>
+                <mover><mi>"α"</mi><mo>"^"</mo></mover>
+            </mfrac>
+        </math>
+    }
+}
+
+/// How the estimator sums, and which voltage it is fed with.
+#[component]
+fn EstimatorDetails() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let sums =
+        vec![("free-rectangular", say!(lab, free.rectangular)), ("free-trapezoidal", say!(lab, free.trapezoidal))];
+    let feeds = vec![("free-applied", say!(lab, free.applied)), ("free-commanded", say!(lab, free.commanded))];
+    let lock = Control::Gains;
+    view! {
+        <Switch document=session label=say!(lab, free.sum) choices=sums read=sum_of write=set_sum lock />
+        <Switch document=session label=say!(lab, free.fed_with) choices=feeds read=feed_of write=set_feed lock />
+    }
 }
 
 /// Both loops have the same settings.

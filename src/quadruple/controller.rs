@@ -3,12 +3,11 @@
 use leptos::prelude::*;
 
 use super::sentences;
-use crate::controls::{Knob, knob, number};
-use crate::lab::{Lab, use_lab};
+use crate::controls::{Knob, KnobNumber, KnobRow};
+use crate::lab::use_lab;
 use crate::start::Control;
 use crate::texts::{say, tr};
-use crate::widgets::html::rich;
-use crate::widgets::{Scale, Segmented, card, handler, remark, tick};
+use crate::widgets::{Card, Scale, Segmented, Sentence, Tick};
 use quadtank::control::{AntiWindup, LoopMode, Pairing, PiSettings};
 use quadtank::interaction::PairingVerdict;
 use quadtank_scenario::{Setup, limits};
@@ -20,7 +19,6 @@ const MANUAL_UNTIL_S: f64 = 500.0;
 
 const SIGN_IDS: [&str; 2] = ["sign1", "sign2"];
 const MANUAL_IDS: [&str; 2] = ["manual1", "manual2"];
-const PAIRINGS: [Pairing; 2] = [Pairing::Diagonal, Pairing::Swapped];
 
 const GAIN: Knob<Setup> = Knob {
     ids: [("gain1", "gain1-number"), ("gain2", "gain2-number")],
@@ -130,94 +128,113 @@ fn manual(setup: &Setup, index: usize) -> (f64, f64) {
 }
 
 /// Pairing, gains and the fine print of the two loops.
-pub fn controller_card() -> AnyView {
+#[component]
+pub fn ControllerCard() -> impl IntoView {
     let lab = use_lab();
     let windup = lab.part(|s| s.controller.loops.iter().any(|l| l.anti_windup != AntiWindup::Off));
-    let about = Signal::derive(move || {
+    let about = move || {
         let windup = if windup.get() { tr!(lab, pi.windup_on) } else { tr!(lab, pi.windup_off) };
         tr!(lab, pi.remark, windup = windup)
-    });
-    let stability = move || sentences::of_stability(lab);
-    let content = view! {
-        {pairing_switch(lab)}
-        {loop_controls(lab, 0)}
-        {loop_controls(lab, 1)}
-        <details class="more">
-            <summary data-testid="pi-more">{say!(lab, pi.more)}</summary>
-            {fine_print(lab)}
-        </details>
-        <p class=Signal::derive(move || if stability().1 { "sentence warm" } else { "sentence" }.to_owned()) role="status" data-testid="stability" inner_html=Signal::derive(move || rich(&stability().0))></p>
     };
-    card("pi", say!(lab, pi.title), vec![remark(about)], vec![content.into_any()])
+    let stability = Memo::new(move |_| sentences::of_stability(lab));
+    view! {
+        <Card name="pi" title=say!(lab, pi.title) beside=move || view! { <span class="remark">{about}</span> }>
+            <PairingSwitch />
+            <LoopControls index=0 />
+            <LoopControls index=1 />
+            <details class="more">
+                <summary data-testid="pi-more">{say!(lab, pi.more)}</summary>
+                <FinePrint />
+            </details>
+            <Sentence
+                id="stability"
+                text=Signal::derive(move || stability.get().0)
+                warm=Signal::derive(move || stability.get().1)
+                status=true
+            />
+        </Card>
+    }
 }
 
 /// Shows the suggestion, obeys the student.
-fn pairing_switch(lab: Lab) -> AnyView {
-    let swapped = lab.part(|s| s.controller.pairing == Pairing::Swapped);
-    let chosen = Signal::derive(move || usize::from(swapped.get()));
+#[component]
+fn PairingSwitch() -> impl IntoView {
+    let lab = use_lab();
+    let chosen = lab.part(|s| s.controller.pairing);
     let suggested = move || {
         lab.words
             .with_analysis(|a| match a.verdict {
-                PairingVerdict::Diagonal(_) => Some(0),
-                PairingVerdict::Swapped(_) => Some(1),
+                PairingVerdict::Diagonal(_) => Some(Pairing::Diagonal),
+                PairingVerdict::Swapped(_) => Some(Pairing::Swapped),
                 PairingVerdict::None(_) => None,
             })
             .flatten()
     };
-    let choice = move |index: usize, id: &'static str| {
+    let choice = move |pairing: Pairing, id: &'static str| {
         let text = Signal::derive(move || {
-            let name = if index == 0 { tr!(lab, pi.diagonal) } else { tr!(lab, pi.swapped) };
-            if suggested() == Some(index) { format!("{name} ✓") } else { name.to_owned() }
+            let name = match pairing {
+                Pairing::Diagonal => tr!(lab, pi.diagonal),
+                Pairing::Swapped => tr!(lab, pi.swapped),
+            };
+            if suggested() == Some(pairing) { format!("{name} ✓") } else { name.to_owned() }
         });
-        (index, id, text)
+        (pairing, id, text)
     };
-    let fits = Signal::derive(move || suggested().is_none_or(|s| s == chosen.get()));
+    let fits = move || suggested().is_none_or(|s| s == chosen.get());
     view! {
         <Segmented
             label=say!(lab, pi.pairing)
-            choices=vec![choice(0, "pairing-diagonal"), choice(1, "pairing-swapped")]
+            choices=vec![choice(Pairing::Diagonal, "pairing-diagonal"), choice(Pairing::Swapped, "pairing-swapped")]
             value=chosen
-            on_choose=move |index: usize| lab.edit(|s| s.controller.pairing = PAIRINGS[index])
+            on_choose=move |pairing| lab.edit(|s| s.controller.pairing = pairing)
             disabled=lab.locks(Control::Pairing)
         />
         <p class="remark warm" hidden=fits>{say!(lab, pi.against)}</p>
     }
-    .into_any()
 }
 
-fn loop_controls(lab: Lab, index: usize) -> AnyView {
-    let heading = Signal::derive(move || {
+#[component]
+fn LoopControls(index: usize) -> impl IntoView {
+    let lab = use_lab();
+    let heading = move || {
         let pump = lab.scenario.with(|s| s.setup.controller.pairing.pump_of(index)) + 1;
         tr!(lab, pi.heading, level = index + 1, pump = pump)
-    });
+    };
     view! {
         <h3 class=["loop1", "loop2"][index]>{heading}</h3>
-        {knob(lab, &GAIN, index)}
-        {knob(lab, &INTEGRAL_TIME, index)}
+        <KnobRow document=lab knob=&GAIN index />
+        <KnobRow document=lab knob=&INTEGRAL_TIME index />
     }
-    .into_any()
 }
 
 /// What most students leave alone: set-point weight, anti-windup, sampling time, sign and manual mode.
-fn fine_print(lab: Lab) -> AnyView {
+#[component]
+fn FinePrint() -> impl IntoView {
+    let lab = use_lab();
     let switch_windup = move |on| {
         let choice = if on { AntiWindup::BackCalculation { tracking_ratio: TRACKING_RATIO } } else { AntiWindup::Off };
         lab.edit(|s| both(s, |l| l.anti_windup = choice));
     };
-    let guarded = lab.part(is_guarded);
-    vec![
-        knob(lab, &WEIGHT, 0),
-        knob(lab, &SAMPLING, 0),
-        tick("antiwindup", say!(lab, pi.antiwindup), guarded, lab.locks(Control::Sampling), switch_windup),
-        knob(lab, &TRACKING, 0),
-        manual_mode(lab, 0),
-        manual_mode(lab, 1),
-    ]
-    .into_any()
+    view! {
+        <KnobRow document=lab knob=&WEIGHT />
+        <KnobRow document=lab knob=&SAMPLING />
+        <Tick
+            id="antiwindup"
+            text=say!(lab, pi.antiwindup)
+            ticked=lab.part(is_guarded)
+            disabled=lab.locks(Control::Sampling)
+            on_tick=switch_windup
+        />
+        <KnobRow document=lab knob=&TRACKING />
+        <ManualMode index=0 />
+        <ManualMode index=1 />
+    }
 }
 
 /// A loop in manual until a time, then handed over without a bump; and the sign of its gain.
-fn manual_mode(lab: Lab, index: usize) -> AnyView {
+#[component]
+fn ManualMode(index: usize) -> impl IntoView {
+    let lab = use_lab();
     let by_hand = lab.part(move |s| s.controller.loops[index].mode != LoopMode::Automatic);
     let rest = move || {
         let pump = lab.scenario.with(|s| s.setup.controller.pairing.pump_of(index));
@@ -229,27 +246,34 @@ fn manual_mode(lab: Lab, index: usize) -> AnyView {
             if on { LoopMode::Manual { output: untrack(rest), until_s: MANUAL_UNTIL_S } } else { LoopMode::Automatic };
         lab.edit(|s| s.controller.loops[index].mode = mode);
     };
-    let text = say!(lab, pi.manual, level = index + 1);
+    let fields = move || {
+        view! {
+            <div class="fields">
+                <div class="field-row"><KnobNumber document=lab knob=&MANUAL_UNTIL index /><span class="unit">"s"</span></div>
+                <div class="field-row"><KnobNumber document=lab knob=&MANUAL_OUTPUT index /><span class="unit">"V"</span></div>
+            </div>
+        }
+    };
     view! {
         <div class="toolbar">
-            {tick(MANUAL_IDS[index], text, by_hand, lab.locks(Control::Sampling), switch)}
+            <Tick
+                id=MANUAL_IDS[index]
+                text=say!(lab, pi.manual, level = index + 1)
+                ticked=by_hand
+                disabled=lab.locks(Control::Sampling)
+                on_tick=switch
+            />
             <button
                 type="button"
                 class="button small"
                 data-testid=SIGN_IDS[index]
                 disabled=lab.locks(Control::Gains)
                 aria-label=say!(lab, pi.sign, level = index + 1)
-                on:click=handler(move |_| lab.edit(|s| s.controller.loops[index].gain *= -1.0))
+                on:click=move |_| lab.edit(|s| s.controller.loops[index].gain *= -1.0)
             >
                 {["±K₁", "±K₂"][index]}
             </button>
         </div>
-        {move || by_hand.get().then(|| view! {
-            <div class="fields">
-                <div class="field-row">{number(lab, &MANUAL_UNTIL, index)}<span class="unit">"s"</span></div>
-                <div class="field-row">{number(lab, &MANUAL_OUTPUT, index)}<span class="unit">"V"</span></div>
-            </div>
-        }.into_any())}
+        {move || by_hand.get().then(fields)}
     }
-    .into_any()
 }

@@ -3,13 +3,12 @@
 use leptos::prelude::*;
 
 use super::cursor::PlayControls;
-use crate::controls::{Knob, knob, number};
+use crate::controls::{Knob, KnobNumber, KnobRow};
 use crate::lab::{Lab, use_lab};
 use crate::shown::{CM3_PER_M3, MM2_PER_M2, to_metres, to_shown, unit_name};
 use crate::start::Control;
 use crate::texts::{say, tr};
-use crate::widgets::html::option;
-use crate::widgets::{Scale, card, handler, remark, tick};
+use crate::widgets::{Card, Choice, Scale, Select, Tick};
 use quadtank::sim::{Experiment, Load, LoadStep, SetPointStep};
 use quadtank_scenario::{Setup, limits};
 
@@ -168,55 +167,95 @@ fn further_steps(experiment: &Experiment) -> usize {
 }
 
 /// The experiment.
-pub fn experiment_card() -> AnyView {
+#[component]
+pub fn ExperimentCard() -> impl IntoView {
     let lab = use_lab();
-    let quantised = lab.part(|s| s.experiment.measurement.quantised);
-    let quantise = move |on| lab.edit(|s| s.experiment.measurement.quantised = on);
     let further = move || lab.scenario.with(|s| further_steps(&s.setup.experiment));
-    let nothing_further = Signal::derive(move || further() == 0);
-    let content = vec![
-        timed(lab, &REFERENCE, &REFERENCE_TIME, 0),
-        timed(lab, &REFERENCE, &REFERENCE_TIME, 1),
-        load_controls(lab),
-        knob(lab, &NOISE, 0),
-        knob(lab, &DURATION, 0),
-        tick("quantised", say!(lab, experiment.quantised), quantised, lab.locks(Control::Experiment), quantise),
-        view! { <p class="remark" hidden=nothing_further>{say!(lab, experiment.further, count = further())}</p> }
-            .into_any(),
-        view! { <PlayControls /> }.into_any(),
-    ];
-    card("experiment", say!(lab, experiment.title), vec![remark(say!(lab, experiment.remark))], content)
+    let about = move || view! { <span class="remark">{say!(lab, experiment.remark)}</span> };
+    view! {
+        <Card name="experiment" title=say!(lab, experiment.title) beside=about>
+            <Timed size=&REFERENCE time=&REFERENCE_TIME index=0 />
+            <Timed size=&REFERENCE time=&REFERENCE_TIME index=1 />
+            <LoadControls />
+            <KnobRow document=lab knob=&NOISE />
+            <KnobRow document=lab knob=&DURATION />
+            <Tick
+                id="quantised"
+                text=say!(lab, experiment.quantised)
+                ticked=lab.part(|s| s.experiment.measurement.quantised)
+                disabled=lab.locks(Control::Experiment)
+                on_tick=move |on| lab.edit(|s| s.experiment.measurement.quantised = on)
+            />
+            <p class="remark" hidden=move || further() == 0>{say!(lab, experiment.further, count = further())}</p>
+            <PlayControls />
+        </Card>
+    }
 }
 
 /// A slider, and "at … s".
-fn timed(lab: Lab, size: &'static Knob<Setup>, time: &'static Knob<Setup>, index: usize) -> AnyView {
+#[component]
+fn Timed(size: &'static Knob<Setup>, time: &'static Knob<Setup>, #[prop(optional)] index: usize) -> impl IntoView {
+    let lab = use_lab();
     view! {
         <div class="timed">
-            {knob(lab, size, index)}
+            <KnobRow document=lab knob=size index />
             <div class="at">
                 <span class="unit">{say!(lab, experiment.at)}</span>
-                {number(lab, time, index)}
+                <KnobNumber document=lab knob=time index />
                 <span class="unit">"s"</span>
             </div>
         </div>
     }
-    .into_any()
+}
+
+/// Where the first load acts: an index of a pump or a tank, or nowhere.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum LoadPlace {
+    Nowhere,
+    Pump(usize),
+    Tank(usize),
+}
+
+impl LoadPlace {
+    const ALL: [Self; 7] =
+        [Self::Nowhere, Self::Pump(0), Self::Pump(1), Self::Tank(0), Self::Tank(1), Self::Tank(2), Self::Tank(3)];
+
+    fn of(setup: &Setup) -> Self {
+        match first_load(&setup.experiment) {
+            None => Self::Nowhere,
+            Some(Load::PumpFlow { pump, .. }) => Self::Pump(pump),
+            Some(Load::Leak { tank, .. }) => Self::Tank(tank),
+        }
+    }
+
+    /// A load that begins there.
+    fn load(self) -> Option<Load> {
+        match self {
+            Self::Nowhere => None,
+            Self::Pump(pump) => Some(Load::PumpFlow { pump, flow: FIRST_LOAD_FLOW }),
+            Self::Tank(tank) => Some(Load::Leak { tank, area: FIRST_LEAK_AREA }),
+        }
+    }
+
+    fn choice(self, lab: Lab) -> Choice<Self> {
+        match self {
+            Self::Nowhere => Choice::new(self, "none", tr!(lab, experiment.load_none)),
+            Self::Pump(k) => Choice::new(self, format!("pump{k}"), tr!(lab, experiment.load_pump, pump = k + 1)),
+            Self::Tank(k) => Choice::new(self, format!("leak{k}"), tr!(lab, experiment.load_leak, tank = k + 1)),
+        }
+    }
 }
 
 /// Kind, size and time of the first load.
-fn load_controls(lab: Lab) -> AnyView {
+#[component]
+fn LoadControls() -> impl IntoView {
+    let lab = use_lab();
     let present = lab.part(|s| !s.experiment.load_steps.is_empty());
-    let kind = lab.part(|s| match first_load(&s.experiment) {
-        None => "none".to_owned(),
-        Some(Load::PumpFlow { pump, .. }) => format!("pump{pump}"),
-        Some(Load::Leak { tank, .. }) => format!("leak{tank}"),
-    });
-    let choose = move |event| {
-        let load = load_named(&event_target_value(&event));
+    let choose = move |place: LoadPlace| {
         lab.edit(|s| {
             let begin = (FIRST_LOAD_AT * s.experiment.duration_s).round();
             let steps = &mut s.experiment.load_steps;
-            match (load, steps.is_empty()) {
+            match (place.load(), steps.is_empty()) {
                 (None, false) => drop(steps.remove(0)),
                 (None, true) => {}
                 (Some(load), true) => steps.push(LoadStep { time_s: begin, load }),
@@ -224,33 +263,18 @@ fn load_controls(lab: Lab) -> AnyView {
             }
         });
     };
-    let options = Signal::derive(move || {
-        let kind = kind.get();
-        let one = |value: &str, text: &str| option(value, text, value == kind);
-        let mut options = one("none", tr!(lab, experiment.load_none));
-        for k in 0..2 {
-            options += &one(&format!("pump{k}"), &tr!(lab, experiment.load_pump, pump = k + 1));
-        }
-        for k in 0..4 {
-            options += &one(&format!("leak{k}"), &tr!(lab, experiment.load_leak, tank = k + 1));
-        }
-        options
-    });
     view! {
         <div class="row load">
             <label for="load-kind">{say!(lab, experiment.load)}</label>
-            <select id="load-kind" data-testid="load-kind" disabled=lab.locks(Control::Experiment) on:change=handler(choose) inner_html=options></select>
+            <Select
+                id="load-kind"
+                labelled="load-kind"
+                choices=Signal::derive(move || LoadPlace::ALL.map(|place| place.choice(lab)).to_vec())
+                chosen=lab.part(LoadPlace::of)
+                on_choose=choose
+                disabled=lab.locks(Control::Experiment)
+            />
         </div>
-        {move || present.get().then(|| timed(lab, &LOAD, &LOAD_TIME, 0))}
+        {move || present.get().then(|| view! { <Timed size=&LOAD time=&LOAD_TIME /> })}
     }
-    .into_any()
-}
-
-fn load_named(name: &str) -> Option<Load> {
-    let index = |prefix: &str, count: usize| {
-        name.strip_prefix(prefix).and_then(|k| k.parse::<usize>().ok()).filter(|&k| k < count)
-    };
-    index("pump", 2)
-        .map(|pump| Load::PumpFlow { pump, flow: FIRST_LOAD_FLOW })
-        .or_else(|| index("leak", 4).map(|tank| Load::Leak { tank, area: FIRST_LEAK_AREA }))
 }

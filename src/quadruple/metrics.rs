@@ -2,26 +2,25 @@
 
 use leptos::prelude::*;
 
-use crate::lab::Lab;
+use crate::lab::{Lab, use_lab};
 use crate::shown::{length_digits, per_metre, to_shown, unit_name};
-use crate::texts::tr;
-use crate::widgets::html::{cells, element, escape, headings};
+use crate::texts::{say, tr};
+use crate::widgets::{Figures, Row, TableContent};
 use quadtank::sim::{LoopMetrics, Settling};
-
-/// A row of the table: its name, the class of its colour, its figures.
-struct Row {
-    name: String,
-    class: &'static str,
-    metrics: LoopMetrics,
-}
 
 /// Integrals below this, in the shown unit, are what rounding leaves of a run at rest.
 const ROUNDING: f64 = 1e-7;
 
 /// Metrics of the nonlinear run and of the pinned ones.
-pub fn table(lab: Lab) -> String {
+#[component]
+pub fn MetricsTable() -> impl IntoView {
+    let lab = use_lab();
+    view! { <Figures name="metrics" caption=say!(lab, responses.metrics)>{move || content(lab)}</Figures> }
+}
+
+fn content(lab: Lab) -> impl IntoView {
     let unit = unit_name(lab.unit.get());
-    let columns = [
+    let columns = vec![
         tr!(lab, responses.run).to_owned(),
         tr!(lab, responses.rise).to_owned(),
         tr!(lab, responses.settling_2).to_owned(),
@@ -35,48 +34,48 @@ pub fn table(lab: Lab) -> String {
         tr!(lab, responses.variation).to_owned(),
         tr!(lab, responses.saturated).to_owned(),
     ];
-    let caption = element("caption", "class=\"visually-hidden\"", &escape(tr!(lab, responses.metrics)));
-    let rows: String = rows(lab).iter().map(|row| row_html(lab, row)).collect();
-    caption + &element("thead", "", &headings(&columns)) + &element("tbody", "", &rows)
+    view! { <TableContent caption=tr!(lab, responses.metrics) columns rows=rows(lab) /> }
 }
 
-fn rows(lab: Lab) -> Vec<Row> {
-    let class = |k: usize| ["loop1", "loop2"][k];
+fn rows(lab: Lab) -> Vec<AnyView> {
     let mut rows = Vec::new();
     lab.words.run.with(|outcome| {
         let Ok(run) = outcome.as_ref() else { return };
-        for (k, &metrics) in run.metrics.iter().enumerate() {
-            let name = tr!(lab, responses.row, number = k + 1).to_string();
-            rows.push(Row { name, class: class(k), metrics });
+        for (k, metrics) in run.metrics.iter().enumerate() {
+            let name = tr!(lab, responses.row, number = k + 1);
+            rows.push(row(lab, name, k, metrics));
         }
     });
     lab.words.pinned.with(|runs| {
         for (at, outcome) in runs.iter().enumerate() {
             let Ok(run) = outcome.as_ref() else { continue };
-            for (k, &metrics) in run.metrics.iter().enumerate() {
-                let name = tr!(lab, responses.row_pinned, run = at + 1, number = k + 1).to_string();
-                rows.push(Row { name, class: class(k), metrics });
+            for (k, metrics) in run.metrics.iter().enumerate() {
+                let name = tr!(lab, responses.row_pinned, run = at + 1, number = k + 1);
+                rows.push(row(lab, name, k, metrics));
             }
         }
     });
     rows
 }
 
-fn row_html(lab: Lab, row: &Row) -> String {
+fn row(lab: Lab, name: String, index: usize, metrics: &LoopMetrics) -> AnyView {
+    view! { <Row class=["loop1", "loop2"][index] name figures=figures(lab, metrics) /> }.into_any()
+}
+
+fn figures(lab: Lab, m: &LoopMetrics) -> [String; 11] {
     let style = lab.number_style();
     let unit = lab.unit.get();
-    let m = row.metrics;
     let none = || "–".to_owned();
     let time = |t: Option<f64>| t.map_or_else(none, |t| style.significant(t, 3));
     let settling = |s: Option<Settling>| match s {
         None => none(),
-        Some(Settling::Never) => tr!(lab, responses.never).to_string(),
+        Some(Settling::Never) => tr!(lab, responses.never).to_owned(),
         Some(Settling::After { time_s }) => style.significant(time_s, 3),
     };
     let percent = |share: Option<f64>| share.map_or_else(none, |s| format!("{}\u{a0}%", style.fixed(100.0 * s, 1)));
     // What rounding alone adds up to is nothing.
     let sum = |value: f64| style.significant(if value < ROUNDING { 0.0 } else { value }, 3);
-    let figures = [
+    [
         time(m.rise_time_s),
         settling(m.settling_2_percent),
         settling(m.settling_5_percent),
@@ -88,7 +87,5 @@ fn row_html(lab: Lab, row: &Row) -> String {
         sum(to_shown(m.itae, unit)),
         style.fixed(m.total_variation, 2),
         style.fixed(m.saturated_s, 0),
-    ];
-    let name = element("th", &format!("scope=\"row\" class=\"{}\"", row.class), &escape(&row.name));
-    element("tr", "", &(name + &cells(&figures)))
+    ]
 }

@@ -23,7 +23,7 @@ use super::lab::use_lab;
 use super::start::{Bench, Panel};
 pub use moment::Moment;
 use moment::provide_moment;
-pub use rig::drawing;
+pub use rig::{drawing, summary};
 
 /// The home bench, or those of its cards that the start flags ask for.
 #[component]
@@ -35,17 +35,17 @@ pub fn QuadrupleTankBench() -> impl IntoView {
     view! {
         <main class=if chosen { "bench chosen" } else { "bench" } id=move || lab.id_of(Bench::QuadrupleTank)>
             <div class="side left">
-                {shows(Panel::Process).then(process::process_card)}
-                {shows(Panel::Why).then(why::why_card)}
+                {shows(Panel::Process).then(|| view! { <process::ProcessCard /> })}
+                {shows(Panel::Why).then(|| view! { <why::WhyCard /> })}
             </div>
-            {shows(Panel::Valves).then(valves::valve_plane_card)}
-            {shows(Panel::Zeros).then(poles::poles_and_zeros_card)}
-            {shows(Panel::Rga).then(rga::relative_gain_card)}
+            {shows(Panel::Valves).then(|| view! { <valves::ValvePlaneCard /> })}
+            {shows(Panel::Zeros).then(|| view! { <poles::PolesAndZerosCard /> })}
+            {shows(Panel::Rga).then(|| view! { <rga::RelativeGainCard /> })}
             <div class="side right">
-                {shows(Panel::Controller).then(controller::controller_card)}
-                {shows(Panel::Experiment).then(experiment::experiment_card)}
+                {shows(Panel::Controller).then(|| view! { <controller::ControllerCard /> })}
+                {shows(Panel::Experiment).then(|| view! { <experiment::ExperimentCard /> })}
             </div>
-            {shows(Panel::Responses).then(responses::responses_card)}
+            {shows(Panel::Responses).then(|| view! { <responses::ResponsesCard /> })}
         </main>
     }
 }

@@ -5,26 +5,32 @@ use leptos::prelude::*;
 use super::{pictures, sentences};
 use crate::lab::{Lab, use_lab};
 use crate::texts::{say, tr};
-use crate::widgets::{ChartCanvas, ChartMenu, card, remark, sentence};
+use crate::widgets::{Card, ChartCanvas, ChartMenu, Sentence};
 use quadtank::linear::Complex;
 use quadtank_figure::Frame;
 
 /// Open-loop poles, transmission zeros with their path, and closed-loop poles.
-pub fn poles_and_zeros_card() -> AnyView {
+#[component]
+pub fn PolesAndZerosCard() -> impl IntoView {
     let lab = use_lab();
     let frames = RwSignal::new(Vec::<Frame>::new());
     let picture = pictures::pole_zero(lab);
     let title = say!(lab, zeros.title);
-    let summary = Signal::derive(move || summary(lab));
-    let beside = vec![
-        remark(say!(lab, zeros.remark)),
-        view! { <ChartMenu picture=picture.clone() file="poles-and-zeros" title /> }.into_any(),
-    ];
-    let content = vec![
-        view! { <div class="chart"><ChartCanvas picture frames summary name="pole-zero" /></div> }.into_any(),
-        sentence("zeros-sentence", Signal::derive(move || sentences::of_direction(lab))),
-    ];
-    card("zeros", title, beside, content)
+    let for_menu = picture.clone();
+    let beside = move || {
+        view! {
+            <span class="remark">{say!(lab, zeros.remark)}</span>
+            <ChartMenu picture=for_menu file="poles-and-zeros" title />
+        }
+    };
+    view! {
+        <Card name="zeros" title beside>
+            <div class="chart">
+                <ChartCanvas picture frames summary=Signal::derive(move || summary(lab)) name="pole-zero" />
+            </div>
+            <Sentence id="zeros-sentence" text=Signal::derive(move || sentences::of_direction(lab)) />
+        </Card>
+    }
 }
 
 fn summary(lab: Lab) -> String {

@@ -3,16 +3,15 @@
 use leptos::prelude::*;
 
 use super::moment::use_moment;
-use super::published::published_figures;
-use super::rig::rig;
+use super::published::PublishedFigures;
+use super::rig::Rig;
 use super::sentences;
-use crate::controls::{Knob, knob};
-use crate::lab::{Lab, use_lab};
-use crate::preset::{preset_choice, preset_remark};
+use crate::controls::{Knob, KnobRow};
+use crate::lab::use_lab;
+use crate::preset::{PresetRemark, PresetSelect};
 use crate::start::Control;
 use crate::texts::{say, tr};
-use crate::widgets::html::{element, rich};
-use crate::widgets::{NumberField, Scale, card, handler, verdict};
+use crate::widgets::{Card, NumberField, Scale, Verdict, marked};
 use quadtank_scenario::{OperatingPointSpec, Setup};
 
 const GAMMA: Knob<Setup> = Knob {
@@ -30,50 +29,53 @@ const GAMMA: Knob<Setup> = Knob {
 const VOLTAGE_IDS: [&str; 2] = ["voltage1", "voltage2"];
 
 /// The drawing of the rig, the valve sliders and the sentence under them.
-pub fn process_card() -> AnyView {
+#[component]
+pub fn ProcessCard() -> impl IntoView {
     let lab = use_lab();
     let moment = use_moment();
-    let remark = Signal::derive(move || match moment.get().and_then(|m| m.time_s) {
+    let remark = move || match moment.get().and_then(|m| m.time_s) {
         Some(time) => tr!(lab, process.at_time, time = lab.number_style().fixed(time, 0)),
         None if lab.locks(Control::Valves) => tr!(lab, process.at_rest).to_owned(),
         None => tr!(lab, process.drag_valves).to_owned(),
-    });
-    let open = RwSignal::new(false);
-    let sentence = move || sentences::of_zero(lab);
-    let paragraphs = Signal::derive(move || {
-        let all = std::iter::once(sentence().0).chain(sentences::of_equilibrium(lab));
-        all.map(|text| element("p", "", &rich(&text))).collect::<String>()
-    });
-    let content = view! {
-        <p class="remark moment">{remark}</p>
-        {rig(lab)}
-        <div>
-            {knob(lab, &GAMMA, 0)}
-            {knob(lab, &GAMMA, 1)}
-        </div>
-        {verdict("process-sentence".to_owned(), Signal::derive(move || sentence().1), paragraphs)}
-        <details class="more" on:toggle=handler(move |_| open.update(|o| *o = !*o))>
-            <summary>{say!(lab, process.operating_point)}</summary>
-            {preset_remark(lab)}
-            <div class="fields">
-                {voltage_field(lab, 0)}
-                {voltage_field(lab, 1)}
-            </div>
-            {move || open.get().then(|| published_figures(lab))}
-        </details>
     };
-    card("process", say!(lab, process.title), vec![preset_choice(lab)], vec![content.into_any()])
+    let open = RwSignal::new(false);
+    let sentence = Memo::new(move |_| sentences::of_zero(lab));
+    let paragraphs = move || {
+        let all = std::iter::once(sentence.get().0).chain(sentences::of_equilibrium(lab));
+        all.map(|text| view! { <p>{marked(&text)}</p> }).collect_view()
+    };
+    view! {
+        <Card name="process" title=say!(lab, process.title) beside=|| view! { <PresetSelect /> }>
+            <p class="remark moment">{remark}</p>
+            <Rig />
+            <div>
+                <KnobRow document=lab knob=&GAMMA index=0 />
+                <KnobRow document=lab knob=&GAMMA index=1 />
+            </div>
+            <Verdict id="process-sentence" warm=Signal::derive(move || sentence.get().1)>{paragraphs}</Verdict>
+            <details class="more" on:toggle=move |_| open.update(|o| *o = !*o)>
+                <summary>{say!(lab, process.operating_point)}</summary>
+                <PresetRemark />
+                <div class="fields">
+                    <VoltageField pump=0 />
+                    <VoltageField pump=1 />
+                </div>
+                {move || open.get().then(|| view! { <PublishedFigures /> })}
+            </details>
+        </Card>
+    }
 }
 
 /// The voltage of a pump at rest. Editing it makes the voltages, not the levels, what the operating point is given by.
-fn voltage_field(lab: Lab, pump: usize) -> AnyView {
+#[component]
+fn VoltageField(pump: usize) -> impl IntoView {
+    let lab = use_lab();
     let computed =
         move || lab.words.analysis.with(|a| a.as_ref().as_ref().ok().map(|a| a.operating_point.pump_voltage));
     let voltages = move || match lab.scenario.with(|s| s.setup.operating_point) {
         OperatingPointSpec::PumpVoltage(given) => Some(given),
         OperatingPointSpec::Levels(_) => computed(),
     };
-    let value = Signal::derive(move || voltages().map_or(0.0, |v| v[pump]));
     let on_change = move |v: f64| {
         let mut both = untrack(voltages).unwrap_or_default();
         both[pump] = v;
@@ -89,7 +91,7 @@ fn voltage_field(lab: Lab, pump: usize) -> AnyView {
             <NumberField
                 id=VOLTAGE_IDS[pump]
                 name=say!(lab, process.voltage, pump = pump + 1)
-                value
+                value=Signal::derive(move || voltages().map_or(0.0, |v| v[pump]))
                 on_change
                 limits=range
                 scale=Scale::Linear(0.05)
@@ -99,5 +101,4 @@ fn voltage_field(lab: Lab, pump: usize) -> AnyView {
             <span class="unit">"V"</span>
         </div>
     }
-    .into_any()
 }

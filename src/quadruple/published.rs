@@ -2,44 +2,55 @@
 
 use leptos::prelude::*;
 
-use crate::lab::Lab;
+use crate::lab::{Lab, use_lab};
 use crate::preset::chosen;
 use crate::shown::{length_digits, to_shown, unit_name};
 use crate::texts::{say, tr};
-use crate::widgets::figures;
-use crate::widgets::html::{element, headings};
+use crate::widgets::{Figures, Headings};
 use quadtank::plant::{Preset, PresetId};
 
 /// A row: what, computed, printed.
 type Row = (String, String, Option<String>);
 
 /// The table of computed and printed figures of the rig.
-pub fn published_figures(lab: Lab) -> AnyView {
+#[component]
+pub fn PublishedFigures() -> impl IntoView {
+    let lab = use_lab();
     let rig = chosen(lab);
     let preset = move || rig.get().map(PresetId::preset);
-    let table = Signal::derive(move || {
+    let table = move || {
         let columns = [tr!(lab, process.quantity), tr!(lab, process.exact), tr!(lab, process.printed)];
-        let rows: String = rows(lab, preset().as_ref()).into_iter().map(row_html).collect();
-        element("thead", "", &headings(&columns.map(str::to_owned))) + &element("tbody", "", &rows)
-    });
-    let note = Signal::derive(move || {
+        view! {
+            <thead><Headings texts=columns.map(str::to_owned).to_vec() /></thead>
+            <tbody>{rows(lab, preset().as_ref()).into_iter().map(row_view).collect_view()}</tbody>
+        }
+    };
+    let note = move || {
         preset().map_or_else(String::new, |p| {
             if p.printed.is_none() {
-                return tr!(lab, process.none_printed, source = p.source).to_string();
+                return tr!(lab, process.none_printed, source = p.source);
             }
             let at_home = lab.words.setup.with(|s| **s == quadtank_scenario::setup_of(p.id));
-            let lead = tr!(lab, process.charts_use, source = p.source, table = p.table).to_string();
+            let lead = tr!(lab, process.charts_use, source = p.source, table = p.table);
             let rest = if at_home { String::new() } else { format!(" {}", tr!(lab, process.printed_for)) };
             lead + &rest
         })
-    });
-    let caption = say!(lab, process.operating_point);
-    vec![figures("published", caption, table), view! { <p class="remark">{note}</p> }.into_any()].into_any()
+    };
+    view! {
+        <Figures name="published" caption=say!(lab, process.operating_point)>{table}</Figures>
+        <p class="remark">{note}</p>
+    }
 }
 
-fn row_html((name, exact, printed): Row) -> String {
+fn row_view((name, exact, printed): Row) -> impl IntoView {
     let printed = printed.unwrap_or_else(|| "–".to_owned());
-    format!("<tr><td>{name}</td><td data-exact=\"{name}\">{exact}</td><td data-printed=\"{name}\">{printed}</td></tr>")
+    view! {
+        <tr>
+            <td>{name.clone()}</td>
+            <td data-exact=name.clone()>{exact}</td>
+            <td data-printed=name>{printed}</td>
+        </tr>
+    }
 }
 
 fn rows(lab: Lab, preset: Option<&Preset>) -> Vec<Row> {

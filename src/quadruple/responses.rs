@@ -2,15 +2,17 @@
 
 use leptos::prelude::*;
 
+use super::metrics::MetricsTable;
 use super::moment::{Moment, use_moment};
+use super::pictures;
 use super::set_points::SetPoints;
-use super::{metrics, pictures};
 use crate::errors::of_error;
 use crate::lab::{Lab, use_lab};
 use crate::shown::{length_digits, to_shown, unit_name};
 use crate::texts::{say, tr};
-use crate::widgets::html::rich;
-use crate::widgets::{ChartCanvas, ChartMenu, DataTable, TimeAxis, TimeSurface, ZoomButtons, card, figures, handler};
+use crate::widgets::{
+    Card, ChartCanvas, ChartMenu, DataTable, Readout, Sentence, TimeAxis, TimeSurface, ZoomButtons, unmarked,
+};
 use quadtank::sim::{EventKind, LoopMetrics, Settling, Stability};
 use quadtank_figure::Frame;
 use quadtank_scenario::{Scenario, ScenarioError};
@@ -19,43 +21,50 @@ use quadtank_scenario::{Scenario, ScenarioError};
 const SHORTEST_S: f64 = 5.0;
 
 /// The step responses.
-pub fn responses_card() -> AnyView {
+#[component]
+pub fn ResponsesCard() -> impl IntoView {
     let lab = use_lab();
     let frames = RwSignal::new(Vec::<Frame>::new());
     let held = RwSignal::new(None);
     let picture = pictures::responses(lab, held);
-    let table_picture = picture.clone();
+    let (for_menu, for_table) = (picture.clone(), picture.clone());
     let axis = time_axis(lab);
     let moment = use_moment();
-    let at_cursor = move |say: fn(Lab, &Moment) -> String| {
-        Signal::derive(move || moment.get().filter(|m| m.time_s.is_some()).map_or_else(String::new, |m| say(lab, &m)))
-    };
+    let at_cursor = move || moment.get().filter(|m| m.time_s.is_some());
     let title = say!(lab, responses.title);
-    let summary = say!(lab, responses.summary, sentence = sentence(lab).replace("**", ""));
-    let beside = view! {
-        <Toolbar axis />
-        <ChartMenu picture=picture.clone() file="responses" title />
+    let sentence = Signal::derive(move || sentence(lab));
+    let beside = move || {
+        view! {
+            <Toolbar axis />
+            <ChartMenu picture=for_menu file="responses" title />
+        }
     };
-    let content = view! {
-        <div class="charts">
-            <div class="chart">
-                <ChartCanvas picture frames summary name="responses" />
-                <TimeSurface
-                    axis
-                    frames
-                    label=say!(lab, responses.cursor)
-                    spoken=at_cursor(spoken)
-                    readout=at_cursor(readout)
-                    id="responses-surface"
-                />
-                <SetPoints frames held />
+    view! {
+        <Card name="responses" title beside>
+            <div class="charts">
+                <div class="chart">
+                    <ChartCanvas
+                        picture
+                        frames
+                        summary=say!(lab, responses.summary, sentence = unmarked(&sentence.get()))
+                        name="responses"
+                    />
+                    <TimeSurface
+                        axis
+                        frames
+                        label=say!(lab, responses.cursor)
+                        spoken=Signal::derive(move || at_cursor().map_or_else(String::new, |m| spoken(lab, &m)))
+                        readout=Signal::derive(move || at_cursor().map(|m| readout(lab, &m)))
+                        id="responses-surface"
+                    />
+                    <SetPoints frames held />
+                </div>
             </div>
-        </div>
-        <p class="sentence" role="status" data-testid="responses-sentence" inner_html=Signal::derive(move || rich(&sentence(lab)))></p>
-        {figures("metrics", say!(lab, responses.metrics), Signal::derive(move || metrics::table(lab)))}
-        <DataTable picture=table_picture id="data-table" />
-    };
-    card("responses", title, vec![beside.into_any()], vec![content.into_any()])
+            <Sentence id="responses-sentence" text=sentence status=true />
+            <MetricsTable />
+            <DataTable picture=for_table id="data-table" />
+        </Card>
+    }
 }
 
 #[component]
@@ -73,13 +82,13 @@ fn Toolbar(axis: TimeAxis) -> impl IntoView {
     let linear = move || lab.scenario.with(|s| !s.view.hide_linear);
     view! {
         <div class="toolbar">
-            <button type="button" class="button small" data-testid="pin" on:click=handler(pin)>{say!(lab, responses.pin)}</button>
+            <button type="button" class="button small" data-testid="pin" on:click=pin>{say!(lab, responses.pin)}</button>
             <button
                 type="button"
                 class="button small"
                 data-testid="unpin"
-                hidden=Signal::derive(move || lab.words.pinned.with(|p| p.is_empty()))
-                on:click=handler(move |_| lab.scenario.update(|s| s.pinned.clear()))
+                hidden=move || lab.words.pinned.with(|p| p.is_empty())
+                on:click=move |_| lab.scenario.update(|s| s.pinned.clear())
             >
                 {say!(lab, responses.unpin)}
             </button>
@@ -88,7 +97,7 @@ fn Toolbar(axis: TimeAxis) -> impl IntoView {
                 class="button small"
                 data-testid="linear"
                 aria-pressed=move || linear().to_string()
-                on:click=handler(move |_| lab.scenario.update(|s| s.view.hide_linear = !s.view.hide_linear))
+                on:click=move |_| lab.scenario.update(|s| s.view.hide_linear = !s.view.hide_linear)
             >
                 {say!(lab, responses.hide_linear)}
             </button>
@@ -129,15 +138,13 @@ fn numbers(lab: Lab, m: &Moment) -> (String, [String; 2], [String; 2]) {
     (style.fixed(m.time_s.unwrap_or(0.0), 0), [level(0), level(1)], [pump(0), pump(1)])
 }
 
-fn readout(lab: Lab, m: &Moment) -> String {
+fn readout(lab: Lab, m: &Moment) -> Readout {
     let (time, [h1, h2], [v1, v2]) = numbers(lab, m);
     let u = unit_name(lab.unit.get());
-    let pair = |one: &str, two: &str| {
-        format!("<div><span class=\"loop1\">{one}</span> · <span class=\"loop2\">{two}</span></div>")
-    };
-    let levels = pair(&format!("h₁ {h1} {u}"), &format!("h₂ {h2} {u}"));
-    let pumps = pair(&format!("v₁ {v1} V"), &format!("v₂ {v2} V"));
-    format!("<div>t = {time} s</div>{levels}{pumps}")
+    Readout {
+        time: format!("t = {time} s"),
+        pairs: vec![[format!("h₁ {h1} {u}"), format!("h₂ {h2} {u}")], [format!("v₁ {v1} V"), format!("v₂ {v2} V")]],
+    }
 }
 
 fn spoken(lab: Lab, m: &Moment) -> String {

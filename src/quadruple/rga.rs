@@ -4,8 +4,7 @@ use leptos::prelude::*;
 
 use crate::lab::{Lab, use_lab};
 use crate::texts::{say, tr};
-use crate::widgets::html::{element, escape, rich};
-use crate::widgets::{card, remark, verdict};
+use crate::widgets::{Caption, Card, Verdict, marked};
 use quadtank::interaction::{PairingReason, PairingVerdict};
 use quadtank_scenario::Analysis;
 
@@ -13,53 +12,59 @@ use quadtank_scenario::Analysis;
 const LARGE: f64 = 5.0;
 
 /// The relative gain array.
-pub fn relative_gain_card() -> AnyView {
+#[component]
+pub fn RelativeGainCard() -> impl IntoView {
     let lab = use_lab();
     let found = move || lab.words.with_analysis(|a| a.verdict);
-    let text = Signal::derive(move || {
-        let text = found().map_or_else(|| tr!(lab, process.no_equilibrium).to_owned(), |v| of_verdict(lab, v));
-        element("p", "", &rich(&text))
-    });
+    let text = move || found().map_or_else(|| tr!(lab, process.no_equilibrium).to_owned(), |v| of_verdict(lab, v));
     let warm = Signal::derive(move || matches!(found(), Some(PairingVerdict::None(_)) | None));
-    let content = view! {
-        <table class="gains" inner_html=Signal::derive(move || gains(lab))></table>
-        <div class="formula" inner_html=Signal::derive(move || formula(lab))></div>
-        {verdict("rga-verdict".to_owned(), warm, text)}
-        <p class="remark" data-testid="niederlinski">{Signal::derive(move || of_niederlinski(lab))}</p>
-    };
-    card("rga", say!(lab, rga.title), vec![remark(say!(lab, rga.remark))], vec![content.into_any()])
+    let about = move || view! { <span class="remark">{say!(lab, rga.remark)}</span> };
+    view! {
+        <Card name="rga" title=say!(lab, rga.title) beside=about>
+            <table class="gains">{move || gains(lab)}</table>
+            <div class="formula">{move || formula(lab)}</div>
+            <Verdict id="rga-verdict" warm><p>{move || marked(&text())}</p></Verdict>
+            <p class="remark" data-testid="niederlinski">{move || of_niederlinski(lab)}</p>
+        </Card>
+    }
 }
 
 /// Λ as a table; rows and columns sum to 1, so one number makes it.
-fn gains(lab: Lab) -> String {
-    let rga = lab.words.with_analysis(Analysis::rga).flatten();
-    let chosen = |row: usize, column: usize| match lab.words.with_analysis(|a| a.verdict) {
+fn gains(lab: Lab) -> impl IntoView {
+    let pump = |column: usize| view! { <th scope="col">{tr!(lab, rga.pump, number = column + 1)}</th> };
+    let row = |row: usize| {
+        view! {
+            <tr>
+                <th scope="row">{tr!(lab, rga.level, number = row + 1)}</th>
+                {gain(lab, row, 0)}
+                {gain(lab, row, 1)}
+            </tr>
+        }
+    };
+    view! {
+        <Caption text=tr!(lab, rga.table) />
+        <thead><tr><td></td>{pump(0)}{pump(1)}</tr></thead>
+        <tbody>{row(0)}{row(1)}</tbody>
+    }
+}
+
+/// One relative gain; of the suggested pairing it is marked.
+fn gain(lab: Lab, row: usize, column: usize) -> impl IntoView {
+    let gain = lab.words.with_analysis(Analysis::rga).flatten().map(|gains| gains[row][column]);
+    let chosen = match lab.words.with_analysis(|a| a.verdict) {
         Some(PairingVerdict::Diagonal(_)) => row == column,
         Some(PairingVerdict::Swapped(_)) => row != column,
         _ => false,
     };
-    let cell = |row: usize, column: usize| {
-        let gain = rga.map(|gains| gains[row][column]);
-        let sign = if gain.is_some_and(|g| g > 0.0) { "positive" } else { "negative" };
-        let text = gain.map_or_else(|| unbounded(lab), |g| lab.number_style().at_least(g, 2));
-        let number = element("span", &format!("data-testid=\"lambda-{}{}\"", row + 1, column + 1), &text);
-        if chosen(row, column) {
-            let note = format!(" ({})", escape(tr!(lab, rga.suggested)));
-            let note = element("span", "class=\"visually-hidden\"", &note);
-            element("td", &format!("class=\"{sign} chosen\""), &(number + &note))
-        } else {
-            element("td", &format!("class=\"{sign}\""), &number)
-        }
-    };
-    let heading = |scope: &str, text: String| element("th", &format!("scope=\"{scope}\""), &escape(&text));
-    let pump = |column: usize| heading("col", tr!(lab, rga.pump, number = column + 1));
-    let row = |row: usize| {
-        let level = heading("row", tr!(lab, rga.level, number = row + 1));
-        format!("<tr>{level}{}{}</tr>", cell(row, 0), cell(row, 1))
-    };
-    let caption = element("caption", "class=\"visually-hidden\"", &escape(tr!(lab, rga.table)));
-    let head = format!("<thead><tr><td></td>{}{}</tr></thead>", pump(0), pump(1));
-    format!("{caption}{head}<tbody>{}{}</tbody>", row(0), row(1))
+    let sign = if gain.is_some_and(|g| g > 0.0) { "positive" } else { "negative" };
+    let text = gain.map_or_else(|| unbounded(lab), |g| lab.number_style().at_least(g, 2));
+    let note = chosen.then(|| format!(" ({})", tr!(lab, rga.suggested)));
+    view! {
+        <td class=if chosen { format!("{sign} chosen") } else { sign.to_owned() }>
+            <span data-testid=format!("lambda-{}{}", row + 1, column + 1)>{text}</span>
+            {note.map(|note| view! { <span class="visually-hidden">{note}</span> })}
+        </td>
+    }
 }
 
 /// A relative gain that there is not: beyond all bounds, or 0/0 where the plant is singular at every frequency.
@@ -69,20 +74,30 @@ fn unbounded(lab: Lab) -> String {
 }
 
 /// λ11 = γ1γ2/(γ1+γ2−1) with the numbers in it (Cocota 2009, eq. 4.10).
-fn formula(lab: Lab) -> String {
+fn formula(lab: Lab) -> impl IntoView {
     let number = |v: f64| lab.number_style().at_least(v, 2);
     let value = lab.words.with_analysis(|a| a.rga_11.ok()).flatten().map_or_else(|| unbounded(lab), number);
     let [g1, g2] = lab.words.setup.with(|s| s.valves);
     let [first, second] = [g1, g2].map(|gamma| lab.number_style().fixed(gamma, 2));
     let below = number(g1 + g2 - 1.0);
-    let gamma = |k: u8| format!("<msub><mi>γ</mi><mn>{k}</mn></msub>");
-    let (one, two) = (gamma(1), gamma(2));
-    format!(
-        "<math><msub><mi>λ</mi><mn>11</mn></msub><mo>=</mo>\
-         <mfrac><mrow>{one}{two}</mrow><mrow>{one}<mo>+</mo>{two}<mo>−</mo><mn>1</mn></mrow></mfrac><mo>=</mo>\
-         <mfrac><mrow><mn>{first}</mn><mo>·</mo><mn>{second}</mn></mrow><mn>{below}</mn></mfrac><mo>=</mo>\
-         <mn data-testid=\"lambda\">{value}</mn></math>"
-    )
+    let gamma = |k: &'static str| view! { <msub><mi>"γ"</mi><mn>{k}</mn></msub> };
+    view! {
+        <math>
+            <msub><mi>"λ"</mi><mn>"11"</mn></msub>
+            <mo>"="</mo>
+            <mfrac>
+                <mrow>{gamma("1")}{gamma("2")}</mrow>
+                <mrow>{gamma("1")}<mo>"+"</mo>{gamma("2")}<mo>"−"</mo><mn>"1"</mn></mrow>
+            </mfrac>
+            <mo>"="</mo>
+            <mfrac>
+                <mrow><mn>{first}</mn><mo>"·"</mo><mn>{second}</mn></mrow>
+                <mn>{below}</mn>
+            </mfrac>
+            <mo>"="</mo>
+            <mn data-testid="lambda">{value}</mn>
+        </math>
+    }
 }
 
 fn of_verdict(lab: Lab, verdict: PairingVerdict) -> String {

@@ -11,10 +11,6 @@ use crate::widgets::{Drag, Handle, Nudge};
 use quadtank_figure::Frame;
 use quadtank_scenario::limits;
 
-const LOOKS: [&str; 2] = [
-    "<circle class=\"halo\" r=\"12\"/><circle class=\"dot one\" r=\"5.5\"/>",
-    "<circle class=\"halo\" r=\"12\"/><circle class=\"dot two\" r=\"5.5\"/>",
-];
 const IDS: [&str; 2] = ["set-point1", "set-point2"];
 /// Step of the left and right arrow keys (s); dragging goes by whole seconds.
 const TIME_STEP_S: f64 = 10.0;
@@ -105,8 +101,10 @@ fn SetPoint(level: usize, frames: RwSignal<Vec<Frame>>, held: RwSignal<Option<(f
                 on_release=move |()| held.set(None)
                 on_nudge
                 at=Signal::derive(move || place().unwrap_or_default())
-                look=LOOKS[level]
-            />
+            >
+                <circle class="halo" r="12" />
+                <circle class=["dot one", "dot two"][level] r="5.5" />
+            </Handle>
         </g>
     }
 }

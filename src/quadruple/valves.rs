@@ -8,8 +8,7 @@ use crate::lab::{Lab, use_lab};
 use crate::preset::{chosen, load, name_of};
 use crate::start::Control;
 use crate::texts::{say, tr};
-use crate::widgets::html::escape;
-use crate::widgets::{ChartCanvas, ChartMenu, Nudge, PointHandle, card, first_frame, handler, remark, sentence};
+use crate::widgets::{Card, ChartCanvas, ChartMenu, Nudge, PointHandle, Sentence, first_frame};
 use quadtank::plant::PresetId;
 use quadtank_figure::Frame;
 
@@ -19,30 +18,29 @@ const STEPS: f64 = 100.0;
 pub const STEP: f64 = 1.0 / STEPS;
 
 /// The valve plane.
-pub fn valve_plane_card() -> AnyView {
+#[component]
+pub fn ValvePlaneCard() -> impl IntoView {
     let lab = use_lab();
     let frames = RwSignal::new(Vec::<Frame>::new());
     let picture = pictures::valve_plane(lab);
+    let for_menu = picture.clone();
     let title = say!(lab, valves.title);
     let summary = Signal::derive(move || {
         let [g1, g2] = lab.words.setup.with(|s| s.valves);
         let style = lab.number_style();
         tr!(lab, valves.summary, gamma1 = style.fixed(g1, 2), gamma2 = style.fixed(g2, 2))
     });
-    let menu = view! { <ChartMenu picture=picture.clone() file="valve-plane" title /> }.into_any();
-    let hint = (!lab.locks(Control::Valves)).then(|| remark(say!(lab, valves.remark)));
-    let beside = hint.into_iter().chain([menu]).collect();
-    let content = vec![
-        view! {
+    let hint = (!lab.locks(Control::Valves)).then(|| view! { <span class="remark">{say!(lab, valves.remark)}</span> });
+    let beside = move || view! { {hint}<ChartMenu picture=for_menu file="valve-plane" title /> };
+    view! {
+        <Card name="plane" title beside>
             <div class="chart square">
                 <ChartCanvas picture frames summary name="valve-plane" />
                 <Overlay frames />
             </div>
-        }
-        .into_any(),
-        sentence("valves-sentence", Signal::derive(move || sentences::of_rightmost(lab))),
-    ];
-    card("plane", title, beside, content)
+            <Sentence id="valves-sentence" text=Signal::derive(move || sentences::of_rightmost(lab)) />
+        </Card>
+    }
 }
 
 /// What lies over the picture: guides, published points and the point to drag.
@@ -79,8 +77,8 @@ fn PublishedPoints(frames: RwSignal<Vec<Frame>>) -> impl IntoView {
         PresetId::ALL
             .into_iter()
             .filter(|id| Some(id.preset().source) == source)
-            .map(|id| view! { <PublishedPoint id frames /> }.into_any())
-            .collect::<Vec<_>>()
+            .map(|id| view! { <PublishedPoint id frames /> })
+            .collect_view()
     };
     view! { {points} }
 }
@@ -104,13 +102,6 @@ fn PublishedPoint(id: PresetId, frames: RwSignal<Vec<Frame>>) -> impl IntoView {
         let (gamma1, gamma2) = (style.fixed(valves[0], 2), style.fixed(valves[1], 2));
         tr!(lab, valves.published, name = name_of(lab, id), gamma1 = gamma1, gamma2 = gamma2).to_string()
     });
-    let look = Signal::derive(move || {
-        format!(
-            "<title>{}</title><circle class=\"hit\" r=\"14\"/><circle class=\"mark\" r=\"4.5\"/>\
-             <text x=\"13\" y=\"18\">{short}</text>",
-            escape(&label.get())
-        )
-    });
     let choose = move || {
         if !lab.locks(Control::Preset) {
             load(lab, id);
@@ -130,10 +121,14 @@ fn PublishedPoint(id: PresetId, frames: RwSignal<Vec<Frame>>) -> impl IntoView {
             aria-label=label
             data-testid=format!("point-{}", id.name())
             transform=place
-            on:click=handler(move |_| choose())
-            on:keydown=handler(on_key)
-            inner_html=look
-        ></g>
+            on:click=move |_| choose()
+            on:keydown=on_key
+        >
+            <title>{label}</title>
+            <circle class="hit" r="14" />
+            <circle class="mark" r="4.5" />
+            <text x="13" y="18">{short}</text>
+        </g>
     }
 }
 

@@ -4,9 +4,7 @@ use leptos::prelude::*;
 
 use super::session::{Session, time_unit};
 use crate::controls::{Document, Knob};
-use crate::lab::{Lab, use_lab};
-use crate::start::Control;
-use crate::widgets::Choice;
+use crate::lab::Lab;
 use quadtank_scenario::tuning::TuningSetup;
 
 impl Document for Session {
@@ -28,19 +26,7 @@ impl Document for Session {
 /// What numbers that are times of the plant have in common.
 pub const TIME: Knob<TuningSetup> = Knob { unit: |s| time_unit(&s.plant), ..Knob::PLAIN };
 
-/// A choice among many.
-pub fn choice(
-    id: &'static str,
-    name: Signal<String>,
-    options: Signal<String>,
-    on_choose: impl Fn(String) + Send + Sync + 'static,
-    lock: Control,
-) -> AnyView {
-    let on_choose = Callback::new(on_choose);
-    view! { <Choice id name options on_choose disabled=use_lab().locks(lock) /> }.into_any()
-}
-
 /// A text that is the same in all languages.
 pub fn symbol(text: &'static str) -> Signal<String> {
-    Signal::derive(move || text.to_owned())
+    Signal::stored(text.to_owned())
 }

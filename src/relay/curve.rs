@@ -4,14 +4,14 @@ use leptos::ev::MouseEvent;
 use leptos::prelude::*;
 use leptos::wasm_bindgen::JsCast;
 
-use super::card::{Step, card};
 use super::errors;
 use super::pictures;
 use super::session::{Session, time_unit, use_session};
-use crate::controls::{Knob, knob};
+use super::step::Step;
+use crate::controls::{Knob, KnobRow};
 use crate::start::Control;
 use crate::texts::{say, tr};
-use crate::widgets::{Nudge, PointHandle, Scale, figures, first_frame, handler, html, remark};
+use crate::widgets::{Figures, Nudge, PointHandle, Row, Scale, TableContent, first_frame};
 use quadtank::tuning::{GainLimit, importance_direction};
 use quadtank_figure::Frame;
 use quadtank_scenario::tuning::{CriticalSpec, TuningSetup};
@@ -35,31 +35,28 @@ const IMPORTANCE: Knob<TuningSetup> = Knob {
 };
 
 /// The critical curve.
-pub fn curve_card() -> AnyView {
+#[component]
+pub fn CurveCard() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
     let frames = RwSignal::new(Vec::<Frame>::new());
     let chosen = Signal::from(Memo::new(move |_| pictures::chosen_point(session.charts)));
-    let picture = pictures::curve(session, chosen);
-    let table = Signal::derive(move || table(session));
-    let settings = vec![
-        knob(session, &IMPORTANCE, 0),
-        figures("critical-point", say!(lab, relay.curve_caption), table),
-        remark(say!(lab, relay.importance_formula)),
-    ];
-    card(Step {
-        name: "curve",
-        number: 2,
-        title: say!(lab, relay.curve),
-        toolbar: remark(say!(lab, relay.curve_remark)),
-        picture,
-        frames,
-        place: "chart",
-        overlay: overlay(session, frames, chosen),
-        settings: settings.into_any(),
-        verdict: Signal::derive(move || sentence(session)),
-        below: Vec::new(),
-    })
+    view! {
+        <Step
+            name="curve"
+            number=2
+            title=say!(lab, relay.curve)
+            toolbar=move || view! { <span class="remark">{say!(lab, relay.curve_remark)}</span> }
+            picture=pictures::curve(session, chosen)
+            frames
+            overlay=move || view! { <Plane frames chosen /> }
+            verdict=Signal::derive(move || sentence(session))
+        >
+            <KnobRow document=session knob=&IMPORTANCE />
+            <Figures name="critical-point" caption=say!(lab, relay.curve_caption)>{move || table(session)}</Figures>
+            <span class="remark">{say!(lab, relay.importance_formula)}</span>
+        </Step>
+    }
 }
 
 /// Magnitude of r2 of the critical point; none where it is 0/0, as for gains of zero.
@@ -73,7 +70,9 @@ fn importance(setup: &TuningSetup) -> f64 {
 }
 
 /// The chosen point, and the plane around it: a click anywhere, on an estimate say, chooses the importance there.
-fn overlay(session: Session, frames: RwSignal<Vec<Frame>>, chosen: Signal<Option<(f64, f64)>>) -> AnyView {
+#[component]
+fn Plane(frames: RwSignal<Vec<Frame>>, chosen: Signal<Option<(f64, f64)>>) -> impl IntoView {
+    let session = use_session();
     let on_click = move |event: MouseEvent| {
         let drawing = event.target().and_then(|target| target.dyn_into::<web_sys::Element>().ok());
         // A click on the point itself ends a drag.
@@ -82,7 +81,7 @@ fn overlay(session: Session, frames: RwSignal<Vec<Frame>>, chosen: Signal<Option
         let at = (f64::from(event.client_x()) - corner.left(), f64::from(event.client_y()) - corner.top());
         choose(session, untrack(|| first_frame(frames)).to_data(at));
     };
-    view! { <svg class="over" on:click=handler(on_click)><CriticalHandle frames chosen /></svg> }.into_any()
+    view! { <svg class="over" on:click=on_click><CriticalHandle frames chosen /></svg> }
 }
 
 /// Starts the placement from the importance of a point of the plane.
@@ -153,31 +152,31 @@ fn sentence(session: Session) -> (bool, String) {
 }
 
 /// Gains and period of the chosen point as it is in the document, and where the curve is in its direction.
-fn table(session: Session) -> String {
+fn table(session: Session) -> Option<impl IntoView> {
     let lab = session.lab;
     let style = lab.number_style();
     let unit = session.words.setup.with(|s| time_unit(&s.plant));
     let study = session.words.study.get();
-    let Ok(study) = study.as_ref() else { return String::new() };
-    let Some((gains, frequency, period)) =
-        session.words.with_design(|design| (design.critical_gains, design.frequency, design.period()))
-    else {
-        return String::new();
-    };
+    let study = study.as_ref().as_ref().ok()?;
+    let (gains, frequency, period) =
+        session.words.with_design(|design| (design.critical_gains, design.frequency, design.period()))?;
     let on_curve = study.search.nearest(gains);
     let number = |v: Option<f64>| v.map_or_else(|| "–".to_owned(), |v| style.significant(v, 4));
-    let row =
-        |name: String, chosen: f64, curve: Option<f64>| html::row("", &name, &[number(Some(chosen)), number(curve)]);
-    let rows = row("kc₁".to_owned(), gains[0], on_curve.map(|p| p.gains[0]))
-        + &row("kc₂".to_owned(), gains[1], on_curve.map(|p| p.gains[1]))
-        + &row(format!("Tc ({unit})"), period, on_curve.map(|p| p.period()))
-        + &row(format!("ωc (rad/{unit})"), frequency, on_curve.map(|p| p.frequency));
-    let names = [
+    let row = |name: String, chosen: f64, curve: Option<f64>| {
+        view! { <Row name figures=[number(Some(chosen)), number(curve)] /> }.into_any()
+    };
+    let rows = vec![
+        row("kc₁".to_owned(), gains[0], on_curve.map(|p| p.gains[0])),
+        row("kc₂".to_owned(), gains[1], on_curve.map(|p| p.gains[1])),
+        row(format!("Tc ({unit})"), period, on_curve.map(|p| p.period())),
+        row(format!("ωc (rad/{unit})"), frequency, on_curve.map(|p| p.frequency)),
+    ];
+    let columns = vec![
         tr!(lab, process.quantity).to_owned(),
         tr!(lab, relay.col_chosen).to_owned(),
         tr!(lab, relay.col_curve).to_owned(),
     ];
-    html::table(tr!(lab, relay.curve_caption), &names, &rows)
+    Some(view! { <TableContent caption=tr!(lab, relay.curve_caption) columns rows /> })
 }
 
 #[cfg(test)]

@@ -2,86 +2,85 @@
 
 use leptos::prelude::*;
 
-use super::session::Session;
+use super::session::{Session, use_session};
 use crate::texts::{say, tr};
-use crate::widgets::{folded, html};
+use crate::widgets::{Folded, Row, TableContent};
 use quadtank::control::{IsaPid, ParallelPid, SeriesPid};
 use quadtank::linear::Complex;
-use quadtank::tuning::{Oscillation, TuningError};
-use quadtank_scenario::tuning::{Study, Tested};
+use quadtank_scenario::tuning::{Recovered, Tested};
 
 /// What the test tells besides.
-pub fn of_test(session: Session) -> AnyView {
-    let lab = session.lab;
-    let summary = say!(lab, relay.details);
-    folded(
-        "test-details",
-        summary,
-        summary,
-        Box::new(move || {
-            let found = session.words.study.with(|study| {
-                session.words.test.with(|test| match (study.as_ref(), test.as_ref()) {
-                    (Ok(study), Ok(Tested::Simultaneous(test, _))) => {
-                        test.reading.oscillation.and_then(|of| responses(session, study, &of).ok())
-                    }
-                    _ => None,
-                })
-            });
-            found.unwrap_or_else(|| html::element("caption", "", &html::escape(tr!(lab, relay.details_none))))
-        }),
-    )
+#[component]
+pub fn TestDetails() -> impl IntoView {
+    let session = use_session();
+    let summary = say!(session.lab, relay.details);
+    view! { <Folded id="test-details" summary caption=summary content=move || test_content(session) /> }
+}
+
+fn test_content(session: Session) -> AnyView {
+    let found = session.words.study.with(|study| {
+        session.words.test.with(|test| match (study.as_ref(), test.as_ref()) {
+            (Ok(study), Ok(Tested::Simultaneous(test, _))) => {
+                test.reading.oscillation.and_then(|of| study.recover(&of).ok())
+            }
+            _ => None,
+        })
+    });
+    match found {
+        Some(found) => responses(session, &found).into_any(),
+        None => view! { <caption>{tr!(session.lab, relay.details_none)}</caption> }.into_any(),
+    }
 }
 
 /// The four responses at the ultimate frequency, recovered and of the model (Campestrini 2006, eqs. 122 and 123).
-fn responses(session: Session, study: &Study, oscillation: &Oscillation) -> Result<String, TuningError> {
+fn responses(session: Session, found: &Recovered) -> impl IntoView + use<> {
     let lab = session.lab;
     let style = lab.number_style();
-    let found = study.recover(oscillation)?;
     let complex = |value: Complex| {
         let sign = if value.im < 0.0 { "−" } else { "+" };
         format!("{} {sign} {}j", style.significant(value.re, 4), style.significant(value.im.abs(), 4))
     };
-    let names = [
+    let columns = vec![
         tr!(lab, relay.details_response).to_owned(),
         tr!(lab, relay.details_found).to_owned(),
         tr!(lab, relay.details_exact).to_owned(),
     ];
     let row = |(row, column): (usize, usize)| {
         let name = format!("g{}{}", ["₁", "₂"][row], ["₁", "₂"][column]);
-        html::row("", &name, &[complex(found.measured[(row, column)]), complex(found.exact[(row, column)])])
+        let figures = [complex(found.measured[(row, column)]), complex(found.exact[(row, column)])];
+        view! { <Row name figures /> }.into_any()
     };
-    let rows: String = [(0, 0), (1, 0), (0, 1), (1, 1)].map(row).concat();
-    Ok(html::table(tr!(lab, relay.details), &names, &rows))
+    let rows = [(0, 0), (1, 0), (0, 1), (1, 1)].map(row).into();
+    view! { <TableContent caption=tr!(lab, relay.details) columns rows /> }
 }
 
 /// The controllers of both roots in ISA and in series form (Campestrini 2006, eqs. 9 to 11).
-pub fn of_controllers(session: Session) -> AnyView {
-    let lab = session.lab;
-    let summary = say!(lab, relay.forms);
-    folded(
-        "gains-forms",
-        summary,
-        summary,
-        Box::new(move || {
-            let names = [tr!(lab, relay.col_root), "K", "Ti", "Td", "K′", "Ti′", "Td′"].map(str::to_owned);
-            let rows = session.words.with_design(|design| {
-                let of_root = |(k, controllers): (usize, [ParallelPid; 2])| {
-                    let of_loop =
-                        |(i, pid)| forms(session, &format!("{k}, p{}", ["₁", "₂"][i]), ["loop1", "loop2"][i], pid);
-                    controllers.into_iter().enumerate().map(of_loop).collect::<String>()
-                };
-                [1, 2]
-                    .into_iter()
-                    .zip(design.roots.each_ref().map(|root| root.controllers))
-                    .map(of_root)
-                    .collect::<String>()
-            });
-            html::table(tr!(lab, relay.forms), &names, &rows.unwrap_or_default())
-        }),
-    )
+#[component]
+pub fn ControllerForms() -> impl IntoView {
+    let session = use_session();
+    let summary = say!(session.lab, relay.forms);
+    view! { <Folded id="gains-forms" summary caption=summary content=move || forms(session) /> }
 }
 
-fn forms(session: Session, name: &str, class: &str, pid: ParallelPid) -> String {
+fn forms(session: Session) -> impl IntoView {
+    let lab = session.lab;
+    let columns = [tr!(lab, relay.col_root), "K", "Ti", "Td", "K′", "Ti′", "Td′"].map(str::to_owned).to_vec();
+    let rows = session.words.with_design(|design| {
+        let mut rows = Vec::new();
+        for (k, root) in (1..).zip(&design.roots) {
+            for (i, &pid) in root.controllers.iter().enumerate() {
+                let name = format!("{k}, p{}", ["₁", "₂"][i]);
+                let figures = figures_of_forms(session, pid);
+                rows.push(view! { <Row class=["loop1", "loop2"][i] name figures /> }.into_any());
+            }
+        }
+        rows
+    });
+    view! { <TableContent caption=tr!(lab, relay.forms) columns rows=rows.unwrap_or_default() /> }
+}
+
+/// K, Ti, Td of the ISA form, then of the series form.
+fn figures_of_forms(session: Session, pid: ParallelPid) -> Vec<String> {
     let style = session.lab.number_style();
     let isa = IsaPid::from_parallel(pid);
     let series = isa.and_then(SeriesPid::from_isa);
@@ -91,5 +90,5 @@ fn forms(session: Session, name: &str, class: &str, pid: ParallelPid) -> String 
         value.filter(|value| value.is_finite()).map_or_else(|| "–".to_owned(), |value| style.significant(value, 4))
     };
     let numbers = [isa, series].map(|form| form.map_or([None; 3], |form| form.map(Some)));
-    html::row(class, name, &numbers.concat().into_iter().map(text).collect::<Vec<_>>())
+    numbers.concat().into_iter().map(text).collect()
 }

@@ -1,6 +1,5 @@
 //! The relay-tuning bench: relay test, critical curve, placement of the critical point, response (Campestrini 2006).
 
-mod card;
 mod controls;
 mod curve;
 mod details;
@@ -12,7 +11,9 @@ mod printed;
 mod readout;
 mod response;
 mod session;
+mod step;
 mod test;
+mod test_report;
 mod timeline;
 
 use leptos::prelude::*;
@@ -28,11 +29,11 @@ pub fn RelayTuningBench() -> impl IntoView {
     let chosen = lab.flags.with_value(|f| !f.panels.is_empty());
     view! {
         <main class=if chosen { "bench relay chosen" } else { "bench relay" } id=move || lab.id_of(Bench::RelayTuning)>
-            {shows(Panel::Plant).then(plant::plant_card)}
-            {shows(Panel::Test).then(test::test_card)}
-            {shows(Panel::Curve).then(curve::curve_card)}
-            {shows(Panel::Placement).then(placement::placement_card)}
-            {shows(Panel::Responses).then(response::response_card)}
+            {shows(Panel::Plant).then(|| view! { <plant::PlantCard /> })}
+            {shows(Panel::Test).then(|| view! { <test::TestCard /> })}
+            {shows(Panel::Curve).then(|| view! { <curve::CurveCard /> })}
+            {shows(Panel::Placement).then(|| view! { <placement::PlacementCard /> })}
+            {shows(Panel::Responses).then(|| view! { <response::ResponseCard /> })}
         </main>
     }
 }

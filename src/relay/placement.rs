@@ -2,20 +2,19 @@
 
 use leptos::prelude::*;
 
-use super::card::{Step, card, hideable};
-use super::controls::{choice, symbol};
-use super::details;
+use super::controls::symbol;
+use super::details::ControllerForms;
 use super::errors;
 use super::pictures::{self, short_name};
 use super::session::{Session, use_session};
-use crate::controls::{Knob, knob, segmented};
+use super::step::Step;
+use crate::controls::{Knob, KnobRow, Switch};
 use crate::lab::Lab;
 use crate::start::Control;
 use crate::texts::{say, tr};
-use crate::widgets::html::option;
-use crate::widgets::{Nudge, PointHandle, Scale, figures, html, remark};
-use quadtank::linear::{Closure, Complex, LoopStability};
-use quadtank::tuning::{Action, PlacementMethod, PlacementWarning, dynamic_relative_gain};
+use crate::widgets::{Choice, Figures, Nudge, PointHandle, Row, Scale, Select, TableContent};
+use quadtank::linear::{Closure, LoopStability};
+use quadtank::tuning::{Action, PlacementMethod, PlacementWarning, TuningRule, dynamic_relative_gain};
 use quadtank_figure::Frame;
 use quadtank_scenario::tuning::{DesignRoot, TuningSetup, rule_targets};
 
@@ -37,61 +36,69 @@ const TARGET: Knob<TuningSetup> = Knob {
 };
 
 /// The placement.
-pub fn placement_card() -> AnyView {
+#[component]
+pub fn PlacementCard() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
     let frames = RwSignal::new(Vec::<Frame>::new());
-    card(Step {
-        name: "placement",
-        number: 3,
-        title: say!(lab, relay.placement),
-        toolbar: remark(say!(lab, relay.placement_remark)),
-        picture: pictures::loci(session),
-        frames,
-        place: "chart square",
-        overlay: view! { <svg class="over"><TargetHandle frames /></svg> }.into_any(),
-        settings: settings(session),
-        verdict: Signal::derive(move || sentence(session)),
-        below: vec![details::of_controllers(session)],
-    })
+    view! {
+        <Step
+            name="placement"
+            number=3
+            title=say!(lab, relay.placement)
+            toolbar=move || view! { <span class="remark">{say!(lab, relay.placement_remark)}</span> }
+            picture=pictures::loci(session)
+            frames
+            place="chart square"
+            overlay=move || view! { <svg class="over"><TargetHandle frames /></svg> }
+            verdict=Signal::derive(move || sentence(session))
+            below=|| view! { <ControllerForms /> }
+        >
+            <Settings />
+        </Step>
+    }
 }
 
-fn settings(session: Session) -> AnyView {
+#[component]
+fn Settings() -> impl IntoView {
+    let session = use_session();
     let lab = session.lab;
-    let methods = vec![("method-a", say!(lab, relay.method_a)), ("method-b", say!(lab, relay.method_b))];
-    let roots = vec![("root1", say!(lab, relay.root, number = 1)), ("root2", say!(lab, relay.root, number = 2))];
-    let actions = vec![("action-pi", symbol("PI")), ("action-pid", symbol("PID"))];
     let lock = Control::Target;
-    let pairs = vec![
-        segmented(
-            session,
-            say!(lab, relay.action),
-            actions,
-            |s| usize::from(s.design.action == Action::Pid),
-            set_action,
-            lock,
-        ),
-        segmented(session, say!(lab, relay.roots), roots, |s| s.design.root - 1, |s, k| s.design.root = k + 1, lock),
-        knob(session, &TARGET, 0),
-        knob(session, &TARGET, 1),
-    ];
-    let choose = move |name: String| choose_rule(session, &name);
-    let rule = choice("target-rule", say!(lab, relay.target_rule), rules(session), choose, lock);
-    let table = Signal::derive(move || table(session));
-    vec![
-        segmented(
-            session,
-            say!(lab, relay.method),
-            methods,
-            |s| usize::from(s.design.method == PlacementMethod::BothLoci),
-            set_method,
-            lock,
-        ),
-        hideable("pairs", Signal::stored(false), pairs),
-        rule,
-        figures("gains", say!(lab, relay.gains_caption), table),
-    ]
-    .into_any()
+    view! {
+        <Switch
+            document=session
+            label=say!(lab, relay.method)
+            choices=vec![("method-a", say!(lab, relay.method_a)), ("method-b", say!(lab, relay.method_b))]
+            read=|s| usize::from(s.design.method == PlacementMethod::BothLoci)
+            write=set_method
+            lock
+        />
+        <div class="pairs">
+            <Switch
+                document=session
+                label=say!(lab, relay.action)
+                choices=vec![("action-pi", symbol("PI")), ("action-pid", symbol("PID"))]
+                read=|s| usize::from(s.design.action == Action::Pid)
+                write=set_action
+                lock
+            />
+            <Switch
+                document=session
+                label=say!(lab, relay.roots)
+                choices=vec![
+                    ("root1", say!(lab, relay.root, number = 1)),
+                    ("root2", say!(lab, relay.root, number = 2)),
+                ]
+                read=|s| s.design.root - 1
+                write=|s, k| s.design.root = k + 1
+                lock
+            />
+            <KnobRow document=session knob=&TARGET index=0 />
+            <KnobRow document=session knob=&TARGET index=1 />
+        </div>
+        <RuleSelect />
+        <Figures name="gains" caption=say!(lab, relay.gains_caption)>{move || table(session)}</Figures>
+    }
 }
 
 fn set_method(setup: &mut TuningSetup, index: usize) {
@@ -103,24 +110,36 @@ fn set_action(setup: &mut TuningSetup, index: usize) {
 }
 
 /// The targets of the rules, to take over.
-fn rules(session: Session) -> Signal<String> {
+#[component]
+fn RuleSelect() -> impl IntoView {
+    let session = use_session();
     let lab = session.lab;
-    Signal::derive(move || {
+    let choices = Signal::derive(move || {
+        let of_rule = |(rule, _)| {
+            let name = short_name(rule);
+            Choice::new(Some(rule), name, tr!(lab, relay.point_of_rule, rule = name))
+        };
+        let own = Choice::new(None, "", tr!(lab, relay.own_target));
+        std::iter::once(own).chain(rule_targets().map(of_rule)).collect::<Vec<_>>()
+    });
+    let chosen = Signal::derive(move || {
         let target = lab.tuning.with(|s| s.tuning.design.target);
-        let chosen = |at: Complex| target == [at.re, at.im];
-        let rules: String = rule_targets()
-            .iter()
-            .map(|&(rule, at)| {
-                option(short_name(rule), &tr!(lab, relay.point_of_rule, rule = short_name(rule)), chosen(at))
-            })
-            .collect();
-        option("", tr!(lab, relay.own_target), rule_targets().iter().all(|&(_, at)| !chosen(at))) + &rules
-    })
-}
-
-fn choose_rule(session: Session, name: &str) {
-    if let Some((_, at)) = rule_targets().into_iter().find(|(rule, _)| short_name(*rule) == name) {
-        session.edit(|s| s.design.target = [at.re, at.im]);
+        rule_targets().into_iter().find(|(_, at)| target == [at.re, at.im]).map(|(rule, _)| rule)
+    });
+    let choose = move |chosen: Option<TuningRule>| {
+        if let Some((_, at)) = rule_targets().into_iter().find(|(rule, _)| Some(*rule) == chosen) {
+            session.edit(|s| s.design.target = [at.re, at.im]);
+        }
+    };
+    view! {
+        <Select
+            id="target-rule"
+            name=say!(lab, relay.target_rule)
+            choices
+            chosen
+            on_choose=choose
+            disabled=lab.locks(Control::Target)
+        />
     }
 }
 
@@ -214,30 +233,30 @@ fn of_warning(lab: Lab, warning: PlacementWarning) -> String {
 }
 
 /// The gains of both roots.
-fn table(session: Session) -> String {
+fn table(session: Session) -> impl IntoView {
     let lab = session.lab;
     let chosen = session.words.setup.with(|s| s.design.root);
-    let names = [tr!(lab, relay.col_root).to_owned(), "kp".to_owned(), "ki".to_owned(), "kd".to_owned()];
+    let columns = [tr!(lab, relay.col_root), "kp", "ki", "kd"].map(str::to_owned).to_vec();
     let rows = session.words.with_design(|design| {
-        let row = |(k, root): (usize, &DesignRoot)| rows_of_root(lab, k + 1, root, chosen == k + 1);
-        design.roots.iter().enumerate().map(row).collect::<String>()
+        let roots = (1..).zip(&design.roots);
+        roots.flat_map(|(number, root)| rows_of_root(lab, number, root, chosen == number)).collect::<Vec<_>>()
     });
-    html::table(tr!(lab, relay.gains_caption), &names, &rows.unwrap_or_default())
+    view! { <TableContent caption=tr!(lab, relay.gains_caption) columns rows=rows.unwrap_or_default() /> }
 }
 
-fn rows_of_root(lab: Lab, number: usize, root: &DesignRoot, chosen: bool) -> String {
+fn rows_of_root(lab: Lab, number: usize, root: &DesignRoot, chosen: bool) -> [AnyView; 2] {
     let style = lab.number_style();
     let verdict = match root.stability {
         LoopStability::Stable => "✓",
         LoopStability::NotComputed { .. } => "?",
         LoopStability::Unstable { .. } | LoopStability::Marginal { .. } => "✗",
     };
-    let row = |(k, pid): (usize, &quadtank::control::ParallelPid)| {
+    [0, 1].map(|k| {
+        let pid = &root.controllers[k];
         let name = format!("{number}, p{} {verdict}", ["₁", "₂"][k]);
         let loop_class = ["loop1", "loop2"][k];
         let class = if chosen { format!("{loop_class} chosen") } else { loop_class.to_owned() };
-        let gains = [pid.proportional, pid.integral, pid.derivative].map(|v| style.fixed(v, 4));
-        html::row(&class, &name, &gains)
-    };
-    root.controllers.iter().enumerate().map(row).collect()
+        let figures = [pid.proportional, pid.integral, pid.derivative].map(|v| style.fixed(v, 4));
+        view! { <Row class name figures /> }.into_any()
+    })
 }

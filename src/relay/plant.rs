@@ -2,23 +2,19 @@
 
 use leptos::prelude::*;
 
-use super::card::hideable;
-use super::controls::{TIME, choice};
+use super::controls::TIME;
 use super::printed::{PrintedFigures, name_of_case};
 use super::session::{Session, use_session};
-use crate::controls::{Knob, knob, segmented};
+use crate::controls::{Knob, KnobRow, Switch};
+use crate::lab::Lab;
 use crate::preset::name_of;
 use crate::start::Control;
 use crate::texts::{say, tr};
-use crate::widgets::html::option;
-use crate::widgets::{Scale, card};
+use crate::widgets::{Card, Choice, Scale, Select};
 use quadtank::control::Pairing;
 use quadtank::plant::PresetId;
 use quadtank::tuning::PublishedPlant;
 use quadtank_scenario::tuning::{PublishedCase, TuningPlant, TuningSetup, TuningWarning};
-
-const WOOD_BERRY: &str = "wood-berry";
-const PROCESS_TWO: &str = "process-two";
 
 const VALVE: Knob<TuningSetup> = Knob {
     ids: [("", "rig-gamma1"), ("", "rig-gamma2")],
@@ -40,33 +36,57 @@ const BEHIND: Knob<TuningSetup> = Knob {
 };
 
 /// The choice of the plant, the parameters of a rig, and the published cases with their figures.
-pub fn plant_card() -> AnyView {
+#[component]
+pub fn PlantCard() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let no_rig = session.flag(|s| !matches!(s.plant, TuningPlant::QuadrupleTank { .. }));
+    view! {
+        <Card
+            name="plant"
+            title=say!(lab, relay.plant)
+            beside=|| {
+                view! {
+                    <PlantSelect />
+                    <CaseSelect />
+                }
+            }
+        >
+            <div class="strip" hidden=no_rig><RigSettings /></div>
+            <PrintedFigures />
+            <p class="remark about" data-testid="plant-remark">{move || remark(session)}</p>
+        </Card>
+    }
+}
+
+/// Valves, what is behind the rig, pairing, and how it moves.
+#[component]
+fn RigSettings() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
     let lock = Control::Plant;
-    let no_rig = session.flag(|s| !matches!(s.plant, TuningPlant::QuadrupleTank { .. }));
-    let pairings = vec![("rig-diagonal", say!(lab, relay.diagonal)), ("rig-swapped", say!(lab, relay.swapped))];
-    let motions = vec![("rig-linear", say!(lab, relay.linear)), ("rig-nonlinear", say!(lab, relay.nonlinear))];
-    let swapped = |s: &TuningSetup| usize::from(rig(s).is_some_and(|(pairing, _)| pairing == Pairing::Swapped));
-    let nonlinear = |s: &TuningSetup| usize::from(rig(s).is_some_and(|(_, nonlinear)| nonlinear));
-    let choices = vec![
-        choice("plant", say!(lab, relay.plant), plants(session), move |name| choose_plant(session, &name), lock),
-        choice("case", say!(lab, relay.case), cases(session), move |name| choose_case(session, &name), lock),
-    ];
-    let of_rig = vec![
-        knob(session, &VALVE, 0),
-        knob(session, &VALVE, 1),
-        knob(session, &BEHIND, 0),
-        knob(session, &BEHIND, 1),
-        segmented(session, say!(lab, relay.pairing), pairings, swapped, set_pairing, lock),
-        segmented(session, say!(lab, relay.motion), motions, nonlinear, set_nonlinear, lock),
-    ];
-    let content = view! {
-        {hideable("strip", no_rig, of_rig)}
-        <PrintedFigures />
-        <p class="remark about" data-testid="plant-remark">{Signal::derive(move || remark(session))}</p>
-    };
-    card("plant", say!(lab, relay.plant), choices, vec![content.into_any()])
+    view! {
+        <KnobRow document=session knob=&VALVE index=0 />
+        <KnobRow document=session knob=&VALVE index=1 />
+        <KnobRow document=session knob=&BEHIND index=0 />
+        <KnobRow document=session knob=&BEHIND index=1 />
+        <Switch
+            document=session
+            label=say!(lab, relay.pairing)
+            choices=vec![("rig-diagonal", say!(lab, relay.diagonal)), ("rig-swapped", say!(lab, relay.swapped))]
+            read=|s| usize::from(rig(s).is_some_and(|(pairing, _)| pairing == Pairing::Swapped))
+            write=set_pairing
+            lock
+        />
+        <Switch
+            document=session
+            label=say!(lab, relay.motion)
+            choices=vec![("rig-linear", say!(lab, relay.linear)), ("rig-nonlinear", say!(lab, relay.nonlinear))]
+            read=|s| usize::from(rig(s).is_some_and(|(_, nonlinear)| nonlinear))
+            write=set_nonlinear
+            lock
+        />
+    }
 }
 
 /// Pairing of a rig, and whether it runs nonlinear.
@@ -124,62 +144,104 @@ fn set_nonlinear(setup: &mut TuningSetup, index: usize) {
     }
 }
 
-fn name_of_plant(plant: &TuningPlant) -> &'static str {
-    match plant {
-        TuningPlant::Published(PublishedPlant::WoodBerry) => WOOD_BERRY,
-        TuningPlant::Published(PublishedPlant::ProcessTwo) => PROCESS_TWO,
-        TuningPlant::QuadrupleTank { preset, .. } => preset.name(),
-        TuningPlant::Elements(_) => "",
+/// A plant that can be chosen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum KnownPlant {
+    Published(PublishedPlant),
+    Rig(PresetId),
+}
+
+impl KnownPlant {
+    /// The plant of a document; nothing for one with elements of its own.
+    fn of(plant: &TuningPlant) -> Option<Self> {
+        match *plant {
+            TuningPlant::Published(plant) => Some(Self::Published(plant)),
+            TuningPlant::QuadrupleTank { preset, .. } => Some(Self::Rig(preset)),
+            TuningPlant::Elements(_) => None,
+        }
+    }
+
+    fn all() -> impl Iterator<Item = Self> {
+        let published = [PublishedPlant::WoodBerry, PublishedPlant::ProcessTwo].map(Self::Published);
+        published.into_iter().chain(PresetId::ALL.map(Self::Rig))
+    }
+
+    fn plant(self) -> TuningPlant {
+        match self {
+            Self::Published(plant) => TuningPlant::Published(plant),
+            Self::Rig(preset) => TuningPlant::rig(preset),
+        }
+    }
+
+    fn choice(self, lab: Lab) -> Choice<Option<Self>> {
+        match self {
+            Self::Published(PublishedPlant::WoodBerry) => {
+                Choice::new(Some(self), "wood-berry", tr!(lab, relay.wood_berry))
+            }
+            Self::Published(PublishedPlant::ProcessTwo) => {
+                Choice::new(Some(self), "process-two", tr!(lab, relay.process_two))
+            }
+            Self::Rig(id) => Choice::new(Some(self), id.name(), name_of(lab, id)),
+        }
     }
 }
 
-fn plants(session: Session) -> Signal<String> {
+#[component]
+fn PlantSelect() -> impl IntoView {
+    let session = use_session();
     let lab = session.lab;
-    Signal::derive(move || {
-        let chosen = lab.tuning.with(|s| name_of_plant(&s.tuning.plant));
-        let one = |name: &str, text: &str| option(name, text, name == chosen);
-        let mut options = one(WOOD_BERRY, tr!(lab, relay.wood_berry)) + &one(PROCESS_TWO, tr!(lab, relay.process_two));
-        options.extend(PresetId::ALL.map(|id| one(id.name(), &name_of(lab, id))));
-        if chosen.is_empty() {
-            options += &one("", tr!(lab, relay.own_plant));
+    let chosen = Signal::derive(move || lab.tuning.with(|s| KnownPlant::of(&s.tuning.plant)));
+    let choices = Signal::derive(move || {
+        let own = chosen.get().is_none().then(|| Choice::new(None, "", tr!(lab, relay.own_plant)));
+        KnownPlant::all().map(|plant| plant.choice(lab)).chain(own).collect::<Vec<_>>()
+    });
+    let choose = move |plant: Option<KnownPlant>| {
+        if let Some(plant) = plant {
+            session.load(TuningSetup::on(plant.plant()), None);
         }
-        options
-    })
-}
-
-fn choose_plant(session: Session, name: &str) {
-    let plant = match name {
-        WOOD_BERRY => TuningPlant::Published(PublishedPlant::WoodBerry),
-        PROCESS_TWO => TuningPlant::Published(PublishedPlant::ProcessTwo),
-        name => match PresetId::ALL.into_iter().find(|id| id.name() == name) {
-            Some(id) => TuningPlant::rig(id),
-            None => return,
-        },
     };
-    session.load(TuningSetup::on(plant), None);
+    view! {
+        <Select
+            id="plant"
+            name=say!(lab, relay.plant)
+            choices
+            chosen
+            on_choose=choose
+            disabled=lab.locks(Control::Plant)
+        />
+    }
 }
 
-fn cases(session: Session) -> Signal<String> {
+#[component]
+fn CaseSelect() -> impl IntoView {
+    let session = use_session();
     let lab = session.lab;
-    Signal::derive(move || {
+    let choices = Signal::derive(move || {
         let chosen = session.case.get();
-        let none = option("", tr!(lab, relay.no_case), chosen.is_none());
         let changed = chosen.is_some_and(|case| {
             case.is_placement() && session.words.setup.with(|setup| **setup != case.scenario().tuning)
         });
         let one = |case: PublishedCase| {
-            let (name, is_chosen) = (name_of_case(lab, case), chosen == Some(case));
-            let name = if is_chosen && changed { tr!(lab, relay.changed, name = name).to_string() } else { name };
-            option(&case.name(), &name, is_chosen)
+            let text = name_of_case(lab, case);
+            let text = if changed && chosen == Some(case) { tr!(lab, relay.changed, name = text) } else { text };
+            Choice::new(Some(case), case.name(), text)
         };
-        none + &PublishedCase::all().map(one).collect::<String>()
-    })
-}
-
-fn choose_case(session: Session, name: &str) {
-    match PublishedCase::from_name(name) {
+        let none = Choice::new(None, "", tr!(lab, relay.no_case));
+        std::iter::once(none).chain(PublishedCase::all().map(one)).collect::<Vec<_>>()
+    });
+    let choose = move |case: Option<PublishedCase>| match case {
         Some(case) => session.load(case.scenario().tuning, Some(case)),
         None => session.case.set(None),
+    };
+    view! {
+        <Select
+            id="case"
+            name=say!(lab, relay.case)
+            choices
+            chosen=session.case
+            on_choose=choose
+            disabled=lab.locks(Control::Plant)
+        />
     }
 }
 

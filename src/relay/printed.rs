@@ -3,10 +3,10 @@
 use leptos::prelude::*;
 
 use super::session::{Session, use_session};
+use crate::format::NumberStyle;
 use crate::lab::Lab;
 use crate::texts::{say, tr};
-use crate::widgets::figures;
-use crate::widgets::html::{cells, element, escape};
+use crate::widgets::{Caption, Cells, Figures};
 use quadtank_scenario::tuning::{PrintedFigure, PrintedRemark, PublishedCase};
 
 /// The figures of the chosen case; nothing where none is chosen.
@@ -14,45 +14,43 @@ use quadtank_scenario::tuning::{PrintedFigure, PrintedRemark, PublishedCase};
 pub fn PrintedFigures() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
-    let table = Signal::derive(move || table(session).unwrap_or_default());
-    let remarks = Signal::derive(move || {
+    let remarks = move || {
         let remarks = session.case.get().map_or(&[][..], PublishedCase::remarks);
         remarks.iter().map(|&remark| of_remark(lab, remark)).collect::<Vec<_>>().join(" ")
-    });
+    };
     view! {
-        <div class="printed" hidden=Signal::derive(move || session.case.get().is_none())>
-            {figures("printed", say!(lab, relay.printed_caption), table)}
+        <div class="printed" hidden=move || session.case.get().is_none()>
+            <Figures name="printed" caption=say!(lab, relay.printed_caption)>{move || table(session)}</Figures>
             <p class="remark" data-testid="printed-remark">{remarks}</p>
         </div>
     }
 }
 
 /// Symbols across, printed and computed numbers below them.
-fn table(session: Session) -> Option<String> {
+fn table(session: Session) -> Option<impl IntoView> {
     let (lab, case) = (session.lab, session.case.get()?);
     let study = session.words.study.get();
     let figures = case.figures(study.as_ref().as_ref().ok()?).ok()?;
     let style = lab.number_style();
-    let head: String = figures.iter().map(|f| element("th", "scope=\"col\"", &escape(f.symbol))).collect();
-    let heading = |text: &str| element("th", "scope=\"row\"", &escape(text));
-    let printed: Vec<String> = figures.iter().map(|f| style.fixed(f.printed, f.decimals.into())).collect();
-    let printed = cells(&printed);
-    let computed: String = figures
-        .iter()
-        .map(|f: &PrintedFigure| {
-            let number = escape(&style.fixed(f.computed, usize::from(f.decimals) + 1));
-            let agrees = f.agrees();
-            let sign = if agrees { "=" } else { "≠" };
-            let class = format!("class=\"{}\" data-agrees=\"{agrees}\"", if agrees { "good" } else { "warm" });
-            element("td", &class, &format!("{sign} {number}"))
-        })
-        .collect();
-    let caption = element("caption", "class=\"visually-hidden\"", &escape(tr!(lab, relay.printed_caption)));
-    Some(format!(
-        "{caption}<thead><tr><td></td>{head}</tr></thead><tbody><tr>{}{printed}</tr><tr>{}{computed}</tr></tbody>",
-        heading(tr!(lab, relay.printed)),
-        heading(tr!(lab, relay.computed))
-    ))
+    let symbols = figures.iter().map(|f| view! { <th scope="col">{f.symbol}</th> }).collect_view();
+    let printed = figures.iter().map(|f| style.fixed(f.printed, f.decimals.into())).collect::<Vec<_>>();
+    let computed = figures.iter().map(|f| computed(style, f)).collect_view();
+    Some(view! {
+        <Caption text=tr!(lab, relay.printed_caption) />
+        <thead><tr><td></td>{symbols}</tr></thead>
+        <tbody>
+            <tr><th scope="row">{tr!(lab, relay.printed)}</th><Cells texts=printed /></tr>
+            <tr><th scope="row">{tr!(lab, relay.computed)}</th>{computed}</tr>
+        </tbody>
+    })
+}
+
+/// A computed number, which agrees with the printed one or not.
+fn computed(style: NumberStyle, figure: &PrintedFigure) -> impl IntoView + use<> {
+    let agrees = figure.agrees();
+    let number = style.fixed(figure.computed, usize::from(figure.decimals) + 1);
+    let sign = if agrees { "=" } else { "≠" };
+    view! { <td class=if agrees { "good" } else { "warm" } data-agrees=agrees.to_string()>{format!("{sign} {number}")}</td> }
 }
 
 /// Name of a case in the language of the laboratory.

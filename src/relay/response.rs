@@ -2,63 +2,53 @@
 
 use leptos::prelude::*;
 
-use super::card::{Step, card};
-use super::controls::{choice, symbol};
+use super::controls::symbol;
 use super::errors;
 use super::pictures;
-use super::readout::{readout, surface};
+use super::readout::{Surface, readout};
 use super::session::{Session, time_unit, use_session};
+use super::step::Step;
 use super::timeline::timeline;
-use crate::controls::segmented;
+use crate::controls::Switch;
+use crate::lab::Lab;
 use crate::start::Control;
 use crate::texts::{say, tr};
-use crate::widgets::html::option;
-use crate::widgets::{DataTable, ZoomButtons, figures, handler, html};
+use crate::widgets::{Choice, DataTable, Figures, Row, Select, TableContent, ZoomButtons};
 use quadtank::linear::LoopStability;
 use quadtank::sim::Halt;
 use quadtank::tuning::PublishedPlant;
 use quadtank_figure::Frame;
 use quadtank_scenario::tuning::{CompareSpec, DecouplerSpec, StepResponse, TuningPlant, TuningScenario};
 
-const DECOUPLERS: [(&str, DecouplerSpec); 5] = [
-    ("none", DecouplerSpec::None),
-    ("static", DecouplerSpec::Static),
-    ("dynamic", DecouplerSpec::Dynamic),
-    ("first-output", DecouplerSpec::FirstOutput),
-    ("second-output", DecouplerSpec::SecondOutput),
-];
-const COMPARISONS: [(&str, CompareSpec); 4] = [
-    ("nothing", CompareSpec::Nothing),
-    ("ziegler-nichols", CompareSpec::ZieglerNichols),
-    ("tyreus-luyben", CompareSpec::TyreusLuyben),
-    ("full", CompareSpec::Full),
-];
-
 /// The response.
-pub fn response_card() -> AnyView {
+#[component]
+pub fn ResponseCard() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
     let frames = RwSignal::new(Vec::<Frame>::new());
     let axis = timeline(session.part(|s| s.response.duration), 1.0);
     let picture = pictures::response(session, axis.window);
+    let for_table = picture.clone();
     let values = readout(session, axis.cursor, move |show| {
         session.words.with_design(|design| show(&design.response.trace));
     });
     let ids = ["response-zoom-in", "response-zoom-out", "response-zoom-reset"];
     let label = say!(lab, relay.response_cursor);
-    card(Step {
-        name: "response",
-        number: 4,
-        title: say!(lab, relay.response),
-        toolbar: view! { <div class="toolbar"><Pins /><ZoomButtons axis ids /></div> }.into_any(),
-        frames,
-        place: "chart",
-        overlay: surface("response-surface", axis, frames, label, values),
-        settings: settings(session),
-        verdict: Signal::derive(move || sentence(session)),
-        below: vec![view! { <DataTable picture=picture.clone() id="response-table" /> }.into_any()],
-        picture,
-    })
+    view! {
+        <Step
+            name="response"
+            number=4
+            title=say!(lab, relay.response)
+            toolbar=move || view! { <div class="toolbar"><Pins /><ZoomButtons axis ids /></div> }
+            picture
+            frames
+            overlay=move || view! { <Surface id="response-surface" axis frames label readout=values /> }
+            verdict=Signal::derive(move || sentence(session))
+            below=move || view! { <DataTable picture=for_table id="response-table" /> }
+        >
+            <Settings />
+        </Step>
+    }
 }
 
 #[component]
@@ -76,72 +66,66 @@ fn Pins() -> impl IntoView {
         });
     };
     view! {
-        <button type="button" class="button small" data-testid="response-pin" on:click=handler(pin)>{say!(lab, responses.pin)}</button>
-        <button type="button" class="button small" data-testid="response-unpin" hidden=none on:click=handler(move |_| lab.tuning.update(|s| s.pinned.clear()))>{say!(lab, responses.unpin)}</button>
+        <button type="button" class="button small" data-testid="response-pin" on:click=pin>{say!(lab, responses.pin)}</button>
+        <button type="button" class="button small" data-testid="response-unpin" hidden=none on:click=move |_| lab.tuning.update(|s| s.pinned.clear())>{say!(lab, responses.unpin)}</button>
     }
 }
 
-fn settings(session: Session) -> AnyView {
+#[component]
+fn Settings() -> impl IntoView {
+    let session = use_session();
     let lab = session.lab;
-    let lock = Control::Experiment;
-    let decoupler = move |name: String| {
-        if let Some(&(_, chosen)) = DECOUPLERS.iter().find(|(known, _)| *known == name) {
-            session.edit(|s| s.design.decoupler = chosen);
-        }
-    };
-    let comparison = move |name: String| {
-        if let Some(&(_, chosen)) = COMPARISONS.iter().find(|(known, _)| *known == name) {
-            session.edit(|s| s.response.compare = chosen);
-        }
-    };
-    let steps = vec![("step1", symbol("r = [1 0]")), ("step2", symbol("r = [0 1]"))];
-    let table = Signal::derive(move || table(session));
+    view! {
+        <Switch
+            document=session
+            label=say!(lab, relay.step_of)
+            choices=vec![("step1", symbol("r = [1 0]")), ("step2", symbol("r = [0 1]"))]
+            read=|s| usize::from(s.response.references[1] != 0.0)
+            write=|s, k| s.response.references = [[1.0, 0.0], [0.0, 1.0]][k]
+            lock=Control::Experiment
+        />
+        <Select
+            id="decoupler"
+            name=say!(lab, relay.decoupler)
+            choices=Signal::derive(move || decouplers(lab))
+            chosen=Signal::derive(move || session.words.setup.with(|s| s.design.decoupler))
+            on_choose=move |chosen| session.edit(|s| s.design.decoupler = chosen)
+            disabled=lab.locks(Control::Experiment)
+        />
+        <Select
+            id="compare"
+            name=say!(lab, relay.compare)
+            choices=Signal::derive(move || comparisons(session))
+            chosen=Signal::derive(move || session.words.setup.with(|s| s.response.compare))
+            on_choose=move |chosen| session.edit(|s| s.response.compare = chosen)
+            disabled=lab.locks(Control::Experiment)
+        />
+        <Figures name="response-figures" caption=say!(lab, relay.response_caption)>{move || table(session)}</Figures>
+    }
+}
+
+fn decouplers(lab: Lab) -> Vec<Choice<DecouplerSpec>> {
     vec![
-        segmented(
-            session,
-            say!(lab, relay.step_of),
-            steps,
-            |s| usize::from(s.response.references[1] != 0.0),
-            |s, k| s.response.references = [[1.0, 0.0], [0.0, 1.0]][k],
-            lock,
-        ),
-        choice("decoupler", say!(lab, relay.decoupler), decouplers(session), decoupler, lock),
-        choice("compare", say!(lab, relay.compare), comparisons(session), comparison, lock),
-        figures("response-figures", say!(lab, relay.response_caption), table),
+        Choice::new(DecouplerSpec::None, "none", tr!(lab, relay.decoupler_none)),
+        Choice::new(DecouplerSpec::Static, "static", tr!(lab, relay.decoupler_static)),
+        Choice::new(DecouplerSpec::Dynamic, "dynamic", tr!(lab, relay.decoupler_dynamic)),
+        Choice::new(DecouplerSpec::FirstOutput, "first-output", tr!(lab, relay.decoupler_first)),
+        Choice::new(DecouplerSpec::SecondOutput, "second-output", tr!(lab, relay.decoupler_second)),
     ]
-    .into_any()
 }
 
-fn decouplers(session: Session) -> Signal<String> {
+fn comparisons(session: Session) -> Vec<Choice<CompareSpec>> {
     let lab = session.lab;
-    Signal::derive(move || {
-        let chosen = session.words.setup.with(|s| s.design.decoupler);
-        let text = |spec| match spec {
-            DecouplerSpec::None => tr!(lab, relay.decoupler_none),
-            DecouplerSpec::Static => tr!(lab, relay.decoupler_static),
-            DecouplerSpec::Dynamic => tr!(lab, relay.decoupler_dynamic),
-            DecouplerSpec::FirstOutput => tr!(lab, relay.decoupler_first),
-            DecouplerSpec::SecondOutput => tr!(lab, relay.decoupler_second),
-        };
-        DECOUPLERS.iter().map(|&(name, spec)| option(name, text(spec), spec == chosen)).collect()
-    })
-}
-
-fn comparisons(session: Session) -> Signal<String> {
-    let lab = session.lab;
-    Signal::derive(move || {
-        let (chosen, plant) = session.words.setup.with(|s| (s.response.compare, s.plant.clone()));
-        // The full controller is known for one plant only.
-        let has_full = plant == TuningPlant::Published(PublishedPlant::WoodBerry);
-        let text = |spec| match spec {
-            CompareSpec::Nothing => tr!(lab, relay.compare_nothing),
-            CompareSpec::ZieglerNichols => tr!(lab, relay.compare_zn),
-            CompareSpec::TyreusLuyben => tr!(lab, relay.compare_tl),
-            CompareSpec::Full => tr!(lab, relay.compare_full),
-        };
-        let shown = COMPARISONS.iter().filter(|(_, spec)| *spec != CompareSpec::Full || has_full);
-        shown.map(|&(name, spec)| option(name, text(spec), spec == chosen)).collect()
-    })
+    let mut choices = vec![
+        Choice::new(CompareSpec::Nothing, "nothing", tr!(lab, relay.compare_nothing)),
+        Choice::new(CompareSpec::ZieglerNichols, "ziegler-nichols", tr!(lab, relay.compare_zn)),
+        Choice::new(CompareSpec::TyreusLuyben, "tyreus-luyben", tr!(lab, relay.compare_tl)),
+    ];
+    // The full controller is known for one plant only.
+    if session.words.setup.with(|s| s.plant == TuningPlant::Published(PublishedPlant::WoodBerry)) {
+        choices.push(Choice::new(CompareSpec::Full, "full", tr!(lab, relay.compare_full)));
+    }
+    choices
 }
 
 /// How the step went, and whether all is well.
@@ -207,50 +191,51 @@ fn sentence(session: Session) -> (bool, String) {
 }
 
 /// Figures of both outputs: of the session, its comparison, and the pinned ones.
-fn table(session: Session) -> String {
+fn table(session: Session) -> impl IntoView {
     let lab = session.lab;
     let unit = session.words.setup.with(|s| time_unit(&s.plant));
-    let names = [
+    let columns = vec![
         tr!(lab, relay.col_output).to_owned(),
         tr!(lab, relay.col_overshoot).to_owned(),
-        tr!(lab, relay.col_settling, unit = unit).to_string(),
+        tr!(lab, relay.col_settling, unit = unit),
         tr!(lab, relay.col_cross).to_owned(),
         "IAE".to_owned(),
     ];
-    let mut rows = String::new();
+    let mut rows = Vec::new();
     session.words.with_design(|design| {
-        rows += &rows_of(session, &design.response);
+        rows.extend(rows_of(session, &design.response));
         if let Some(comparison) = &design.comparison {
-            rows += &(group(tr!(lab, relay.row_rival)) + &rows_of(session, &comparison.response));
+            rows.push(group(tr!(lab, relay.row_rival).to_owned()));
+            rows.extend(rows_of(session, &comparison.response));
         }
     });
     for (k, outcome) in session.words.pinned.get().iter().enumerate() {
         if let Ok(Some(design)) = outcome.as_ref() {
-            rows += &(group(&tr!(lab, relay.row_pinned, number = k + 1)) + &rows_of(session, &design.response));
+            rows.push(group(tr!(lab, relay.row_pinned, number = k + 1)));
+            rows.extend(rows_of(session, &design.response));
         }
     }
-    html::table(tr!(lab, relay.response_caption), &names, &rows)
+    view! { <TableContent caption=tr!(lab, relay.response_caption) columns rows /> }
 }
 
 /// A line above the rows of a response that is not the one at work.
-fn group(name: &str) -> String {
-    html::element("tr", "", &html::element("th", "scope=\"rowgroup\" colspan=\"5\"", &html::escape(name)))
+fn group(name: String) -> AnyView {
+    view! { <tr><th scope="rowgroup" colspan="5">{name}</th></tr> }.into_any()
 }
 
-fn rows_of(session: Session, response: &StepResponse) -> String {
+fn rows_of(session: Session, response: &StepResponse) -> [AnyView; 2] {
     let style = session.lab.number_style();
     let number = |v: Option<f64>| v.map_or_else(|| "–".to_owned(), |v| style.significant(v, 3));
     let percent =
         |v: Option<f64>| v.map_or_else(|| "–".to_owned(), |v| format!("{}\u{a0}%", style.fixed(100.0 * v, 1)));
-    let row = |k: usize| {
+    [0, 1].map(|k| {
         let of = response.is_bounded.then(|| response.figures[k]);
-        let cells = [
+        let figures = [
             percent(of.and_then(|of| of.overshoot)),
             number(of.and_then(|of| of.settling_time)),
             number(of.and_then(|of| of.peak)),
             number(of.map(|of| of.iae)),
         ];
-        html::row(["loop1", "loop2"][k], ["y₁", "y₂"][k], &cells)
-    };
-    row(0) + &row(1)
+        view! { <Row class=["loop1", "loop2"][k] name=["y₁", "y₂"][k] figures /> }.into_any()
+    })
 }

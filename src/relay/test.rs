@@ -2,21 +2,19 @@
 
 use leptos::prelude::*;
 
-use super::card::{Step, card, hideable};
-use super::controls::{TIME, choice};
-use super::details;
-use super::errors;
+use super::controls::TIME;
+use super::details::TestDetails;
 use super::pictures::{self, record_of, short_name};
-use super::readout::{readout, surface};
-use super::session::{Session, time_unit, use_session};
+use super::readout::{Surface, readout};
+use super::session::use_session;
+use super::step::Step;
+use super::test_report::{sentence, table};
 use super::timeline::timeline;
-use crate::controls::{Knob, knob, segmented};
+use crate::controls::{Knob, KnobRow, Switch};
 use crate::start::Control;
 use crate::texts::{say, tr};
-use crate::widgets::html::{cells, element, escape, option};
-use crate::widgets::{DataTable, Scale, ZoomButtons, figures, handler, html};
-use quadtank::control::IsaPid;
-use quadtank::tuning::{CurveDistance, RelayReading, RelayVerdict, TestAndSettings, TuningRule};
+use crate::widgets::{Choice, DataTable, Figures, Scale, Select, ZoomButtons};
+use quadtank::tuning::TuningRule;
 use quadtank_figure::Frame;
 use quadtank_scenario::tuning::{Behind, CriticalSpec, TestKind, Tested, TuningSetup};
 
@@ -112,13 +110,14 @@ const OF_TEST: Knob<TuningSetup> = Knob { scale: Scale::Linear(0.05), lock: Cont
 const OF_LOOP: Knob<TuningSetup> = Knob { class: ["loop1", "loop2"], ..OF_TEST };
 
 /// The relay test.
-pub fn test_card() -> AnyView {
+#[component]
+pub fn TestCard() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
     let frames = RwSignal::new(Vec::<Frame>::new());
     let axis = timeline(session.part(|s| s.test.duration), BEGINNING);
     let picture = pictures::test(session, axis.window);
-    let verdict = Signal::derive(move || sentence(session));
+    let for_table = picture.clone();
     let values = readout(session, axis.cursor, move |show| {
         session.words.test.with(|outcome| {
             if let Some(trace) = outcome.as_ref().as_ref().ok().and_then(record_of) {
@@ -128,22 +127,27 @@ pub fn test_card() -> AnyView {
     });
     let ids = ["test-zoom-in", "test-zoom-out", "test-zoom-reset"];
     let label = say!(lab, relay.test_cursor);
-    card(Step {
-        name: "test",
-        number: 1,
-        title: say!(lab, relay.test),
-        toolbar: view! { <div class="toolbar"><TakeOver /><ZoomButtons axis ids /></div> }.into_any(),
-        frames,
-        place: "chart",
-        overlay: surface("test-surface", axis, frames, label, values),
-        settings: settings(session),
-        verdict,
-        below: vec![
-            view! { <DataTable picture=picture.clone() id="test-table" /> }.into_any(),
-            details::of_test(session),
-        ],
-        picture,
-    })
+    let below = move || {
+        view! {
+            <DataTable picture=for_table id="test-table" />
+            <TestDetails />
+        }
+    };
+    view! {
+        <Step
+            name="test"
+            number=1
+            title=say!(lab, relay.test)
+            toolbar=move || view! { <div class="toolbar"><TakeOver /><ZoomButtons axis ids /></div> }
+            picture
+            frames
+            overlay=move || view! { <Surface id="test-surface" axis frames label readout=values /> }
+            verdict=Signal::derive(move || sentence(session))
+            below
+        >
+            <Settings />
+        </Step>
+    }
 }
 
 /// Hands the point that the test found to the placement.
@@ -161,7 +165,7 @@ fn TakeOver() -> impl IntoView {
     });
     let disabled = session.locks(Control::Point);
     view! {
-        <button type="button" class="button small" data-testid="test-take" hidden=nothing disabled=disabled on:click=handler(take)>{say!(session.lab, relay.take_over)}</button>
+        <button type="button" class="button small" data-testid="test-take" hidden=nothing disabled=disabled on:click=take>{say!(session.lab, relay.take_over)}</button>
     }
 }
 
@@ -172,7 +176,9 @@ fn found_point(test: &Tested) -> Option<CriticalSpec> {
     Some(CriticalSpec::Point { gains: oscillation.gains_by_harmonic()?, period: oscillation.period })
 }
 
-fn settings(session: Session) -> AnyView {
+#[component]
+fn Settings() -> impl IntoView {
+    let session = use_session();
     let lab = session.lab;
     let kinds = vec![
         ("test-single", say!(lab, relay.single)),
@@ -180,30 +186,39 @@ fn settings(session: Session) -> AnyView {
         ("test-sequential", say!(lab, relay.sequential)),
         ("test-simultaneous", say!(lab, relay.simultaneous)),
     ];
-    let kind = |s: &TuningSetup| KINDS.iter().position(|&k| k == s.test.kind).unwrap_or(3);
-    let table = Signal::derive(move || table(session));
-    let detuning = vec![knob(session, &DETUNING, 0), knob(session, &DETUNING, 1)];
-    vec![
-        segmented(session, say!(lab, relay.kind), kinds, kind, |s, k| s.test.kind = KINDS[k], Control::Test),
-        hideable("", session.flag(|s| s.test.kind != TestKind::Single), single(session)),
-        hideable("", session.flag(|s| s.test.kind == TestKind::Single), vec![knob(session, &RATIO, 0)]),
-        hideable("pairs", Signal::stored(false), sizes(session)),
-        hideable("pairs four", Signal::stored(false), relays(session)),
-        hideable("", session.flag(|s| !is_tuned(s.test.kind)), vec![rule(session)]),
-        hideable("pairs", session.flag(|s| s.test.kind != TestKind::Independent), detuning),
-        hideable("pairs", session.flag(|s| s.test.kind != TestKind::Sequential), vec![knob(session, &PASSES, 0)]),
-        figures("test-figures", say!(lab, relay.test_caption), table),
-    ]
-    .into_any()
-}
-
-/// Amplitude of relay 1, or of relay 2 where that one is alone, and duration.
-fn sizes(session: Session) -> Vec<AnyView> {
-    vec![
-        hideable("", session.flag(|s| is_idle(s, 1)), vec![knob(session, &AMPLITUDE, 0)]),
-        hideable("", session.flag(|s| !is_idle(s, 1)), vec![knob(session, &AMPLITUDE, 1)]),
-        knob(session, &DURATION, 0),
-    ]
+    view! {
+        <Switch
+            document=session
+            label=say!(lab, relay.kind)
+            choices=kinds
+            read=|s| KINDS.iter().position(|&k| k == s.test.kind).unwrap_or(3)
+            write=|s, k| s.test.kind = KINDS[k]
+            lock=Control::Test
+        />
+        <div hidden=session.flag(|s| s.test.kind != TestKind::Single)><SingleTest /></div>
+        <div hidden=session.flag(|s| s.test.kind == TestKind::Single)><KnobRow document=session knob=&RATIO /></div>
+        // Amplitude of relay 1, or of relay 2 where that one is alone, and duration.
+        <div class="pairs">
+            <div hidden=session.flag(|s| is_idle(s, 1))><KnobRow document=session knob=&AMPLITUDE index=0 /></div>
+            <div hidden=session.flag(|s| !is_idle(s, 1))><KnobRow document=session knob=&AMPLITUDE index=1 /></div>
+            <KnobRow document=session knob=&DURATION />
+        </div>
+        <div class="pairs four">
+            <div hidden=session.flag(|s| is_idle(s, 1))><KnobRow document=session knob=&HYSTERESIS index=0 /></div>
+            <div hidden=session.flag(|s| is_idle(s, 2))><KnobRow document=session knob=&HYSTERESIS index=1 /></div>
+            <div hidden=session.flag(|s| is_idle(s, 1))><KnobRow document=session knob=&BIAS index=0 /></div>
+            <div hidden=session.flag(|s| is_idle(s, 2))><KnobRow document=session knob=&BIAS index=1 /></div>
+        </div>
+        <div hidden=session.flag(|s| !is_tuned(s.test.kind))><RuleSelect /></div>
+        <div class="pairs" hidden=session.flag(|s| s.test.kind != TestKind::Independent)>
+            <KnobRow document=session knob=&DETUNING index=0 />
+            <KnobRow document=session knob=&DETUNING index=1 />
+        </div>
+        <div class="pairs" hidden=session.flag(|s| s.test.kind != TestKind::Sequential)>
+            <KnobRow document=session knob=&PASSES />
+        </div>
+        <Figures name="test-figures" caption=say!(lab, relay.test_caption)>{move || table(session)}</Figures>
+    }
 }
 
 /// Whether a loop has no relay because the other one is tested alone.
@@ -212,37 +227,65 @@ fn is_idle(setup: &TuningSetup, number: usize) -> bool {
 }
 
 /// What a test of a single element has besides.
-fn single(session: Session) -> Vec<AnyView> {
+#[component]
+fn SingleTest() -> impl IntoView {
+    let session = use_session();
     let lab = session.lab;
     let loops = vec![
         ("test-loop1", say!(lab, relay.loop_name, number = 1)),
         ("test-loop2", say!(lab, relay.loop_name, number = 2)),
     ];
-    let which = |s: &TuningSetup| s.test.number - 1;
-    let set_which = |s: &mut TuningSetup, k: usize| s.test.number = k + 1;
-    let choose = move |name: String| session.edit(|s| s.test.behind = behind_named(&name));
-    vec![
-        segmented(session, say!(lab, relay.which_loop), loops, which, set_which, Control::Test),
-        choice("test-behind", say!(lab, relay.behind), behind_options(session), choose, Control::Test),
-        hideable("", session.flag(|s| behind_index(s) != 2), vec![knob(session, &MODULUS, 0)]),
-    ]
+    let behinds = Signal::derive(move || {
+        vec![
+            Choice::new(Behind::Nothing, "nothing", tr!(lab, relay.behind_nothing)),
+            Choice::new(Behind::Integrator, "integrator", tr!(lab, relay.behind_integrator)),
+            Choice::new(Behind::Modulus(FIRST_MODULUS), "modulus", tr!(lab, relay.behind_modulus)),
+        ]
+    });
+    // The modulus has a field of its own.
+    let behind = Signal::derive(move || match session.words.setup.with(|s| s.test.behind) {
+        Behind::Modulus(_) => Behind::Modulus(FIRST_MODULUS),
+        other => other,
+    });
+    view! {
+        <Switch
+            document=session
+            label=say!(lab, relay.which_loop)
+            choices=loops
+            read=|s| s.test.number - 1
+            write=|s, k| s.test.number = k + 1
+            lock=Control::Test
+        />
+        <Select
+            id="test-behind"
+            name=say!(lab, relay.behind)
+            choices=behinds
+            chosen=behind
+            on_choose=move |behind| session.edit(|s| s.test.behind = behind)
+            disabled=lab.locks(Control::Test)
+        />
+        <div hidden=session.flag(|s| !matches!(s.test.behind, Behind::Modulus(_)))>
+            <KnobRow document=session knob=&MODULUS />
+        </div>
+    }
 }
 
-/// Hysteresis and bias of both relays.
-fn relays(session: Session) -> Vec<AnyView> {
-    let one = |knob: AnyView, idle: Signal<bool>| hideable("", idle, vec![knob]);
-    let idle = [session.flag(|s| is_idle(s, 1)), session.flag(|s| is_idle(s, 2))];
-    vec![
-        one(knob(session, &HYSTERESIS, 0), idle[0]),
-        one(knob(session, &HYSTERESIS, 1), idle[1]),
-        one(knob(session, &BIAS, 0), idle[0]),
-        one(knob(session, &BIAS, 1), idle[1]),
-    ]
-}
-
-fn rule(session: Session) -> AnyView {
-    let choose = move |name: String| choose_rule(session, &name);
-    choice("test-rule", say!(session.lab, relay.rule), rule_options(session), choose, Control::Test)
+/// The rule by which a test ends in controller settings.
+#[component]
+fn RuleSelect() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let choices = TuningRule::ALL.map(|rule| Choice::new(rule, short_name(rule), short_name(rule))).to_vec();
+    view! {
+        <Select
+            id="test-rule"
+            name=say!(lab, relay.rule)
+            choices=Signal::stored(choices)
+            chosen=Signal::derive(move || session.words.setup.with(|s| s.test.rule))
+            on_choose=move |rule| session.edit(|s| s.test.rule = rule)
+            disabled=lab.locks(Control::Test)
+        />
+    }
 }
 
 /// Whether the test ends in controller settings.
@@ -265,166 +308,4 @@ fn set_duration(setup: &mut TuningSetup, duration: f64) {
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the field allows 1 to 8")]
 fn set_passes(setup: &mut TuningSetup, passes: f64) {
     setup.test.passes = passes.round() as usize;
-}
-
-const BEHINDS: [&str; 3] = ["nothing", "integrator", "modulus"];
-
-fn behind_options(session: Session) -> Signal<String> {
-    let lab = session.lab;
-    Signal::derive(move || {
-        let chosen = session.words.setup.with(|s| behind_index(s));
-        let texts = [tr!(lab, relay.behind_nothing), tr!(lab, relay.behind_integrator), tr!(lab, relay.behind_modulus)];
-        (0..3).map(|k| option(BEHINDS[k], texts[k], chosen == k)).collect()
-    })
-}
-
-fn behind_index(setup: &TuningSetup) -> usize {
-    match setup.test.behind {
-        Behind::Nothing => 0,
-        Behind::Integrator => 1,
-        Behind::Modulus(_) => 2,
-    }
-}
-
-fn behind_named(name: &str) -> Behind {
-    match BEHINDS.iter().position(|&known| known == name) {
-        Some(1) => Behind::Integrator,
-        Some(2) => Behind::Modulus(FIRST_MODULUS),
-        _ => Behind::Nothing,
-    }
-}
-
-fn rule_options(session: Session) -> Signal<String> {
-    Signal::derive(move || {
-        let chosen = session.words.setup.with(|s| s.test.rule);
-        TuningRule::ALL.iter().map(|&rule| option(short_name(rule), short_name(rule), rule == chosen)).collect()
-    })
-}
-
-fn choose_rule(session: Session, name: &str) {
-    if let Some(rule) = TuningRule::ALL.into_iter().find(|&rule| short_name(rule) == name) {
-        session.edit(|s| s.test.rule = rule);
-    }
-}
-
-/// The readings of a test with the settings that follow, in the order of the experiments.
-fn readings(test: &Tested) -> Vec<(String, RelayReading, Option<IsaPid>)> {
-    match test {
-        Tested::Single(test, _) | Tested::Simultaneous(test, _) => vec![(String::new(), test.reading, None)],
-        Tested::Independent(loops) => {
-            let row = |(k, (test, settings)): (usize, &TestAndSettings)| ((k + 1).to_string(), test.reading, *settings);
-            loops.iter().enumerate().map(row).collect()
-        }
-        Tested::Sequential(steps) => steps
-            .iter()
-            .map(|step| (format!("{}·{}", step.pass, step.index + 1), step.test.reading, step.settings))
-            .collect(),
-    }
-}
-
-/// The verdict in words, and whether all is well.
-fn sentence(session: Session) -> (bool, String) {
-    let lab = session.lab;
-    let style = lab.number_style();
-    let unit = session.words.setup.with(|s| time_unit(&s.plant));
-    session.words.test.with(|outcome| {
-        let test = match outcome.as_ref() {
-            Ok(test) => test,
-            Err(error) => return (false, errors::sentence(lab, error)),
-        };
-        let all = readings(test);
-        let shown = all.iter().find(|(_, reading, _)| reading.oscillation.is_none()).or(all.last());
-        let Some(shown @ (_, reading, _)) = shown else { return (false, String::new()) };
-        // Independent tests have a period each.
-        let read = if matches!(test, Tested::Independent(_)) { &all[..] } else { std::slice::from_ref(shown) };
-        let periods: Vec<String> =
-            read.iter().filter_map(|(_, reading, _)| Some(style.significant(reading.oscillation?.period, 4))).collect();
-        let period = periods.join(" / ");
-        let (good, mut text) = match reading.verdict {
-            RelayVerdict::Unimodal => (true, tr!(lab, relay.unimodal, period = period, unit = unit).to_string()),
-            RelayVerdict::Multimodal { switches: [one, two] } => {
-                (false, tr!(lab, relay.multimodal, period = period, unit = unit, one = one, two = two).to_string())
-            }
-            RelayVerdict::NotPeriodic => (false, tr!(lab, relay.not_periodic).to_owned()),
-            RelayVerdict::Chattering { relay } => (false, tr!(lab, relay.chattering, number = relay + 1).to_string()),
-            RelayVerdict::NoOscillation => (false, tr!(lab, relay.no_oscillation).to_owned()),
-            RelayVerdict::Diverged => (false, tr!(lab, relay.diverged).to_owned()),
-            RelayVerdict::Unfinished { time } => {
-                (false, tr!(lab, relay.unfinished, time = style.significant(time, 3), unit = unit).to_string())
-            }
-        };
-        let good = good
-            && match test {
-                Tested::Simultaneous(test, [_, by_harmonic]) => {
-                    let proportional = test.reading.oscillation.is_none_or(|o| o.is_proportional());
-                    let same = by_harmonic.is_none_or(|distance| distance.same_branch);
-                    let limited = test.trace.limited.contains(&true);
-                    if limited {
-                        text = text + " " + tr!(lab, relay.pump_limit);
-                    } else if !same {
-                        text = text + " " + tr!(lab, relay.other_branch);
-                    } else if !proportional {
-                        text = text + " " + tr!(lab, relay.not_proportional);
-                    }
-                    same && proportional && !limited
-                }
-                Tested::Single(_, Some(found)) => {
-                    let modulus = style.significant(found.modulus, 3);
-                    let norm = style.significant(found.response.norm(), 3);
-                    let degrees = style.fixed(found.phase.to_degrees(), 0);
-                    text = text + " " + &tr!(lab, relay.found_point, modulus = modulus, norm = norm, degrees = degrees);
-                    true
-                }
-                _ => true,
-            };
-        (good, text)
-    })
-}
-
-/// Amplitudes and gains of every experiment, and how far they are from the curve.
-fn table(session: Session) -> String {
-    let lab = session.lab;
-    let style = lab.number_style();
-    let number = |v: Option<f64>| v.map_or_else(|| "–".to_owned(), |v| style.significant(v, 4));
-    session.words.test.with(|outcome| {
-        let Ok(test) = outcome.as_ref() else { return String::new() };
-        let distances = if let Tested::Simultaneous(_, distances) = test { *distances } else { [None; 2] };
-        let unit = session.words.setup.with(|s| time_unit(&s.plant));
-        let names = [
-            tr!(lab, relay.col_loop).to_owned(),
-            tr!(lab, relay.col_period, unit = unit).to_string(),
-            "a".to_owned(),
-            tr!(lab, relay.col_peak).to_owned(),
-            tr!(lab, relay.col_harmonic).to_owned(),
-        ];
-        let second = session.words.setup.with(|s| s.test.kind == TestKind::Single && s.test.number == 2);
-        let (mut rows, mut rules) = (String::new(), String::new());
-        for (name, reading, settings) in readings(test) {
-            let Some(oscillation) = reading.oscillation else { continue };
-            for (k, of) in oscillation.loops.iter().enumerate().filter(|(_, of)| of.gain_by_peak.is_some()) {
-                let which = if second { 2 } else { k + 1 };
-                let label = if name.is_empty() { which.to_string() } else { name.clone() };
-                let is_second = label.ends_with('2');
-                let figures = [Some(oscillation.period), Some(of.amplitude), of.gain_by_peak, of.gain_by_harmonic];
-                let class = ["loop1", "loop2"][usize::from(is_second)];
-                rows += &html::row(class, &label, &figures.map(number));
-                if let Some(settings) = settings {
-                    let settings = [settings.gain, settings.integral_time, settings.derivative_time];
-                    rules += &html::row(class, &label, &settings.map(|v| number(Some(v).filter(|v| v.is_finite()))));
-                }
-            }
-        }
-        let percent = |distance: Option<CurveDistance>| {
-            distance.map_or_else(|| "–".to_owned(), |d| format!("{}\u{a0}%", style.fixed(100.0 * d.excess, 1)))
-        };
-        if distances.iter().any(Option::is_some) {
-            let name = element("th", "scope=\"row\" colspan=\"3\"", &escape(tr!(lab, relay.distance)));
-            rows += &element("tr", "", &(name + &cells(&distances.map(percent))));
-        }
-        if !rules.is_empty() {
-            let heads = [&names[0], "K", "Ti", "Td"].map(|head| element("th", "scope=\"col\"", &escape(head)));
-            rows += &(element("tr", "", &heads.concat()) + &rules);
-        }
-        html::table(tr!(lab, relay.test_caption), &names, &rows)
-    })
 }

@@ -1,43 +1,68 @@
 use leptos::prelude::*;
 
-use super::html::rich;
+use super::marked::marked;
 
 /// A card: its title with what stands beside it, and its content. Its class names it.
-pub fn card(name: &'static str, title: Signal<String>, beside: Vec<AnyView>, content: Vec<AnyView>) -> AnyView {
+#[component]
+pub fn Card(
+    /// Class of the card.
+    name: &'static str,
+    /// Its title.
+    #[prop(into)]
+    title: Signal<String>,
+    /// What stands beside the title.
+    #[prop(optional, into)]
+    beside: ViewFnOnce,
+    /// Its content.
+    children: Children,
+) -> impl IntoView {
     let heading = format!("{name}-title");
     let labelled_by = heading.clone();
     view! {
         <section class=format!("card {name}") aria-labelledby=labelled_by>
-            <header><h2 id=heading>{title}</h2>{beside}</header>
-            {content}
+            <header><h2 id=heading>{title}</h2>{beside.run()}</header>
+            {children()}
         </section>
     }
-    .into_any()
-}
-
-/// A grey remark beside a title.
-pub fn remark(text: Signal<String>) -> AnyView {
-    view! { <span class="remark">{text}</span> }.into_any()
 }
 
 /// A sentence under a picture.
-pub fn sentence(id: &'static str, text: Signal<String>) -> AnyView {
-    let html = Signal::derive(move || rich(&text.get()));
-    view! { <p class="sentence" data-testid=id inner_html=html></p> }.into_any()
-}
-
-/// What came out, as HTML, and whether it is a warning.
-pub fn verdict(id: String, warm: Signal<bool>, html: Signal<String>) -> AnyView {
-    let class = Signal::derive(move || if warm.get() { "verdict warm" } else { "verdict" }.to_owned());
-    view! { <div class=class role="status" data-testid=id inner_html=html></div> }.into_any()
-}
-
-/// A table that may be wider than its place.
-pub fn figures(name: &'static str, caption: Signal<String>, content: Signal<String>) -> AnyView {
+#[component]
+pub fn Sentence(
+    /// Name for tests.
+    id: &'static str,
+    /// The sentence, with markup.
+    #[prop(into)]
+    text: Signal<String>,
+    /// Whether it is a warning.
+    #[prop(optional, into)]
+    warm: Signal<bool>,
+    /// Whether screen readers tell its changes.
+    #[prop(optional)]
+    status: bool,
+) -> impl IntoView {
     view! {
-        <div class="scroll" tabindex="0" role="region" aria-label=caption>
-            <table class="plain" data-testid=name inner_html=content></table>
+        <p class=move || if warm.get() { "sentence warm" } else { "sentence" } role=status.then_some("status") data-testid=id>
+            {move || marked(&text.get())}
+        </p>
+    }
+}
+
+/// What came out, and whether it is a warning.
+#[component]
+pub fn Verdict(
+    /// Name for tests.
+    #[prop(into)]
+    id: String,
+    /// Whether it is a warning.
+    #[prop(into)]
+    warm: Signal<bool>,
+    /// What it says.
+    children: Children,
+) -> impl IntoView {
+    view! {
+        <div class=move || if warm.get() { "verdict warm" } else { "verdict" } role="status" data-testid=id>
+            {children()}
         </div>
     }
-    .into_any()
 }

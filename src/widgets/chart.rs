@@ -1,6 +1,5 @@
 use std::sync::Arc;
 
-use super::{effect, handler};
 use leptos::html::Canvas;
 use leptos::prelude::*;
 use web_sys::HtmlCanvasElement;
@@ -63,7 +62,7 @@ pub fn ChartCanvas(
     let moved = Trigger::new();
     let on_resize = window_event_listener(leptos::ev::resize, move |_| moved.notify());
     on_cleanup(move || on_resize.remove());
-    effect(move || {
+    Effect::new(move || {
         let size = size.get();
         moved.track();
         let ratio = window().device_pixel_ratio();
@@ -124,11 +123,11 @@ pub fn ChartMenu(
 ) -> impl IntoView {
     let lab = use_lab();
     let (for_csv, for_svg, for_png) = (picture.clone(), picture.clone(), picture);
-    let save_csv = move || {
+    let save_csv = move |_| {
         let text = untrack(|| (for_csv.csv)());
         download_text(&format!("{file}.csv"), "text/csv", &text);
     };
-    let save_svg = move || {
+    let save_svg = move |_| {
         let text = untrack(|| {
             let style = lab.chart_style();
             // A picture on a slide still leads to its experiment.
@@ -137,24 +136,19 @@ pub fn ChartMenu(
         });
         download_text(&format!("{file}.svg"), "image/svg+xml", &text);
     };
-    let save_png = move || {
+    let save_png = move |_| {
         let style = untrack(|| lab.chart_style());
         if let Some(canvas) = untrack(|| for_png.visit(|charts| off_screen(charts, &style))) {
             download_canvas(&format!("{file}.png"), &canvas);
         }
     };
-    // One closure for all kinds, so that their buttons are one view.
-    let button = |kind: &'static str, save: Box<dyn Fn()>| {
-        let id = format!("{file}-{}", kind.to_ascii_lowercase());
-        view! { <button type="button" data-testid=id on:click=handler(move |_| save())>{kind}</button> }.into_any()
-    };
     view! {
         <details class="menu small" data-testid=format!("{file}-menu")>
             <summary aria-label=Signal::derive(move || format!("{}: {}", tr!(lab, chart.export), title.get()))>"⤓"</summary>
             <div>
-                {button("CSV", Box::new(save_csv))}
-                {button("SVG", Box::new(save_svg))}
-                {button("PNG", Box::new(save_png))}
+                <button type="button" data-testid=format!("{file}-csv") on:click=save_csv>"CSV"</button>
+                <button type="button" data-testid=format!("{file}-svg") on:click=save_svg>"SVG"</button>
+                <button type="button" data-testid=format!("{file}-png") on:click=save_png>"PNG"</button>
             </div>
         </details>
     }

@@ -1,8 +1,6 @@
 use leptos::prelude::*;
 
-use super::Picture;
-use super::folded::folded;
-use super::html::{cells, element, escape, headings};
+use super::{Caption, Cells, Folded, Headings, Picture};
 use crate::format::NumberStyle;
 use crate::lab::use_lab;
 use crate::texts::{say, tr};
@@ -22,22 +20,22 @@ pub fn DataTable(
     id: &'static str,
 ) -> impl IntoView {
     let lab = use_lab();
-    folded(
-        id,
-        say!(lab, chart.table),
-        say!(lab, chart.table_caption),
-        Box::new(move || {
-            let caption = element("caption", "class=\"visually-hidden\"", &escape(tr!(lab, chart.table_caption)));
-            caption + &rows(&picture.visit(|charts| table(charts, ROWS)), lab.number_style())
-        }),
-    )
+    let content = move || {
+        view! {
+            <Caption text=tr!(lab, chart.table_caption) />
+            {rows(picture.visit(|charts| table(charts, ROWS)), lab.number_style())}
+        }
+    };
+    view! { <Folded id summary=say!(lab, chart.table) caption=say!(lab, chart.table_caption) content /> }
 }
 
-fn rows(table: &Table, style: NumberStyle) -> String {
-    let row = |values: &Vec<f64>| {
-        let texts: Vec<String> = values.iter().map(|&value| style.significant(value, DIGITS)).collect();
-        element("tr", "", &cells(&texts))
+fn rows(table: Table, style: NumberStyle) -> impl IntoView {
+    let row = |values: Vec<f64>| {
+        let texts = values.into_iter().map(|value| style.significant(value, DIGITS)).collect();
+        view! { <tr><Cells texts /></tr> }
     };
-    let rows: String = table.rows.iter().map(row).collect();
-    element("thead", "", &headings(&table.columns)) + &element("tbody", "", &rows)
+    view! {
+        <thead><Headings texts=table.columns /></thead>
+        <tbody>{table.rows.into_iter().map(row).collect_view()}</tbody>
+    }
 }

@@ -1,4 +1,3 @@
-use super::handler;
 use leptos::ev::KeyboardEvent;
 use leptos::prelude::*;
 
@@ -156,9 +155,9 @@ pub fn NumberField(
             aria-describedby=move || refused.get().then(|| format!("{id}-problem"))
             prop:value=move || typed.get().map_or_else(|| show(told.get()), |draft| draft.text)
             disabled=disabled
-            on:input=handler(on_input)
-            on:keydown=handler(on_key)
-            on:blur=handler(move |_| draft.set(None))
+            on:input=on_input
+            on:keydown=on_key
+            on:blur=move |_| draft.set(None)
         />
         {move || {
             problem()
@@ -253,7 +252,7 @@ pub fn SliderField(
                     step=move || range().2.to_string()
                     prop:value=move || position().to_string()
                     disabled=disabled
-                    on:input=handler(on_input)
+                    on:input=on_input
                 />
                 <NumberField id=id.1 name value on_change limits=limits.unwrap_or(travel) scale digits smallest disabled moved />
                 <span class="unit">{unit}</span>

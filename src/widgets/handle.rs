@@ -1,4 +1,3 @@
-use super::handler;
 use leptos::ev::{KeyboardEvent, PointerEvent, TouchEvent};
 use leptos::prelude::*;
 use leptos::wasm_bindgen::JsCast;
@@ -87,8 +86,8 @@ pub fn Handle(
     /// Where it stands in the drawing.
     #[prop(into)]
     at: Signal<(f64, f64)>,
-    /// What is seen of it, about the origin, as SVG.
-    look: &'static str,
+    /// What is seen of it, about the origin.
+    children: Children,
 ) -> impl IntoView {
     let lab = use_lab();
     let (value, limits, spoken) = (lab.told(value), lab.told(limits), lab.told(spoken));
@@ -141,15 +140,15 @@ pub fn Handle(
             aria-valuenow=move || value.get().to_string()
             aria-valuetext=spoken
             aria-disabled=locked.then_some("true")
-            on:pointerdown=handler(on_down)
-            on:pointermove=handler(on_move)
+            on:pointerdown=on_down
+            on:pointermove=on_move
             // A finger on the handle drags it; anywhere else on the drawing it scrolls the page.
-            on:touchstart=handler(|event: TouchEvent| event.prevent_default())
-            on:pointerup=handler(release)
-            on:pointercancel=handler(release)
-            on:keydown=handler(on_key)
-            inner_html=look
+            on:touchstart=|event: TouchEvent| event.prevent_default()
+            on:pointerup=release
+            on:pointercancel=release
+            on:keydown=on_key
         >
+            {children()}
         </g>
     }
 }

@@ -1,8 +1,6 @@
 use gloo_timers::callback::Interval;
 use leptos::prelude::*;
 
-use super::handler;
-use super::html::option;
 use crate::lab::use_lab;
 use crate::texts::{say, tr};
 
@@ -59,10 +57,10 @@ pub fn Player(
         format!("{sign} {name}")
     });
     on_cleanup(move || timer.dispose());
-    let speeds: String = speeds
+    let speeds = speeds
         .iter()
-        .map(|&choice| option(&choice.to_string(), &format!("{choice}×"), choice == usual_speed))
-        .collect();
+        .map(|&choice| view! { <option value=choice.to_string() selected=choice == usual_speed>{choice}"×"</option> })
+        .collect_view();
     view! {
         <div class="toolbar play">
             <button
@@ -71,16 +69,17 @@ pub fn Player(
                 data-testid=ids.0
                 aria-pressed=move || playing.get().to_string()
                 title=say!(lab, experiment.play_name)
-                on:click=handler(move |_| if playing.get_untracked() { stop() } else { start() })
+                on:click=move |_| if playing.get_untracked() { stop() } else { start() }
             >
                 {text}
             </button>
             <select
                 data-testid=ids.1
                 aria-label=say!(lab, experiment.speed)
-                on:change=handler(move |event| if let Ok(choice) = event_target_value(&event).parse() { speed.set(choice) })
-                inner_html=speeds
-            ></select>
+                on:change=move |event| if let Ok(choice) = event_target_value(&event).parse() { speed.set(choice) }
+            >
+                {speeds}
+            </select>
         </div>
     }
 }

@@ -54,7 +54,9 @@ pub fn PointHandle(
             on_drag=move |drag: Drag| on_move.run(untrack(|| first_frame(frames)).to_data(drag.at))
             on_nudge
             at=Signal::derive(move || first_frame(frames).to_px(at.get()))
-            look="<circle class=\"halo\" r=\"17\"/><circle class=\"dot\" r=\"8.5\"/>"
-        />
+        >
+            <circle class="halo" r="17" />
+            <circle class="dot" r="8.5" />
+        </Handle>
     }
 }

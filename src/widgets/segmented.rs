@@ -1,4 +1,3 @@
-use super::handler;
 use leptos::prelude::*;
 
 /// A choice of one among few, as a row of buttons.
@@ -31,13 +30,12 @@ where
                     data-testid=name
                     aria-pressed=move || (value.get() == choice).to_string()
                     disabled=disabled
-                    on:click=handler(move |_| on_choose.run(choice))
+                    on:click=move |_| on_choose.run(choice)
                 >
                     {text}
                 </button>
             }
-            .into_any()
         })
-        .collect::<Vec<_>>();
+        .collect_view();
     view! { <div class="segmented" role="group" aria-label=label title=label>{buttons}</div> }
 }

@@ -1,15 +1,22 @@
 use leptos::prelude::*;
 
-use super::handler;
-
 /// A box to tick.
-pub fn tick(
+#[component]
+pub fn Tick(
+    /// Name for tests.
     id: &'static str,
+    /// What it switches.
+    #[prop(into)]
     text: Signal<String>,
+    /// Whether it is ticked.
+    #[prop(into)]
     ticked: Signal<bool>,
+    /// Whether it is locked.
     disabled: bool,
-    on_tick: impl Fn(bool) + 'static,
-) -> AnyView {
+    /// Called when it is ticked or not any more.
+    #[prop(into)]
+    on_tick: Callback<bool>,
+) -> impl IntoView {
     view! {
         <label class="check">
             <input
@@ -17,10 +24,9 @@ pub fn tick(
                 data-testid=id
                 prop:checked=ticked
                 disabled=disabled
-                on:change=handler(move |event| on_tick(event_target_checked(&event)))
+                on:change=move |event| on_tick.run(event_target_checked(&event))
             />
             {text}
         </label>
     }
-    .into_any()
 }

@@ -1,12 +1,11 @@
 //! What lies over charts that share a time axis: the cursor with its values, and whatever mouse, finger and keyboard do to
 //! them.
 
-use super::handler;
 use leptos::ev::{KeyboardEvent, PointerEvent, WheelEvent};
 use leptos::prelude::*;
 use leptos::wasm_bindgen::JsCast;
 
-use super::html::element;
+use super::readout::{BesideCursor, Readout};
 use crate::lab::use_lab;
 use crate::texts::say;
 use quadtank_figure::Frame;
@@ -115,9 +114,9 @@ pub fn TimeSurface(
     /// The values at the cursor in words; empty where there is none.
     #[prop(into)]
     spoken: Signal<String>,
-    /// The same in HTML, for the box beside the cursor.
+    /// The same for the box beside the cursor.
     #[prop(into)]
-    readout: Signal<String>,
+    readout: Signal<Option<Readout>>,
     /// Name for tests.
     id: &'static str,
 ) -> impl IntoView {
@@ -151,11 +150,6 @@ pub fn TimeSurface(
             axis.set_cursor(None);
         }
     };
-    let drawing = Signal::derive(move || {
-        let band = drag.get().and_then(|drag| frames.with(|frames| band(frames, drag)));
-        let line = axis.cursor.get().and_then(|time| frames.with(|frames| line(frames, time)));
-        band.unwrap_or_default() + &line.unwrap_or_default()
-    });
     view! {
         <svg
             class="over surface"
@@ -167,37 +161,19 @@ pub fn TimeSurface(
             aria-valuemax=move || axis.whole.get().1.to_string()
             aria-valuenow=move || axis.shown_cursor().to_string()
             aria-valuetext=move || Some(spoken.get()).filter(|text| !text.is_empty())
-            on:pointerdown=handler(on_down)
-            on:pointermove=handler(on_move)
-            on:pointerup=handler(on_up)
-            on:pointercancel=handler(move |_| drag.set(None))
-            on:pointerleave=handler(on_leave)
-            on:wheel=handler(move |event| axis.on_wheel(&event))
-            on:keydown=handler(move |event| axis.on_key(&event))
-            inner_html=drawing
-        ></svg>
-        <Readout axis frames readout />
+            on:pointerdown=on_down
+            on:pointermove=on_move
+            on:pointerup=on_up
+            on:pointercancel=move |_| drag.set(None)
+            on:pointerleave=on_leave
+            on:wheel=move |event| axis.on_wheel(&event)
+            on:keydown=move |event| axis.on_key(&event)
+        >
+            {move || drag.get().and_then(|drag| frames.with(|frames| band(frames, drag)))}
+            {move || axis.cursor.get().and_then(|time| frames.with(|frames| line(frames, time)))}
+        </svg>
+        <BesideCursor axis frames readout />
     }
-}
-
-/// The values at the cursor, beside it on whichever side has room.
-#[component]
-fn Readout(axis: TimeAxis, frames: RwSignal<Vec<Frame>>, readout: Signal<String>) -> impl IntoView {
-    let content = Signal::derive(move || match readout.get() {
-        rows if rows.is_empty() => rows,
-        rows => element("div", "class=\"readout\" data-testid=\"readout\" aria-hidden=\"true\"", &rows),
-    });
-    let inset = Signal::derive(move || {
-        let frame = frames.with(|f| f.first().copied());
-        let (Some(frame), Some(time)) = (frame, axis.cursor.get()) else { return String::new() };
-        let share = 100.0 * (frame.x_px(time) - frame.outer.left) / frame.outer.width;
-        if share < 50.0 {
-            format!("4px auto auto {:.1}%", share + 1.5)
-        } else {
-            format!("4px {:.1}% auto auto", 101.5 - share)
-        }
-    });
-    view! { <div class="beside-cursor" style:inset=inset inner_html=content></div> }
 }
 
 /// The buttons that show less, more, or all of the time.
@@ -211,9 +187,9 @@ pub fn ZoomButtons(
     let lab = use_lab();
     let [zoom_in, zoom_out, whole] = ids;
     view! {
-        <button type="button" class="button small" data-testid=zoom_in aria-label=say!(lab, chart.zoom_in) on:click=handler(move |_| axis.zoom(ZOOM))>"+"</button>
-        <button type="button" class="button small" data-testid=zoom_out aria-label=say!(lab, chart.zoom_out) on:click=handler(move |_| axis.zoom(1.0 / ZOOM))>"−"</button>
-        <button type="button" class="button small" data-testid=whole on:click=handler(move |_| axis.on_show.run(None))>{say!(lab, chart.zoom_reset)}</button>
+        <button type="button" class="button small" data-testid=zoom_in aria-label=say!(lab, chart.zoom_in) on:click=move |_| axis.zoom(ZOOM)>"+"</button>
+        <button type="button" class="button small" data-testid=zoom_out aria-label=say!(lab, chart.zoom_out) on:click=move |_| axis.zoom(1.0 / ZOOM)>"−"</button>
+        <button type="button" class="button small" data-testid=whole on:click=move |_| axis.on_show.run(None)>{say!(lab, chart.zoom_reset)}</button>
     }
 }
 
@@ -233,18 +209,13 @@ fn edges(frames: &[Frame]) -> Option<(f64, f64)> {
     Some((frames.first()?.plot.top, frames.last()?.plot.bottom()))
 }
 
-fn line(frames: &[Frame], time: f64) -> Option<String> {
+fn line(frames: &[Frame], time: f64) -> Option<impl IntoView + use<>> {
     let (plot, (top, bottom)) = (frames.first()?.plot, edges(frames)?);
     let x = frames.first()?.x_px(time);
-    (plot.left..=plot.right())
-        .contains(&x)
-        .then(|| format!("<line class=\"cursor-line\" x1=\"{x}\" x2=\"{x}\" y1=\"{top}\" y2=\"{bottom}\"/>"))
+    (plot.left..=plot.right()).contains(&x).then(|| view! { <line class="cursor-line" x1=x x2=x y1=top y2=bottom /> })
 }
 
-fn band(frames: &[Frame], (from, to): Stretch) -> Option<String> {
+fn band(frames: &[Frame], (from, to): Stretch) -> Option<impl IntoView + use<>> {
     let ((top, bottom), left, width) = (edges(frames)?, from.min(to), (to - from).abs());
-    (width > DRAG_PX).then(|| {
-        let height = bottom - top;
-        format!("<rect class=\"zoom-band\" x=\"{left}\" width=\"{width}\" y=\"{top}\" height=\"{height}\"/>")
-    })
+    (width > DRAG_PX).then(|| view! { <rect class="zoom-band" x=left width=width y=top height=bottom - top /> })
 }

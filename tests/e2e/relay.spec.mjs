@@ -177,7 +177,7 @@ test('the point that a test found goes on to the placement, and the case says th
   await choose(lab, 'case', 'table-12-row-2');
   const chosen = lab.id('case').locator('option:checked');
   await expect(chosen).toHaveText('Table 12 · point 2');
-  const found = await lab.id('test-figures').locator('tbody tr').evaluateAll((rows) => rows.map((row) => row.lastChild.textContent));
+  const found = await lab.id('test-figures').locator('tbody tr').evaluateAll((rows) => rows.map((row) => row.lastElementChild.textContent));
   await lab.id('test-take').click();
   await lab.settle();
   const taken = await lab.id('critical-point').locator('tbody tr').evaluateAll((rows) => rows.map((row) => row.cells[1].textContent));
