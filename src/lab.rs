@@ -190,14 +190,6 @@ impl Lab {
     where
         T: PartialEq + Send + Sync + 'static,
     {
-        self.boxed_part(Box::new(read))
-    }
-
-    /// Compiled once for each kind of part rather than for each part.
-    fn boxed_part<T>(self, read: Box<dyn Fn(&Setup) -> T + Send + Sync>) -> Signal<T>
-    where
-        T: PartialEq + Send + Sync + 'static,
-    {
         let scenario = self.scenario;
         Memo::new(move |_| scenario.with(|s| read(&s.setup))).into()
     }
@@ -225,7 +217,7 @@ impl Lab {
         let theory = (!same_theory(&before, &after.setup)).then(|| Arc::new(quadtank_scenario::analyse(&after.setup)));
         let run = (*before != after.setup).then(|| {
             // A run may take megabytes: the last one goes before the next is made. Words may still hold the one they tell.
-            self.charts.run.set_untracked(self.words.run.get_untracked());
+            *self.charts.run.write_untracked() = self.words.run.get_untracked();
             Arc::new(quadtank_scenario::run(&after.setup))
         });
         let pinned = self.pinned.with_value(|pinned| *pinned != after.pinned).then(|| run_all(&after.pinned));

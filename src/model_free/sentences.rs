@@ -1,5 +1,7 @@
 //! What the bench says of a run, in the language of the reader. What is said is decided by the core.
 
+use leptos::prelude::*;
+
 use super::session::Session;
 use crate::errors::{of_error, of_plant_error};
 use crate::shown::{to_metres, to_shown};
@@ -33,52 +35,52 @@ pub fn of_run(session: Session) -> (bool, String) {
         Err(error) => {
             let reason = of_error(lab, DisplayUnit::Cm, error);
             let begins = matches!(error, ScenarioError::TooMuchWork { .. });
-            return (false, if begins { reason } else { tr!(lab, free.no_run, reason = reason).to_string() });
+            return (false, if begins { reason } else { tr!(lab, free.no_run, reason = reason) });
         }
     };
     let end = |by: HoldingEnds, ends_s: f64| match by {
         HoldingEnds::Overflow { tank, .. } => {
-            tr!(lab, free.end_overflow, tank = tank + 1, time = seconds(ends_s)).to_string()
+            tr!(lab, free.end_overflow, tank = tank + 1, time = seconds(ends_s))
         }
-        HoldingEnds::Pump { pump, .. } => tr!(lab, free.end_pump, pump = pump + 1, time = seconds(ends_s)).to_string(),
+        HoldingEnds::Pump { pump, .. } => tr!(lab, free.end_pump, pump = pump + 1, time = seconds(ends_s)),
     };
     let cause = |by: LossBy| match by {
         LossBy::Overflow { tank, time_s } => {
-            tr!(lab, free.by_overflow, tank = tank + 1, time = seconds(time_s)).to_string()
+            tr!(lab, free.by_overflow, tank = tank + 1, time = seconds(time_s))
         }
-        LossBy::Pump(pump) => tr!(lab, free.by_pump, pump = pump + 1).to_string(),
+        LossBy::Pump(pump) => tr!(lab, free.by_pump, pump = pump + 1),
         LossBy::Other => String::new(),
     };
     let verdict = session.words.analysis.with(|analysis| ModelFreeVerdict::of(&setup, answer, analysis));
     let text = match verdict {
         ModelFreeVerdict::Lost { level, at_s, by, foretold } => {
-            let lost = tr!(lab, free.is_lost, level = level + 1, time = seconds(at_s)).to_string();
-            let foretold = foretold.map(|(by, ends_s)| tr!(lab, free.foretold, end = end(by, ends_s)).to_string());
+            let lost = tr!(lab, free.is_lost, level = level + 1, time = seconds(at_s));
+            let foretold = foretold.map(|(by, ends_s)| tr!(lab, free.foretold, end = end(by, ends_s)));
             lost + &cause(by) + &foretold.unwrap_or_default()
         }
         ModelFreeVerdict::Leaving { ends_s, by, e_folding_s } => {
-            let pace = e_folding_s.map(|time| tr!(lab, free.e_folding, time = seconds(time)).to_string());
+            let pace = e_folding_s.map(|time| tr!(lab, free.e_folding, time = seconds(time)));
             let (leaving, goes_on) = (tr!(lab, free.is_leaving), tr!(lab, free.goes_on));
             format!("{leaving}{}: {}{goes_on}", pace.unwrap_or_default(), end(by, ends_s))
         }
         ModelFreeVerdict::Rippling { error: [one, two], apart: None } => {
-            tr!(lab, free.is_rippling, one = cm(one), two = cm(two)).to_string()
+            tr!(lab, free.is_rippling, one = cm(one), two = cm(two))
         }
         ModelFreeVerdict::Rippling { error: [one, two], apart: Some(apart) } => {
-            tr!(lab, free.is_drifting, one = cm(one), two = cm(two), apart = cm(apart)).to_string()
+            tr!(lab, free.is_drifting, one = cm(one), two = cm(two), apart = cm(apart))
         }
         ModelFreeVerdict::Settled([Some(one), Some(two)]) => {
-            tr!(lab, free.is_settled, one = seconds(one), two = seconds(two)).to_string()
+            tr!(lab, free.is_settled, one = seconds(one), two = seconds(two))
         }
         ModelFreeVerdict::Settled([one, two]) => match one.or(two) {
             Some(time) => {
                 let level = if one.is_some() { 1 } else { 2 };
-                tr!(lab, free.one_settled, level = level, time = seconds(time)).to_string()
+                tr!(lab, free.one_settled, level = level, time = seconds(time))
             }
-            None => tr!(lab, free.still).to_string(),
+            None => tr!(lab, free.still).to_owned(),
         },
         ModelFreeVerdict::Unsettled { error: [one, two], by } => {
-            tr!(lab, free.is_unsettled, one = cm(one), two = cm(two)).to_string() + &cause(by)
+            tr!(lab, free.is_unsettled, one = cm(one), two = cm(two)) + &cause(by)
         }
     };
     (matches!(verdict, ModelFreeVerdict::Settled(_) | ModelFreeVerdict::Rippling { apart: None, .. }), text)
@@ -95,7 +97,7 @@ pub fn of_comparison(session: Session) -> String {
     };
     let settings = &pi.loops[0];
     let (gain, time) = (number(settings.gain), number(settings.integral_time_s));
-    tr!(lab, free.pi_settings, pairing = pairing, gain = gain, time = time).to_string()
+    tr!(lab, free.pi_settings, pairing = pairing, gain = gain, time = time)
 }
 
 /// Zero, relative gain and Niederlinski index of the shown moment.
@@ -107,8 +109,8 @@ pub fn of_moment(session: Session) -> String {
     let theory = &shown.theory;
     let [diagonal, swapped] = theory.niederlinski.map(number);
     let zero = match theory.rightmost_zero() {
-        Some(zero) if zero > 0.0 => tr!(lab, free.zero_right, zero = style.significant(zero, 3)).to_string(),
-        Some(zero) if zero < 0.0 => tr!(lab, free.zero_left, zero = style.significant(zero, 3)).to_string(),
+        Some(zero) if zero > 0.0 => tr!(lab, free.zero_right, zero = style.significant(zero, 3)),
+        Some(zero) if zero < 0.0 => tr!(lab, free.zero_left, zero = style.significant(zero, 3)),
         Some(_) => tr!(lab, free.zero_origin).to_owned(),
         None => tr!(lab, free.no_zero).to_owned(),
     };
@@ -122,7 +124,6 @@ pub fn of_moment(session: Session) -> String {
         diagonal = diagonal,
         swapped = swapped
     )
-    .to_string()
 }
 
 /// What linear theory says of the loop at its last references.
@@ -130,14 +131,14 @@ pub fn of_loop(session: Session) -> (bool, String) {
     let lab = session.lab;
     let style = lab.number_style();
     if session.words.setup.with(|s| s.valves.iter().any(|valve| !valve.is_constant())) {
-        return (true, tr!(lab, free.loop_moves).to_string());
+        return (true, tr!(lab, free.loop_moves).to_owned());
     }
     let looks_good =
         session.words.with_answer(|answer| answer.figures.iter().all(TrackingFigures::looks_settled)) == Some(true);
     session.words.analysis.with(|analysis| {
         if let Err(error) = &analysis.rest {
             let reason = of_plant_error(lab, DisplayUnit::Cm, error);
-            return (false, tr!(lab, free.not_held, reason = reason).to_string());
+            return (false, tr!(lab, free.not_held, reason = reason));
         }
         let Some(Ok(poles)) = &analysis.poles else { return (true, String::new()) };
         let first = poles.poles_s.first();
@@ -149,13 +150,13 @@ pub fn of_loop(session: Session) -> (bool, String) {
                     _ if looks_good => tr!(lab, free.however_good),
                     _ => "",
                 };
-                (false, tr!(lab, free.loop_unstable, pole = slowest, how = how).to_string())
+                (false, tr!(lab, free.loop_unstable, pole = slowest, how = how))
             }
-            Stability::Marginal => (false, tr!(lab, free.loop_marginal).to_string()),
+            Stability::Marginal => (false, tr!(lab, free.loop_marginal).to_owned()),
             Stability::Stable => {
                 let smallest = analysis.smallest_model_gain.map(|gain| style.significant(in_cm(gain), 3));
                 let smallest = smallest.unwrap_or_else(|| "–".to_owned());
-                (true, tr!(lab, free.loop_stable, pole = slowest, smallest = smallest).to_string())
+                (true, tr!(lab, free.loop_stable, pole = slowest, smallest = smallest))
             }
         }
     })

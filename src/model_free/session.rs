@@ -8,7 +8,7 @@ use leptos::prelude::*;
 use super::moment::Shown;
 use crate::controls::Document;
 use crate::lab::{Lab, use_lab};
-use crate::results::{Computed, Held};
+use crate::results::{Outcome, catch_up, shared};
 use quadtank_scenario::model_free::{
     ModelFreeAnalysis, ModelFreeAnswer, ModelFreeScenario, ModelFreeSetup, analyse_model_free, run_model_free,
 };
@@ -17,34 +17,30 @@ use quadtank_scenario::model_free::{
 #[derive(Clone, Copy)]
 pub struct Found {
     /// The setup that the results are of.
-    pub setup: Held<ModelFreeSetup>,
+    pub setup: RwSignal<Arc<ModelFreeSetup>>,
     /// The run with its figures.
-    pub answer: Held<Computed<ModelFreeAnswer>>,
+    pub answer: RwSignal<Outcome<ModelFreeAnswer>>,
     /// What theory says.
-    pub analysis: Held<ModelFreeAnalysis>,
+    pub analysis: RwSignal<Arc<ModelFreeAnalysis>>,
 }
 
 impl Found {
     fn of(setup: &ModelFreeSetup) -> Self {
         Self {
-            answer: Held::new(Arc::new(run_model_free(setup))),
-            analysis: Held::new(Arc::new(analyse_model_free(setup))),
-            setup: Held::new(Arc::new(setup.clone())),
+            answer: RwSignal::new(Arc::new(run_model_free(setup))),
+            analysis: RwSignal::new(Arc::new(analyse_model_free(setup))),
+            setup: RwSignal::new(Arc::new(setup.clone())),
         }
     }
 
     fn shared(self) -> Self {
-        Self {
-            setup: Held::new(self.setup.get_untracked()),
-            answer: Held::new(self.answer.get_untracked()),
-            analysis: Held::new(self.analysis.get_untracked()),
-        }
+        Self { setup: shared(self.setup), answer: shared(self.answer), analysis: shared(self.analysis) }
     }
 
     fn follow(self, other: Self) {
-        self.setup.follow(other.setup);
-        self.answer.follow(other.answer);
-        self.analysis.follow(other.analysis);
+        catch_up(self.setup, other.setup);
+        catch_up(self.answer, other.answer);
+        catch_up(self.analysis, other.analysis);
     }
 
     /// What `read` makes of the run, if there is one.

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use leptos::prelude::*;
 
 use crate::lab::{Lab, use_lab};
-use crate::results::Held;
+use crate::results::{catch_up, shared};
 use crate::start::Control;
 use quadtank::tuning::{PublishedPlant, TuningError};
 use quadtank_scenario::tuning::{Designed, PublishedCase, Study, Tested, TuningPlant, TuningScenario, TuningSetup};
@@ -20,15 +20,15 @@ type Computed<T> = Result<T, TuningError>;
 #[derive(Clone, Copy)]
 pub struct Found {
     /// The setup that the results are of.
-    pub setup: Held<TuningSetup>,
+    pub setup: RwSignal<Arc<TuningSetup>>,
     /// What follows from the plant.
-    pub study: Held<Computed<Study>>,
+    pub study: RwSignal<Outcome<Study>>,
     /// The relay test.
-    pub test: Held<Computed<Tested>>,
+    pub test: RwSignal<Outcome<Tested>>,
     /// The placement with its response.
-    pub design: Held<Computed<Option<Designed>>>,
+    pub design: RwSignal<Outcome<Option<Designed>>>,
     /// The pinned sessions, in the order of the document.
-    pub pinned: Held<Vec<Outcome<Option<Designed>>>>,
+    pub pinned: RwSignal<Arc<Vec<Outcome<Option<Designed>>>>>,
 }
 
 impl Found {
@@ -37,32 +37,32 @@ impl Found {
         let setup = &scenario.tuning;
         let study = Arc::new(Study::of(&setup.plant));
         Self {
-            test: Held::new(tested(&study, setup)),
-            design: Held::new(designed(&study, setup)),
-            study: Held::new(study),
-            setup: Held::new(Arc::new(setup.clone())),
-            pinned: Held::new(design_all(&scenario.pinned)),
+            test: RwSignal::new(tested(&study, setup)),
+            design: RwSignal::new(designed(&study, setup)),
+            study: RwSignal::new(study),
+            setup: RwSignal::new(Arc::new(setup.clone())),
+            pinned: RwSignal::new(design_all(&scenario.pinned)),
         }
     }
 
     /// Signals of their own that hold the same results.
     fn shared(self) -> Self {
         Self {
-            setup: Held::new(self.setup.get_untracked()),
-            study: Held::new(self.study.get_untracked()),
-            test: Held::new(self.test.get_untracked()),
-            design: Held::new(self.design.get_untracked()),
-            pinned: Held::new(self.pinned.get_untracked()),
+            setup: shared(self.setup),
+            study: shared(self.study),
+            test: shared(self.test),
+            design: shared(self.design),
+            pinned: shared(self.pinned),
         }
     }
 
     /// Takes over what is newer in `other`.
     fn follow(self, other: Self) {
-        self.setup.follow(other.setup);
-        self.study.follow(other.study);
-        self.test.follow(other.test);
-        self.design.follow(other.design);
-        self.pinned.follow(other.pinned);
+        catch_up(self.setup, other.setup);
+        catch_up(self.study, other.study);
+        catch_up(self.test, other.test);
+        catch_up(self.design, other.design);
+        catch_up(self.pinned, other.pinned);
     }
 
     /// What `read` makes of the design, if there is one.
@@ -176,7 +176,7 @@ impl Session {
     }
 }
 
-fn set_if_some<T: Send + Sync + 'static>(signal: Held<T>, value: Option<Arc<T>>) {
+fn set_if_some<T: Send + Sync + 'static>(signal: RwSignal<Arc<T>>, value: Option<Arc<T>>) {
     if let Some(value) = value {
         signal.set(value);
     }
