@@ -58,17 +58,10 @@ impl NumberStyle {
     }
 }
 
-/// Reads a number without sign. In the browser by the browser: the parser of the standard library has a table of 10 KB.
+/// Reads a number without sign. Unlike [`str::parse`] it takes digits only, neither `inf` nor a second sign.
 fn magnitude_of(text: &str) -> Option<f64> {
-    let plain = |c: char| c.is_ascii_digit() || matches!(c, '.' | 'e' | 'E' | '+' | '-');
-    if !text.starts_with(|c: char| c.is_ascii_digit() || c == '.') || !text.chars().all(plain) {
-        return None;
-    }
-    #[cfg(target_arch = "wasm32")]
-    let value = leptos::wasm_bindgen::JsValue::from_str(text).unchecked_into_f64();
-    #[cfg(not(target_arch = "wasm32"))]
-    let value: f64 = text.parse().ok()?;
-    Some(value).filter(|value| value.is_finite())
+    let starts = text.starts_with(|c: char| c.is_ascii_digit() || c == '.');
+    text.parse().ok().filter(|value: &f64| starts && value.is_finite())
 }
 
 #[cfg(test)]
