@@ -13,7 +13,7 @@ pub fn of_error(lab: Lab, unit: DisplayUnit, error: &ScenarioError) -> String {
     let number = |v: f64| lab.number_style().significant(v, 4);
     match error {
         ScenarioError::Malformed { path, reason } => {
-            tr!(lab, refused.malformed, path = path.clone(), reason = reason.clone()).to_string()
+            tr!(lab, refused.malformed, path = path.clone(), reason = reason.clone())
         }
         ScenarioError::DecimalComma { path, number, line, column } => tr!(
             lab,
@@ -22,20 +22,19 @@ pub fn of_error(lab: Lab, unit: DisplayUnit, error: &ScenarioError) -> String {
             number = number.clone(),
             line = *line,
             column = *column
-        )
-        .to_string(),
+        ),
         ScenarioError::NotText => tr!(lab, refused.not_text).to_owned(),
         ScenarioError::OutOfRange { field, value, min, max } => out_of_range(lab, field, *value, *min, *max),
         ScenarioError::TooMany { field, count, max } => {
-            tr!(lab, refused.many, field = field.clone(), count = *count, max = *max).to_string()
+            tr!(lab, refused.many, field = field.clone(), count = *count, max = *max)
         }
         ScenarioError::UnknownVersion { found, newest } => {
-            tr!(lab, refused.version, found = *found, newest = *newest).to_string()
+            tr!(lab, refused.version, found = *found, newest = *newest)
         }
-        ScenarioError::TooLong { length, max } => tr!(lab, refused.long, length = *length, max = *max).to_string(),
-        ScenarioError::DamagedLink => tr!(lab, refused.damaged).to_string(),
+        ScenarioError::TooLong { length, max } => tr!(lab, refused.long, length = *length, max = *max),
+        ScenarioError::DamagedLink => tr!(lab, refused.damaged).to_owned(),
         ScenarioError::TooMuchWork { time_s, .. } => {
-            tr!(lab, refused.too_much_work, time = lab.number_style().significant(*time_s, 3)).to_string()
+            tr!(lab, refused.too_much_work, time = lab.number_style().significant(*time_s, 3))
         }
         ScenarioError::Plant(error) | ScenarioError::Start(error) => of_plant_error(lab, unit, error),
         ScenarioError::Law { field, error } => match *error {
@@ -48,12 +47,11 @@ pub fn of_error(lab: Lab, unit: DisplayUnit, error: &ScenarioError) -> String {
                 window = number(window_s),
                 sampling = number(sampling_time_s),
                 most = MAX_WINDOW_SAMPLES
-            )
-            .to_string(),
+            ),
             EstimatorError::ModelGain { .. } => format!("{field}: {error}"),
         },
         ScenarioError::Element { field, fault } => {
-            tr!(lab, refused.element, field = field.clone(), reason = of_fault(lab, *fault)).to_string()
+            tr!(lab, refused.element, field = field.clone(), reason = of_fault(lab, *fault))
         }
         ScenarioError::Linear(error) => error.to_string(),
     }
@@ -67,7 +65,7 @@ fn of_fault(lab: Lab, fault: ElementFault) -> String {
         ElementFault::Improper { .. } => tr!(lab, refused.improper).to_owned(),
         ElementFault::Integrating => tr!(lab, refused.integrating).to_owned(),
         ElementFault::Unstable { real_part } => {
-            tr!(lab, refused.unstable, real = lab.number_style().significant(real_part, 3)).to_string()
+            tr!(lab, refused.unstable, real = lab.number_style().significant(real_part, 3))
         }
     }
 }
@@ -77,7 +75,7 @@ pub fn of_plant_error(lab: Lab, unit: DisplayUnit, error: &PlantError) -> String
     let style = lab.number_style();
     let length = |m: f64| style.fixed(to_shown(m, unit), length_digits(unit) - 1);
     match *error {
-        PlantError::SingularPlant { .. } => tr!(lab, process.no_equilibrium).to_string(),
+        PlantError::SingularPlant { .. } => tr!(lab, process.no_equilibrium).to_owned(),
         PlantError::LevelOutOfRange { tank, value, max } => tr!(
             lab,
             process.too_high,
@@ -85,8 +83,7 @@ pub fn of_plant_error(lab: Lab, unit: DisplayUnit, error: &PlantError) -> String
             level = length(value),
             height = length(max),
             unit = unit_name(unit)
-        )
-        .to_string(),
+        ),
         PlantError::VoltageOutOfRange { pump, value, min, max } => tr!(
             lab,
             process.voltage_limit,
@@ -94,13 +91,12 @@ pub fn of_plant_error(lab: Lab, unit: DisplayUnit, error: &PlantError) -> String
             voltage = style.fixed(value, 2),
             min = style.fixed(min, 1),
             max = style.fixed(max, 1)
-        )
-        .to_string(),
+        ),
         PlantError::OutOfRange { field, value, min, max } => out_of_range(lab, field, value, min, max),
     }
 }
 
 fn out_of_range(lab: Lab, field: &str, value: f64, min: f64, max: f64) -> String {
     let number = |v: f64| lab.number_style().significant(v, 4);
-    tr!(lab, refused.range, field = field, value = number(value), min = number(min), max = number(max)).to_string()
+    tr!(lab, refused.range, field = field, value = number(value), min = number(min), max = number(max))
 }

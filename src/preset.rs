@@ -23,7 +23,7 @@ pub fn name_of(lab: Lab, id: PresetId) -> String {
 }
 
 fn changed(lab: Lab, id: PresetId) -> String {
-    tr!(lab, preset.changed, name = name_of(lab, id)).to_string()
+    tr!(lab, preset.changed, name = name_of(lab, id))
 }
 
 /// What to know about a rig.

@@ -72,8 +72,8 @@ pub fn Laboratory() -> impl IntoView {
             }}
             <Stopped />
             <Notices />
-            {Vec::from(Bench::ALL.map(|bench| view! { <KeptBench bench /> }.into_any()))}
-            {embed.then(|| view! { <EmbedFooter /> }.into_any())}
+            {Bench::ALL.map(|bench| view! { <KeptBench bench /> })}
+            {embed.then(|| view! { <EmbedFooter /> })}
         </div>
     }
 }
@@ -96,7 +96,7 @@ fn KeptBench(bench: Bench) -> impl IntoView {
             Bench::ModelFree => view! { <ModelFreeBench /> }.into_any(),
         })
     };
-    view! { <div hidden=Signal::derive(move || lab.bench.get() != bench)>{content}</div> }
+    view! { <div hidden=move || lab.bench.get() != bench>{content}</div> }
 }
 
 /// Closes the menus that are open, but for the one that was pressed.
@@ -150,7 +150,7 @@ fn Header() -> impl IntoView {
     view! {
         <header class="top">
             <h1>{say!(lab, app.title)}</h1>
-            <nav aria-label=say!(lab, app.benches)>{Vec::from(Bench::ALL.map(|bench| view! { <BenchLink bench /> }.into_any()))}</nav>
+            <nav aria-label=say!(lab, app.benches)>{Bench::ALL.map(|bench| view! { <BenchLink bench /> })}</nav>
             <span class="spacer"></span>
             <button type="button" class="button" data-testid="share" on:click=move |_| share::share(lab)>
                 {say!(lab, app.share)}
@@ -217,7 +217,7 @@ fn FileMenu() -> impl IntoView {
                 <button type="button" data-testid="open" on:click=move |_| if let Some(input) = picker.get_untracked() { input.click() }>
                     {say!(lab, app.open_scenario)}
                 </button>
-                {(!single).then(|| view! { <a href="quadtank.html" download="quadtank.html" data-testid="single-file">{say!(lab, app.single_file)}</a> }.into_any())}
+                {(!single).then(|| view! { <a href="quadtank.html" download="quadtank.html" data-testid="single-file">{say!(lab, app.single_file)}</a> })}
             </div>
             <input type="file" accept=".json,application/json" hidden node_ref=picker data-testid="open-input" on:change=on_file />
         </details>
@@ -261,7 +261,7 @@ fn ThemeSwitch() -> impl IntoView {
     };
     view! {
         <button type="button" class="button" data-testid="theme" aria-label=name title=name on:click=switch>
-            {Signal::derive(move || if lab.dark.get() { "☀" } else { "☾" }.to_owned())}
+            {move || if lab.dark.get() { "☀" } else { "☾" }}
         </button>
     }
 }
@@ -294,7 +294,6 @@ fn Notices() -> impl IntoView {
                         <button type="button" class="button small" aria-label=tr!(lab, app.close) on:click=move |_| lab.notice.set(None)>"✕"</button>
                     </div>
                 }
-                .into_any()
             })}
         </div>
     }

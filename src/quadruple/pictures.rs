@@ -81,10 +81,10 @@ pub fn responses(lab: Lab, held: RwSignal<Option<(f64, f64)>>) -> Picture {
         let (run, pinned): (Outcome<Run>, _) = (lab.charts.run.get(), lab.charts.pinned.get());
         let Ok(run) = run.as_ref() else { return };
         let unit = lab.unit.get();
-        let level = tr!(lab, responses.level_axis, unit = unit_name(unit)).to_string();
+        let level = tr!(lab, responses.level_axis, unit = unit_name(unit));
         let number = |text: &dyn Fn(usize) -> String| [text(1), text(2)];
-        let levels = number(&|k| tr!(lab, responses.level, number = k).to_string());
-        let pumps = number(&|k| tr!(lab, responses.pump, number = k).to_string());
+        let levels = number(&|k| tr!(lab, responses.level, number = k));
+        let pumps = number(&|k| tr!(lab, responses.pump, number = k));
         let references = [1, 2].map(|k| format!("{} {k}", tr!(lab, responses.reference)));
         let plant = lab.charts.setup.with_untracked(|setup| setup.plant());
         let [pump_1, pump_2] = plant.pumps;

@@ -57,7 +57,6 @@ fn summary(lab: Lab) -> String {
                 zeros = list(&mut a.zeros.iter().flatten().map(|z| z.value)),
                 closed = list(&mut a.closed_loop.poles_s.iter().copied().filter(|z| z.im >= 0.0))
             )
-            .to_string()
         })
         .unwrap_or_default()
 }

@@ -159,13 +159,13 @@ fn sentence(lab: Lab) -> String {
         let run = match outcome.as_ref() {
             Ok(run) => run,
             Err(error @ ScenarioError::TooMuchWork { .. }) => return of_error(lab, lab.unit.get(), error),
-            Err(_) => return tr!(lab, responses.none).to_string(),
+            Err(_) => return tr!(lab, responses.none).to_owned(),
         };
         let mut parts: Vec<String> =
             run.metrics.iter().enumerate().filter_map(|(k, m)| of_metrics(lab, k, m)).collect();
         let unstable = lab.words.with_analysis(|a| a.closed_loop.stability == Stability::Unstable);
         if unstable == Some(true) {
-            parts = vec![tr!(lab, responses.unstable).to_string()];
+            parts = vec![tr!(lab, responses.unstable).to_owned()];
         } else if parts.is_empty() {
             let has_step = run.metrics.iter().any(|m| m.step_time_s.is_some());
             let has_load = lab.words.setup.with(|s| !s.experiment.load_steps.is_empty());
@@ -176,17 +176,17 @@ fn sentence(lab: Lab) -> String {
             };
             parts.push(text.to_owned());
         } else if lab.words.setup.with(|s| s.experiment.is_disturbed()) {
-            parts.push(tr!(lab, responses.disturbed).to_string());
+            parts.push(tr!(lab, responses.disturbed).to_owned());
         }
         parts.extend(run.nonlinear.events.iter().take(MOST_EVENTS).map(|event| {
             let time = lab.number_style().fixed(event.time_s, 0);
             match event.kind {
                 EventKind::Overflow { tank } => {
-                    tr!(lab, responses.event_overflow, tank = tank + 1, time = time).to_string()
+                    tr!(lab, responses.event_overflow, tank = tank + 1, time = time)
                 }
-                EventKind::Empty { tank } => tr!(lab, responses.event_empty, tank = tank + 1, time = time).to_string(),
+                EventKind::Empty { tank } => tr!(lab, responses.event_empty, tank = tank + 1, time = time),
                 EventKind::Saturated { pump } => {
-                    tr!(lab, responses.event_saturated, pump = pump + 1, time = time).to_string()
+                    tr!(lab, responses.event_saturated, pump = pump + 1, time = time)
                 }
             }
         }));
@@ -209,16 +209,15 @@ fn of_metrics(lab: Lab, index: usize, metrics: &LoopMetrics) -> Option<String> {
             // As many digits as in the table below.
             let percent = 100.0 * metrics.overshoot.unwrap_or(0.0);
             let overshoot = if percent < 0.05 {
-                tr!(lab, responses.without_overshoot).to_string()
+                tr!(lab, responses.without_overshoot).to_owned()
             } else {
                 let share = format!("{}\u{a0}%", style.fixed(percent, 1));
-                tr!(lab, responses.with_overshoot, share = share).to_string()
+                tr!(lab, responses.with_overshoot, share = share)
             };
             let time = style.significant(time_s, 3);
             // Where it is over so soon, what comes later may be worse.
             let is_short = window_s < 2.0 * time_s;
-            let watched =
-                if is_short { tr!(lab, responses.watched, window = window).to_string() } else { String::new() };
+            let watched = if is_short { tr!(lab, responses.watched, window = window) } else { String::new() };
             tr!(
                 lab,
                 responses.sentence_settles,
@@ -230,7 +229,6 @@ fn of_metrics(lab: Lab, index: usize, metrics: &LoopMetrics) -> Option<String> {
                 cross = cross,
                 unit = unit_name(unit)
             )
-            .to_string()
         }
         Settling::Never => tr!(
             lab,
@@ -240,7 +238,6 @@ fn of_metrics(lab: Lab, index: usize, metrics: &LoopMetrics) -> Option<String> {
             other = other,
             cross = cross,
             unit = unit_name(unit)
-        )
-        .to_string(),
+        ),
     })
 }

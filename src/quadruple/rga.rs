@@ -112,13 +112,13 @@ fn of_verdict(lab: Lab, verdict: PairingVerdict) -> String {
     };
     let rest = match reason {
         PairingReason::OnlyPositiveRelativeGain { relative_gain } => {
-            tr!(lab, rga.only_positive, other = style.at_least(1.0 - relative_gain, 2)).to_string()
+            tr!(lab, rga.only_positive, other = style.at_least(1.0 - relative_gain, 2))
         }
         PairingReason::RelativeGainCloserToOne { relative_gain } => {
-            tr!(lab, rga.closer, gain = style.fixed(relative_gain, 2)).to_string()
+            tr!(lab, rga.closer, gain = style.fixed(relative_gain, 2))
         }
         PairingReason::EqualRelativeGains => String::new(),
-        PairingReason::SingularGain => tr!(lab, rga.singular).to_string(),
+        PairingReason::SingularGain => tr!(lab, rga.singular).to_owned(),
     };
     let is_large = lab.words.with_analysis(|a| a.rga_11.is_ok_and(|gain| gain.abs() > LARGE)) == Some(true);
     format!("{lead}{rest}{}", if is_large { tr!(lab, rga.large) } else { "" })
@@ -129,7 +129,7 @@ fn of_niederlinski(lab: Lab) -> String {
     lab.words
         .with_analysis(|a| {
             let [diagonal, swapped] = a.niederlinski.map(number);
-            tr!(lab, rga.niederlinski, diagonal = diagonal, swapped = swapped).to_string()
+            tr!(lab, rga.niederlinski, diagonal = diagonal, swapped = swapped)
         })
         .unwrap_or_default()
 }

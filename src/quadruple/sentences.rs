@@ -64,20 +64,20 @@ pub fn of_zero(lab: Lab) -> (String, bool) {
     // Enough digits to see on which side of 1.
     let sum = style.fixed(sum, if off < 0.005 { 5 } else { 2 });
     let Some(situation) = situation(lab) else {
-        return (tr!(lab, process.no_equilibrium).to_string(), true);
+        return (tr!(lab, process.no_equilibrium).to_owned(), true);
     };
     let text = match &situation {
-        ZeroSituation::Left(_) => tr!(lab, process.minimum, sum = sum).to_string(),
+        ZeroSituation::Left(_) => tr!(lab, process.minimum, sum = sum),
         ZeroSituation::Right(z) => {
             let zero = format!("+{}", style.significant(*z, 3));
-            tr!(lab, process.right, sum = sum, zero = zero).to_string()
+            tr!(lab, process.right, sum = sum, zero = zero)
         }
-        ZeroSituation::Origin => tr!(lab, process.origin).to_string(),
-        ZeroSituation::NoFinite => tr!(lab, process.few_zeros).to_string(),
-        ZeroSituation::Uncoupled => tr!(lab, process.none_coupled).to_string(),
+        ZeroSituation::Origin => tr!(lab, process.origin).to_owned(),
+        ZeroSituation::NoFinite => tr!(lab, process.few_zeros).to_owned(),
+        ZeroSituation::Uncoupled => tr!(lab, process.none_coupled).to_owned(),
         ZeroSituation::Degenerate => {
             let (tank, other) = if valves[0] > valves[1] { (1, 2) } else { (2, 1) };
-            tr!(lab, process.degenerate, tank = tank, other = other).to_string()
+            tr!(lab, process.degenerate, tank = tank, other = other)
         }
     };
     (text, situation.is_hard())
@@ -102,20 +102,17 @@ fn of_limit(lab: Lab, error: &PlantError) -> String {
 pub fn of_rightmost(lab: Lab) -> String {
     let style = lab.number_style();
     let signed = |z: f64| format!("{}{}", if z > 0.0 { "+" } else { "" }, style.significant(z, 3));
-    let lead = |z: f64| tr!(lab, valves.rightmost, zero = signed(z)).to_string();
+    let lead = |z: f64| tr!(lab, valves.rightmost, zero = signed(z));
     let time = |z: f64| style.significant(1.0 / z.abs(), 2);
     let from_zero = |z: f64| {
-        let rest = if z > 0.0 {
-            tr!(lab, valves.right_of, time = time(z)).to_string()
-        } else {
-            tr!(lab, valves.left_of, time = time(z)).to_string()
-        };
+        let rest =
+            if z > 0.0 { tr!(lab, valves.right_of, time = time(z)) } else { tr!(lab, valves.left_of, time = time(z)) };
         lead(z) + &rest
     };
     match situation(lab) {
         Some(ZeroSituation::Left(z) | ZeroSituation::Right(z)) => from_zero(z),
-        Some(ZeroSituation::Origin) => tr!(lab, valves.at_origin).to_string(),
-        _ => tr!(lab, valves.none).to_string(),
+        Some(ZeroSituation::Origin) => tr!(lab, valves.at_origin).to_owned(),
+        _ => tr!(lab, valves.none).to_owned(),
     }
 }
 
@@ -127,29 +124,28 @@ pub fn of_direction(lab: Lab) -> String {
     let style = lab.number_style();
     lab.words
         .with_analysis(|analysis| match &analysis.zeros {
-            Err(_) => tr!(lab, zeros.degenerate).to_string(),
+            Err(_) => tr!(lab, zeros.degenerate).to_owned(),
             Ok(_) => match analysis.rightmost_zero() {
-                None => tr!(lab, zeros.none).to_string(),
+                None => tr!(lab, zeros.none).to_owned(),
                 Some(zero) => {
                     let y: [f64; 2] = [zero.output_direction[0].re, zero.output_direction[1].re];
-                    let lead =
-                        tr!(lab, zeros.direction, y1 = style.fixed(y[0], 2), y2 = style.fixed(y[1], 2)).to_string();
+                    let lead = tr!(lab, zeros.direction, y1 = style.fixed(y[0], 2), y2 = style.fixed(y[1], 2));
                     let rest = if zero.value.re < 0.0 {
-                        tr!(lab, zeros.easy).to_string()
+                        tr!(lab, zeros.easy).to_owned()
                     } else if y[1].abs() < NO_PART {
-                        tr!(lab, zeros.single, level = 1).to_string()
+                        tr!(lab, zeros.single, level = 1)
                     } else if y[0].abs() < NO_PART {
-                        tr!(lab, zeros.single, level = 2).to_string()
+                        tr!(lab, zeros.single, level = 2)
                     } else if y[0] * y[1] < 0.0 {
-                        tr!(lab, zeros.opposed).to_string()
+                        tr!(lab, zeros.opposed).to_owned()
                     } else {
-                        tr!(lab, zeros.together).to_string()
+                        tr!(lab, zeros.together).to_owned()
                     };
                     lead + &rest
                 }
             },
         })
-        .unwrap_or_else(|| tr!(lab, process.no_equilibrium).to_string())
+        .unwrap_or_else(|| tr!(lab, process.no_equilibrium).to_owned())
 }
 
 /// What the closed-loop poles say, and whether it is bad news.
@@ -165,20 +161,20 @@ pub fn of_stability(lab: Lab) -> (String, bool) {
                     let text = match analysis.closed_loop.sensitivity_peak {
                         Some(peak) => {
                             let peak = style.significant(peak, 3);
-                            tr!(lab, pi.stable, pole = number(pole), time = time, peak = peak).to_string()
+                            tr!(lab, pi.stable, pole = number(pole), time = time, peak = peak)
                         }
-                        None => tr!(lab, pi.stable_short, pole = number(pole), time = time).to_string(),
+                        None => tr!(lab, pi.stable_short, pole = number(pole), time = time),
                     };
                     (text, false)
                 }
                 (Stability::Unstable, Some(pole)) if pole.re > 0.0 => {
                     let time = style.significant(std::f64::consts::LN_2 / pole.re, 2);
                     let pole = format!("+{}", number(pole));
-                    (tr!(lab, pi.unstable, pole = pole, time = time).to_string(), true)
+                    (tr!(lab, pi.unstable, pole = pole, time = time), true)
                 }
-                (Stability::Marginal, _) => (tr!(lab, pi.marginal).to_string(), true),
-                _ => (tr!(lab, pi.unstable_fast).to_string(), true),
+                (Stability::Marginal, _) => (tr!(lab, pi.marginal).to_owned(), true),
+                _ => (tr!(lab, pi.unstable_fast).to_owned(), true),
             }
         })
-        .unwrap_or_else(|| (tr!(lab, process.no_equilibrium).to_string(), true))
+        .unwrap_or_else(|| (tr!(lab, process.no_equilibrium).to_owned(), true))
 }

@@ -100,7 +100,7 @@ fn PublishedPoint(id: PresetId, frames: RwSignal<Vec<Frame>>) -> impl IntoView {
     let label = Signal::derive(move || {
         let style = lab.number_style();
         let (gamma1, gamma2) = (style.fixed(valves[0], 2), style.fixed(valves[1], 2));
-        tr!(lab, valves.published, name = name_of(lab, id), gamma1 = gamma1, gamma2 = gamma2).to_string()
+        tr!(lab, valves.published, name = name_of(lab, id), gamma1 = gamma1, gamma2 = gamma2)
     });
     let choose = move || {
         if !lab.locks(Control::Preset) {

@@ -137,7 +137,7 @@ fn sentence(session: Session) -> (bool, String) {
     let unit = session.words.setup.with(|s| time_unit(&s.plant));
     let mut sentence = match study.search.limit(importance_direction(&study.dc_gain, r)) {
         GainLimit::Oscillation(point) => {
-            (true, tr!(lab, relay.ultimate, period = style.significant(point.period(), 4), unit = unit).to_string())
+            (true, tr!(lab, relay.ultimate, period = style.significant(point.period(), 4), unit = unit))
         }
         GainLimit::RealPole { .. } => (false, tr!(lab, relay.real_pole).to_owned()),
         GainLimit::None => (false, tr!(lab, relay.no_ultimate).to_owned()),

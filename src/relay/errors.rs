@@ -12,15 +12,15 @@ pub fn sentence(lab: Lab, error: &TuningError) -> String {
         TuningError::OutOfRange { field: "target", .. } => tr!(lab, relay.error_target).to_owned(),
         TuningError::OutOfRange { field: "amplitude", .. } => tr!(lab, relay.error_amplitude).to_owned(),
         TuningError::OutOfRange { field: "dead_time", value } => {
-            tr!(lab, relay.error_dead_time, value = number(value)).to_string()
+            tr!(lab, relay.error_dead_time, value = number(value))
         }
         TuningError::OutOfRange { field, value } => {
-            tr!(lab, relay.error_range, field = field, value = number(value)).to_string()
+            tr!(lab, relay.error_range, field = field, value = number(value))
         }
         TuningError::UnstablePlant { real_part } => {
-            tr!(lab, relay.error_unstable, real = number(real_part)).to_string()
+            tr!(lab, relay.error_unstable, real = number(real_part))
         }
         TuningError::Linear(LinearError::SingularGain { .. }) => tr!(lab, relay.error_singular).to_owned(),
-        TuningError::Linear(error) => tr!(lab, relay.error_plant, reason = error).to_string(),
+        TuningError::Linear(error) => tr!(lab, relay.error_plant, reason = error),
     }
 }

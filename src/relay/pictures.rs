@@ -48,8 +48,7 @@ pub fn response(session: Session, window: Signal<(f64, f64)>) -> Picture {
     let lab = session.lab;
     let build = move |show: &mut dyn FnMut(&[quadtank_figure::Chart])| {
         let pinned = session.charts.pinned.get();
-        let names: Vec<String> =
-            (1..=pinned.len()).map(|number| tr!(lab, relay.row_pinned, number = number).to_string()).collect();
+        let names: Vec<String> = (1..=pinned.len()).map(|number| tr!(lab, relay.row_pinned, number = number)).collect();
         session.charts.design.with(|outcome| {
             let mut records: Vec<LoopsRecord> = pinned
                 .iter()
@@ -96,10 +95,10 @@ fn loops(
         .setup
         .with_untracked(|s| (time_unit(&s.plant), matches!(s.plant, TuningPlant::QuadrupleTank { .. })));
     let volts = if in_volts { " (V)" } else { "" };
-    let time = tr!(lab, relay.axis_time, unit = unit).to_string();
+    let time = tr!(lab, relay.axis_time, unit = unit);
     let (output, input) = (tr!(lab, relay.axis_output), tr!(lab, relay.axis_input));
     let axes = [time, format!("{output}{volts}"), format!("{input}{volts}")];
-    let texts = [tr!(lab, relay.loop_name, number = 1).to_string(), tr!(lab, relay.loop_name, number = 2).to_string()];
+    let texts = [tr!(lab, relay.loop_name, number = 1), tr!(lab, relay.loop_name, number = 2)];
     show(&quadtank_figure::two_loops(&LoopsChart {
         records,
         window,
@@ -173,7 +172,7 @@ pub fn loci(session: Session) -> Picture {
                 columns.each_ref().map(|loci| loci.each_ref().map(|parts| parts.each_ref().map(Vec::as_slice)));
             let [re, im] = session.charts.setup.with(|s| s.design.target);
             let rules = rule_targets().map(|(rule, at)| ((at.re, at.im), short_name(rule), offset_of(rule)));
-            let names = [1, 2].map(|number| tr!(lab, relay.locus, number = number).to_string());
+            let names = [1, 2].map(|number| tr!(lab, relay.locus, number = number));
             show(&[quadtank_figure::characteristic_loci(&LociChart {
                 loci: after,
                 before,

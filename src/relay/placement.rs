@@ -198,9 +198,9 @@ fn sentence(session: Session) -> (bool, String) {
             let distance = style.significant(margins.distance, 3);
             let degrees = margins.phase.map_or_else(|| "–".to_owned(), |p| style.fixed(p.to_degrees(), 0));
             let gain = margins.gain_up.map_or_else(|| "∞".to_owned(), |g| style.significant(g, 3));
-            tr!(lab, relay.stable, distance = distance, degrees = degrees, gain = gain).to_string()
+            tr!(lab, relay.stable, distance = distance, degrees = degrees, gain = gain)
         }),
-        LoopStability::Unstable { poles } => tr!(lab, relay.unstable, poles = poles).to_string(),
+        LoopStability::Unstable { poles } => tr!(lab, relay.unstable, poles = poles),
         LoopStability::Marginal { .. } => tr!(lab, relay.marginal).to_owned(),
         LoopStability::NotComputed { .. } => tr!(lab, relay.not_computed).to_owned(),
     };
@@ -220,14 +220,14 @@ fn sentence(session: Session) -> (bool, String) {
 
 fn of_warning(lab: Lab, warning: PlacementWarning) -> String {
     match warning {
-        PlacementWarning::WrongSign { number } => tr!(lab, relay.warn_sign, number = number).to_string(),
+        PlacementWarning::WrongSign { number } => tr!(lab, relay.warn_sign, number = number),
         PlacementWarning::WrongIntegralSign { number } => {
-            tr!(lab, relay.warn_integral_sign, number = number).to_string()
+            tr!(lab, relay.warn_integral_sign, number = number)
         }
         PlacementWarning::IntegralActionUnstable => tr!(lab, relay.warn_integral).to_owned(),
         PlacementWarning::AmbiguousRoot => tr!(lab, relay.warn_ambiguous).to_owned(),
         PlacementWarning::DoubleEigenvalue => tr!(lab, relay.warn_double).to_owned(),
-        PlacementWarning::BeyondPi { number } => tr!(lab, relay.warn_beyond_pi, number = number).to_string(),
+        PlacementWarning::BeyondPi { number } => tr!(lab, relay.warn_beyond_pi, number = number),
         PlacementWarning::OnMinusOne => tr!(lab, relay.warn_minus_one).to_owned(),
     }
 }

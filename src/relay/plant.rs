@@ -260,7 +260,7 @@ fn remark(session: Session) -> String {
         TuningPlant::QuadrupleTank { preset, .. } => preset.preset().source.to_owned(),
         TuningPlant::Elements(_) => tr!(lab, relay.own_plant).to_owned(),
     });
-    let mut text = tr!(lab, relay.plant_remark, source = source, rga = rga).to_string();
+    let mut text = tr!(lab, relay.plant_remark, source = source, rga = rga);
     if gain.is_some_and(|gain| gain < 0.0) {
         text = text + " " + tr!(lab, relay.negative_pairing);
     }

@@ -59,15 +59,15 @@ pub fn name_of_case(lab: Lab, case: PublishedCase) -> String {
     match (table, row) {
         (0, _) => tr!(lab, relay.case_usol).to_owned(),
         (88, _) => tr!(lab, relay.case_full).to_owned(),
-        (3, _) => tr!(lab, relay.case_locus, table = table, row = row).to_string(),
+        (3, _) => tr!(lab, relay.case_locus, table = table, row = row),
         (4, row) => {
             let rule = ["ZN PI", "ZN PID", "TL PI", "TL PID"][(row - 1).min(3)];
-            tr!(lab, relay.case_rule, table = table, rule = rule).to_string()
+            tr!(lab, relay.case_rule, table = table, rule = rule)
         }
-        (6 | 11, _) => tr!(lab, relay.case_controller, table = table, row = row).to_string(),
-        (14, 4) => tr!(lab, relay.case_other_target, table = table).to_string(),
-        (5 | 9, _) => tr!(lab, relay.case_table, table = table).to_string(),
-        _ => tr!(lab, relay.case_point, table = table, row = row).to_string(),
+        (6 | 11, _) => tr!(lab, relay.case_controller, table = table, row = row),
+        (14, 4) => tr!(lab, relay.case_other_target, table = table),
+        (5 | 9, _) => tr!(lab, relay.case_table, table = table),
+        _ => tr!(lab, relay.case_point, table = table, row = row),
     }
 }
 

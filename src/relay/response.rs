@@ -161,15 +161,14 @@ fn sentence(session: Session) -> (bool, String) {
                         overshoot = overshoot,
                         other = other,
                         cross = cross
-                    )
-                    .to_string(),
+                    ),
                 )
             }
-            None => (false, tr!(lab, relay.response_never, number = number, other = other, cross = cross).to_string()),
+            None => (false, tr!(lab, relay.response_never, number = number, other = other, cross = cross)),
         }
     } else if let Some(Halt::Full { time }) = design.response.trace.halt {
         let time = style.significant(time, 3);
-        (false, tr!(lab, relay.response_unfinished, time = time, unit = time_unit(&setup.plant)).to_string())
+        (false, tr!(lab, relay.response_unfinished, time = time, unit = time_unit(&setup.plant)))
     } else {
         (false, tr!(lab, relay.response_unstable).to_owned())
     };

@@ -44,16 +44,16 @@ pub fn sentence(session: Session) -> (bool, String) {
             read.iter().filter_map(|(_, reading, _)| Some(style.significant(reading.oscillation?.period, 4))).collect();
         let period = periods.join(" / ");
         let (good, mut text) = match reading.verdict {
-            RelayVerdict::Unimodal => (true, tr!(lab, relay.unimodal, period = period, unit = unit).to_string()),
+            RelayVerdict::Unimodal => (true, tr!(lab, relay.unimodal, period = period, unit = unit)),
             RelayVerdict::Multimodal { switches: [one, two] } => {
-                (false, tr!(lab, relay.multimodal, period = period, unit = unit, one = one, two = two).to_string())
+                (false, tr!(lab, relay.multimodal, period = period, unit = unit, one = one, two = two))
             }
             RelayVerdict::NotPeriodic => (false, tr!(lab, relay.not_periodic).to_owned()),
-            RelayVerdict::Chattering { relay } => (false, tr!(lab, relay.chattering, number = relay + 1).to_string()),
+            RelayVerdict::Chattering { relay } => (false, tr!(lab, relay.chattering, number = relay + 1)),
             RelayVerdict::NoOscillation => (false, tr!(lab, relay.no_oscillation).to_owned()),
             RelayVerdict::Diverged => (false, tr!(lab, relay.diverged).to_owned()),
             RelayVerdict::Unfinished { time } => {
-                (false, tr!(lab, relay.unfinished, time = style.significant(time, 3), unit = unit).to_string())
+                (false, tr!(lab, relay.unfinished, time = style.significant(time, 3), unit = unit))
             }
         };
         let good = good

@@ -161,7 +161,7 @@ pub fn NumberField(
         />
         {move || {
             problem()
-                .map(|text| view! { <span class="problem" role="alert" id=format!("{id}-problem")>{text}</span> }.into_any())
+                .map(|text| view! { <span class="problem" role="alert" id=format!("{id}-problem")>{text}</span> })
         }}
     }
 }
