@@ -83,7 +83,7 @@ pub fn follow(language: RwSignal<Language>, number: usize) -> Signal<String> {
     Signal::derive(move || text(number, language.get()).to_owned())
 }
 
-/// The same as a signal. Views take this rather than a closure: they are then compiled once, not once for each text.
+/// The same as a signal, which is what the parts of the page take.
 macro_rules! say {
     ($lab:expr, $group:ident . $key:ident) => {
         $crate::texts::follow($lab.language, $crate::texts::generated::$group::$key::NUMBER)
