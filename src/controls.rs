@@ -148,23 +148,26 @@ pub fn KnobNumber<D: Document>(
 
 /// A choice among few in a document.
 #[component]
-pub fn Switch<D: Document>(
+pub fn Switch<D, T>(
     /// The document.
     document: D,
     /// What is chosen between, for screen readers.
     #[prop(into)]
     label: Signal<String>,
-    /// The names of the choices for tests, and their texts.
-    choices: Vec<(&'static str, Signal<String>)>,
-    /// The number of the choice in force.
-    read: fn(&D::Setup) -> usize,
+    /// The choices with their names for tests, and their texts.
+    choices: Vec<(T, &'static str, Signal<String>)>,
+    /// The choice in force.
+    read: fn(&D::Setup) -> T,
     /// Makes another choice.
-    write: fn(&mut D::Setup, usize),
+    write: fn(&mut D::Setup, T),
     /// What locks it.
     lock: Control,
-) -> impl IntoView {
-    let choices = choices.into_iter().enumerate().map(|(index, (name, text))| (index, name, text)).collect();
-    let on_choose = move |index| document.write(|s| write(s, index));
+) -> impl IntoView
+where
+    D: Document,
+    T: Copy + PartialEq + Send + Sync + 'static,
+{
+    let on_choose = move |choice| document.write(|s| write(s, choice));
     let value = document.lab().told(Signal::derive(move || document.read(read)));
     view! { <Segmented label choices value on_choose disabled=document.lab().locks(lock) /> }
 }

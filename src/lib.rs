@@ -1,8 +1,8 @@
 //! The Leptos user interface: benches, charts on screen, widgets, the drawing of the plant, texts.
 //!
 //! `lab` holds the state, `pace` the way of one change from an event to pixels; `quadruple` is the home bench, `relay` the
-//! one for relay tuning, `model_free` the one for model-free control; `widgets` are the parts that any bench is made of. There is no control arithmetic here: every number comes from
-//! [`quadtank_scenario`].
+//! one for relay tuning, `model_free` the one for model-free control; `widgets` are the parts that any bench is made of. There
+//! is no control arithmetic here: every number comes from [`quadtank_scenario`].
 
 mod canvas;
 mod controls;

@@ -217,7 +217,11 @@ fn FileMenu() -> impl IntoView {
                 <button type="button" data-testid="open" on:click=move |_| if let Some(input) = picker.get_untracked() { input.click() }>
                     {say!(lab, app.open_scenario)}
                 </button>
-                {(!single).then(|| view! { <a href="quadtank.html" download="quadtank.html" data-testid="single-file">{say!(lab, app.single_file)}</a> })}
+                {(!single).then(|| view! {
+                    <a href="quadtank.html" download="quadtank.html" data-testid="single-file">
+                        {say!(lab, app.single_file)}
+                    </a>
+                })}
             </div>
             <input type="file" accept=".json,application/json" hidden node_ref=picker data-testid="open-input" on:change=on_file />
         </details>
@@ -291,7 +295,14 @@ fn Notices() -> impl IntoView {
                 view! {
                     <div class=class data-testid="notice">
                         {content(notice)}
-                        <button type="button" class="button small" aria-label=tr!(lab, app.close) on:click=move |_| lab.notice.set(None)>"✕"</button>
+                        <button
+                            type="button"
+                            class="button small"
+                            aria-label=tr!(lab, app.close)
+                            on:click=move |_| lab.notice.set(None)
+                        >
+                            "✕"
+                        </button>
                     </div>
                 }
             })}

@@ -71,12 +71,15 @@ pub fn CaseCard() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
     let cases = vec![
-        ("free-a", say!(lab, free.case_a)),
-        ("free-b", say!(lab, free.case_b)),
-        ("free-c", say!(lab, free.case_c)),
+        (Some(PublishedValves::A), "free-a", say!(lab, free.case_a)),
+        (Some(PublishedValves::B), "free-b", say!(lab, free.case_b)),
+        (Some(PublishedValves::C), "free-c", say!(lab, free.case_c)),
     ];
-    let experiments =
-        vec![("free-s1", say!(lab, free.s1)), ("free-s2", say!(lab, free.s2)), ("free-s3", say!(lab, free.s3))];
+    let experiments = vec![
+        (Some(PublishedExperiment::S1), "free-s1", say!(lab, free.s1)),
+        (Some(PublishedExperiment::S2), "free-s2", say!(lab, free.s2)),
+        (Some(PublishedExperiment::S3), "free-s3", say!(lab, free.s3)),
+    ];
     let source = move || view! { <span class="remark">{say!(lab, free.source)}</span> };
     view! {
         <Card name="case" title=say!(lab, free.case) beside=source>
@@ -145,30 +148,32 @@ fn Pressed(
     }
 }
 
-/// The published case whose valves these are; none of them for others.
-fn case_of(setup: &ModelFreeSetup) -> usize {
-    PublishedValves::ALL.iter().position(|case| case.schedules() == setup.valves).unwrap_or(usize::MAX)
+/// The published case whose valves these are, if it is one.
+fn case_of(setup: &ModelFreeSetup) -> Option<PublishedValves> {
+    PublishedValves::ALL.into_iter().find(|case| case.schedules() == setup.valves)
 }
 
-fn set_case(setup: &mut ModelFreeSetup, index: usize) {
-    setup.valves = PublishedValves::ALL[index].schedules();
+fn set_case(setup: &mut ModelFreeSetup, case: Option<PublishedValves>) {
+    let Some(case) = case else { return };
+    setup.valves = case.schedules();
     if setup.compare.is_some() {
         setup.compare = Some(setup.usual_pi());
     }
 }
 
-/// The published experiment that this is, whatever its duration.
-fn experiment_of(setup: &ModelFreeSetup) -> usize {
+/// The published experiment that this is, whatever its duration; none for others.
+fn experiment_of(setup: &ModelFreeSetup) -> Option<PublishedExperiment> {
     let is_same = |experiment: &PublishedExperiment| {
         let published = published_model_free(PublishedValves::A, *experiment);
         published.start == setup.start && published.experiment.set_point_steps == setup.experiment.set_point_steps
     };
-    PublishedExperiment::ALL.iter().position(is_same).unwrap_or(usize::MAX)
+    PublishedExperiment::ALL.into_iter().find(is_same)
 }
 
 /// The law, the noise and the valves stay.
-fn set_experiment(setup: &mut ModelFreeSetup, index: usize) {
-    let published = published_model_free(PublishedValves::A, PublishedExperiment::ALL[index]);
+fn set_experiment(setup: &mut ModelFreeSetup, experiment: Option<PublishedExperiment>) {
+    let Some(experiment) = experiment else { return };
+    let published = published_model_free(PublishedValves::A, experiment);
     let measurement = setup.experiment.measurement;
     setup.start = published.start;
     setup.experiment = published.experiment;

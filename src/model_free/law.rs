@@ -12,8 +12,8 @@ use quadtank::control::{EstimatorSettings, FedWith, ModelFreeSettings, ModelFree
 use quadtank_scenario::limits;
 use quadtank_scenario::model_free::ModelFreeSetup;
 
-/// Tracking time of back-calculation when it is chosen (s).
-const TRACKING_TIME_S: f64 = 10.0;
+/// Back-calculation when it is chosen.
+const BACK_CALCULATION: ModelFreeWindup = ModelFreeWindup::BackCalculation { tracking_time_s: 10.0 };
 /// Samples of a window when the estimator is switched on.
 const USUAL_SAMPLES: f64 = 10.0;
 /// Most samples of a window: more than a page computes in a frame.
@@ -84,16 +84,19 @@ pub fn LawCard() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
     let windows = vec![
-        ("free-off", say!(lab, free.off)),
-        ("free-block", say!(lab, free.block)),
-        ("free-sliding", say!(lab, free.sliding)),
+        (None, "free-off", say!(lab, free.off)),
+        (Some(Window::Block), "free-block", say!(lab, free.block)),
+        (Some(Window::Sliding), "free-sliding", say!(lab, free.sliding)),
     ];
     let windups = vec![
-        ("free-windup", say!(lab, free.windup_off)),
-        ("free-conditional", say!(lab, free.conditional)),
-        ("free-back", say!(lab, free.back_calculation)),
+        (ModelFreeWindup::Off, "free-windup", say!(lab, free.windup_off)),
+        (ModelFreeWindup::Conditional, "free-conditional", say!(lab, free.conditional)),
+        (BACK_CALCULATION, "free-back", say!(lab, free.back_calculation)),
     ];
-    let pairings = vec![("free-diagonal", say!(lab, pi.diagonal)), ("free-swapped", say!(lab, pi.swapped))];
+    let pairings = vec![
+        (Pairing::Diagonal, "free-diagonal", say!(lab, pi.diagonal)),
+        (Pairing::Swapped, "free-swapped", say!(lab, pi.swapped)),
+    ];
     let stability = Memo::new(move |_| sentences::of_loop(session));
     let lock = Control::Gains;
     view! {
@@ -106,7 +109,7 @@ pub fn LawCard() -> impl IntoView {
                 document=session
                 label=say!(lab, free.estimator)
                 choices=windows
-                read=window_of
+                read=|s| estimator(s).map(|estimator| estimator.window)
                 write=set_window
                 lock
             />
@@ -120,15 +123,15 @@ pub fn LawCard() -> impl IntoView {
                 label=say!(lab, free.windup)
                 choices=windups
                 read=windup_of
-                write=set_windup
+                write=|s, windup| in_both(s, &|l| l.anti_windup = windup)
                 lock
             />
             <Switch
                 document=session
                 label=say!(lab, pi.pairing)
                 choices=pairings
-                read=pairing_of
-                write=set_pairing
+                read=|s| s.controller.pairing
+                write=|s, pairing| s.controller.pairing = pairing
                 lock=Control::Pairing
             />
             <Sentence
@@ -170,13 +173,32 @@ fn formula() -> impl IntoView {
 fn EstimatorDetails() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
-    let sums =
-        vec![("free-rectangular", say!(lab, free.rectangular)), ("free-trapezoidal", say!(lab, free.trapezoidal))];
-    let feeds = vec![("free-applied", say!(lab, free.applied)), ("free-commanded", say!(lab, free.commanded))];
+    let sums = vec![
+        (Quadrature::Rectangular, "free-rectangular", say!(lab, free.rectangular)),
+        (Quadrature::Trapezoidal, "free-trapezoidal", say!(lab, free.trapezoidal)),
+    ];
+    let feeds = vec![
+        (FedWith::Applied, "free-applied", say!(lab, free.applied)),
+        (FedWith::Commanded, "free-commanded", say!(lab, free.commanded)),
+    ];
     let lock = Control::Gains;
     view! {
-        <Switch document=session label=say!(lab, free.sum) choices=sums read=sum_of write=set_sum lock />
-        <Switch document=session label=say!(lab, free.fed_with) choices=feeds read=feed_of write=set_feed lock />
+        <Switch
+            document=session
+            label=say!(lab, free.sum)
+            choices=sums
+            read=|s| estimator(s).map_or(Quadrature::Rectangular, |e| e.quadrature)
+            write=|s, quadrature| with_estimator(s, |e| e.quadrature = quadrature)
+            lock
+        />
+        <Switch
+            document=session
+            label=say!(lab, free.fed_with)
+            choices=feeds
+            read=|s| estimator(s).map_or(FedWith::Applied, |e| e.fed_with)
+            write=|s, fed_with| with_estimator(s, |e| e.fed_with = fed_with)
+            lock
+        />
     }
 }
 
@@ -195,62 +217,21 @@ fn with_estimator(setup: &mut ModelFreeSetup, change: impl FnOnce(&mut Estimator
     }
 }
 
-fn sum_of(setup: &ModelFreeSetup) -> usize {
-    estimator(setup).map_or(0, |e| e.quadrature as usize)
-}
-
-fn set_sum(setup: &mut ModelFreeSetup, index: usize) {
-    with_estimator(setup, |e| e.quadrature = [Quadrature::Rectangular, Quadrature::Trapezoidal][index]);
-}
-
-fn feed_of(setup: &ModelFreeSetup) -> usize {
-    estimator(setup).map_or(0, |e| e.fed_with as usize)
-}
-
-fn set_feed(setup: &mut ModelFreeSetup, index: usize) {
-    with_estimator(setup, |e| e.fed_with = [FedWith::Applied, FedWith::Commanded][index]);
-}
-
-fn pairing_of(setup: &ModelFreeSetup) -> usize {
-    usize::from(setup.controller.pairing == Pairing::Swapped)
-}
-
-fn set_pairing(setup: &mut ModelFreeSetup, index: usize) {
-    setup.controller.pairing = [Pairing::Diagonal, Pairing::Swapped][index];
-}
-
-fn window_of(setup: &ModelFreeSetup) -> usize {
-    estimator(setup).map_or(0, |e| 1 + e.window as usize)
-}
-
-/// Off, or a window that is renewed in blocks or slides.
-fn set_window(setup: &mut ModelFreeSetup, index: usize) {
-    let Some(&window) = [Window::Block, Window::Sliding].get(index.wrapping_sub(1)) else {
-        setup.controller.estimator = None;
-        return;
-    };
-    let first = EstimatorSettings {
+fn set_window(setup: &mut ModelFreeSetup, window: Option<Window>) {
+    let first = |window| EstimatorSettings {
         window_s: USUAL_SAMPLES * setup.controller.sampling_time_s,
         window,
         quadrature: Quadrature::Rectangular,
         fed_with: FedWith::Applied,
     };
-    setup.controller.estimator = Some(EstimatorSettings { window, ..estimator(setup).unwrap_or(first) });
+    setup.controller.estimator =
+        window.map(|window| EstimatorSettings { window, ..estimator(setup).unwrap_or_else(|| first(window)) });
 }
 
-fn windup_of(setup: &ModelFreeSetup) -> usize {
+/// The protection against windup; the tracking time of back-calculation is not chosen here.
+fn windup_of(setup: &ModelFreeSetup) -> ModelFreeWindup {
     match setup.controller.loops[0].anti_windup {
-        ModelFreeWindup::Off => 0,
-        ModelFreeWindup::Conditional => 1,
-        ModelFreeWindup::BackCalculation { .. } => 2,
+        ModelFreeWindup::BackCalculation { .. } => BACK_CALCULATION,
+        other => other,
     }
-}
-
-fn set_windup(setup: &mut ModelFreeSetup, index: usize) {
-    let chosen = match index {
-        0 => ModelFreeWindup::Off,
-        1 => ModelFreeWindup::Conditional,
-        _ => ModelFreeWindup::BackCalculation { tracking_time_s: TRACKING_TIME_S },
-    };
-    setup.controller.loops.iter_mut().for_each(|settings| settings.anti_windup = chosen);
 }

@@ -118,7 +118,10 @@ fn CriticalHandle(frames: RwSignal<Vec<Frame>>, chosen: Signal<Option<(f64, f64)
             spoken=Signal::derive(spoken)
             locked=lab.locks(Control::Point)
             on_move=move |place: (f64, f64)| choose(session, place)
-            on_nudge=move |by: Nudge| set_importance(session, value.get_untracked() * STEP.powf((by.up - by.right + by.page).clamp(-200.0, 200.0)))
+            on_nudge=move |by: Nudge| {
+                let steps = (by.up - by.right + by.page).clamp(-200.0, 200.0);
+                set_importance(session, value.get_untracked() * STEP.powf(steps));
+            }
             frames
         />
     }

@@ -68,29 +68,32 @@ fn Settings() -> impl IntoView {
         <Switch
             document=session
             label=say!(lab, relay.method)
-            choices=vec![("method-a", say!(lab, relay.method_a)), ("method-b", say!(lab, relay.method_b))]
-            read=|s| usize::from(s.design.method == PlacementMethod::BothLoci)
-            write=set_method
+            choices=vec![
+                (PlacementMethod::OneLocus, "method-a", say!(lab, relay.method_a)),
+                (PlacementMethod::BothLoci, "method-b", say!(lab, relay.method_b)),
+            ]
+            read=|s| s.design.method
+            write=|s, method| s.design.method = method
             lock
         />
         <div class="pairs">
             <Switch
                 document=session
                 label=say!(lab, relay.action)
-                choices=vec![("action-pi", symbol("PI")), ("action-pid", symbol("PID"))]
-                read=|s| usize::from(s.design.action == Action::Pid)
-                write=set_action
+                choices=vec![(Action::Pi, "action-pi", symbol("PI")), (Action::Pid, "action-pid", symbol("PID"))]
+                read=|s| s.design.action
+                write=|s, action| s.design.action = action
                 lock
             />
             <Switch
                 document=session
                 label=say!(lab, relay.roots)
                 choices=vec![
-                    ("root1", say!(lab, relay.root, number = 1)),
-                    ("root2", say!(lab, relay.root, number = 2)),
+                    (1, "root1", say!(lab, relay.root, number = 1)),
+                    (2, "root2", say!(lab, relay.root, number = 2)),
                 ]
-                read=|s| s.design.root - 1
-                write=|s, k| s.design.root = k + 1
+                read=|s| s.design.root
+                write=|s, root| s.design.root = root
                 lock
             />
             <KnobRow document=session knob=&TARGET index=0 />
@@ -99,14 +102,6 @@ fn Settings() -> impl IntoView {
         <RuleSelect />
         <Figures name="gains" caption=say!(lab, relay.gains_caption)>{move || table(session)}</Figures>
     }
-}
-
-fn set_method(setup: &mut TuningSetup, index: usize) {
-    setup.design.method = if index == 1 { PlacementMethod::BothLoci } else { PlacementMethod::OneLocus };
-}
-
-fn set_action(setup: &mut TuningSetup, index: usize) {
-    setup.design.action = if index == 1 { Action::Pid } else { Action::Pi };
 }
 
 /// The targets of the rules, to take over.

@@ -73,16 +73,22 @@ fn RigSettings() -> impl IntoView {
         <Switch
             document=session
             label=say!(lab, relay.pairing)
-            choices=vec![("rig-diagonal", say!(lab, relay.diagonal)), ("rig-swapped", say!(lab, relay.swapped))]
-            read=|s| usize::from(rig(s).is_some_and(|(pairing, _)| pairing == Pairing::Swapped))
+            choices=vec![
+                (Pairing::Diagonal, "rig-diagonal", say!(lab, relay.diagonal)),
+                (Pairing::Swapped, "rig-swapped", say!(lab, relay.swapped)),
+            ]
+            read=|s| rig(s).map_or(Pairing::Diagonal, |(pairing, _)| pairing)
             write=set_pairing
             lock
         />
         <Switch
             document=session
             label=say!(lab, relay.motion)
-            choices=vec![("rig-linear", say!(lab, relay.linear)), ("rig-nonlinear", say!(lab, relay.nonlinear))]
-            read=|s| usize::from(rig(s).is_some_and(|(_, nonlinear)| nonlinear))
+            choices=vec![
+                (false, "rig-linear", say!(lab, relay.linear)),
+                (true, "rig-nonlinear", say!(lab, relay.nonlinear)),
+            ]
+            read=|s| rig(s).is_some_and(|(_, nonlinear)| nonlinear)
             write=set_nonlinear
             lock
         />
@@ -128,16 +134,16 @@ fn set_behind(setup: &mut TuningSetup, which: usize, time_s: f64) {
     }
 }
 
-fn set_pairing(setup: &mut TuningSetup, index: usize) {
+fn set_pairing(setup: &mut TuningSetup, chosen: Pairing) {
     if let TuningPlant::QuadrupleTank { pairing, .. } = &mut setup.plant {
-        *pairing = if index == 1 { Pairing::Swapped } else { Pairing::Diagonal };
+        *pairing = chosen;
     }
 }
 
 /// The nonlinear rig has neither dead time nor lag.
-fn set_nonlinear(setup: &mut TuningSetup, index: usize) {
+fn set_nonlinear(setup: &mut TuningSetup, chosen: bool) {
     if let TuningPlant::QuadrupleTank { dead_time_s, lag_s, nonlinear, .. } = &mut setup.plant {
-        *nonlinear = index == 1;
+        *nonlinear = chosen;
         if *nonlinear {
             (*dead_time_s, *lag_s) = (0.0, 0.0);
         }

@@ -20,6 +20,10 @@ use quadtank::tuning::PublishedPlant;
 use quadtank_figure::Frame;
 use quadtank_scenario::tuning::{CompareSpec, DecouplerSpec, StepResponse, TuningPlant, TuningScenario};
 
+/// The references whose steps can be looked at.
+const FIRST: [f64; 2] = [1.0, 0.0];
+const SECOND: [f64; 2] = [0.0, 1.0];
+
 /// The response.
 #[component]
 pub fn ResponseCard() -> impl IntoView {
@@ -66,8 +70,18 @@ fn Pins() -> impl IntoView {
         });
     };
     view! {
-        <button type="button" class="button small" data-testid="response-pin" on:click=pin>{say!(lab, responses.pin)}</button>
-        <button type="button" class="button small" data-testid="response-unpin" hidden=none on:click=move |_| lab.tuning.update(|s| s.pinned.clear())>{say!(lab, responses.unpin)}</button>
+        <button type="button" class="button small" data-testid="response-pin" on:click=pin>
+            {say!(lab, responses.pin)}
+        </button>
+        <button
+            type="button"
+            class="button small"
+            data-testid="response-unpin"
+            hidden=none
+            on:click=move |_| lab.tuning.update(|s| s.pinned.clear())
+        >
+            {say!(lab, responses.unpin)}
+        </button>
     }
 }
 
@@ -79,9 +93,9 @@ fn Settings() -> impl IntoView {
         <Switch
             document=session
             label=say!(lab, relay.step_of)
-            choices=vec![("step1", symbol("r = [1 0]")), ("step2", symbol("r = [0 1]"))]
-            read=|s| usize::from(s.response.references[1] != 0.0)
-            write=|s, k| s.response.references = [[1.0, 0.0], [0.0, 1.0]][k]
+            choices=vec![(FIRST, "step1", symbol("r = [1 0]")), (SECOND, "step2", symbol("r = [0 1]"))]
+            read=|s| if s.response.references[1] == 0.0 { FIRST } else { SECOND }
+            write=|s, references| s.response.references = references
             lock=Control::Experiment
         />
         <Select

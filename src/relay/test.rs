@@ -18,7 +18,6 @@ use quadtank::tuning::TuningRule;
 use quadtank_figure::Frame;
 use quadtank_scenario::tuning::{Behind, CriticalSpec, TestKind, Tested, TuningSetup};
 
-const KINDS: [TestKind; 4] = [TestKind::Single, TestKind::Independent, TestKind::Sequential, TestKind::Simultaneous];
 /// Ratios of the amplitudes that the slider covers.
 const RATIOS: (f64, f64) = (0.02, 20.0);
 /// Modulus that the estimator of a point begins with.
@@ -163,9 +162,17 @@ fn TakeOver() -> impl IntoView {
     let nothing = Signal::derive(move || {
         session.words.test.with(|outcome| outcome.as_ref().as_ref().ok().and_then(found_point).is_none())
     });
-    let disabled = session.locks(Control::Point);
     view! {
-        <button type="button" class="button small" data-testid="test-take" hidden=nothing disabled=disabled on:click=take>{say!(session.lab, relay.take_over)}</button>
+        <button
+            type="button"
+            class="button small"
+            data-testid="test-take"
+            hidden=nothing
+            disabled=session.locks(Control::Point)
+            on:click=take
+        >
+            {say!(session.lab, relay.take_over)}
+        </button>
     }
 }
 
@@ -181,18 +188,18 @@ fn Settings() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
     let kinds = vec![
-        ("test-single", say!(lab, relay.single)),
-        ("test-independent", say!(lab, relay.independent)),
-        ("test-sequential", say!(lab, relay.sequential)),
-        ("test-simultaneous", say!(lab, relay.simultaneous)),
+        (TestKind::Single, "test-single", say!(lab, relay.single)),
+        (TestKind::Independent, "test-independent", say!(lab, relay.independent)),
+        (TestKind::Sequential, "test-sequential", say!(lab, relay.sequential)),
+        (TestKind::Simultaneous, "test-simultaneous", say!(lab, relay.simultaneous)),
     ];
     view! {
         <Switch
             document=session
             label=say!(lab, relay.kind)
             choices=kinds
-            read=|s| KINDS.iter().position(|&k| k == s.test.kind).unwrap_or(3)
-            write=|s, k| s.test.kind = KINDS[k]
+            read=|s| s.test.kind
+            write=|s, kind| s.test.kind = kind
             lock=Control::Test
         />
         <div hidden=session.flag(|s| s.test.kind != TestKind::Single)><SingleTest /></div>
@@ -232,8 +239,8 @@ fn SingleTest() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
     let loops = vec![
-        ("test-loop1", say!(lab, relay.loop_name, number = 1)),
-        ("test-loop2", say!(lab, relay.loop_name, number = 2)),
+        (1, "test-loop1", say!(lab, relay.loop_name, number = 1)),
+        (2, "test-loop2", say!(lab, relay.loop_name, number = 2)),
     ];
     let behinds = Signal::derive(move || {
         vec![
@@ -252,8 +259,8 @@ fn SingleTest() -> impl IntoView {
             document=session
             label=say!(lab, relay.which_loop)
             choices=loops
-            read=|s| s.test.number - 1
-            write=|s, k| s.test.number = k + 1
+            read=|s| s.test.number
+            write=|s, number| s.test.number = number
             lock=Control::Test
         />
         <Select

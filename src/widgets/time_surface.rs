@@ -187,9 +187,27 @@ pub fn ZoomButtons(
     let lab = use_lab();
     let [zoom_in, zoom_out, whole] = ids;
     view! {
-        <button type="button" class="button small" data-testid=zoom_in aria-label=say!(lab, chart.zoom_in) on:click=move |_| axis.zoom(ZOOM)>"+"</button>
-        <button type="button" class="button small" data-testid=zoom_out aria-label=say!(lab, chart.zoom_out) on:click=move |_| axis.zoom(1.0 / ZOOM)>"−"</button>
-        <button type="button" class="button small" data-testid=whole on:click=move |_| axis.on_show.run(None)>{say!(lab, chart.zoom_reset)}</button>
+        <button
+            type="button"
+            class="button small"
+            data-testid=zoom_in
+            aria-label=say!(lab, chart.zoom_in)
+            on:click=move |_| axis.zoom(ZOOM)
+        >
+            "+"
+        </button>
+        <button
+            type="button"
+            class="button small"
+            data-testid=zoom_out
+            aria-label=say!(lab, chart.zoom_out)
+            on:click=move |_| axis.zoom(1.0 / ZOOM)
+        >
+            "−"
+        </button>
+        <button type="button" class="button small" data-testid=whole on:click=move |_| axis.on_show.run(None)>
+            {say!(lab, chart.zoom_reset)}
+        </button>
     }
 }
 
