@@ -47,7 +47,9 @@ fn describe(schema: &mut Value, path: &str) {
     }
     for choice in ["oneOf", "anyOf"] {
         if let Some(Value::Array(alternatives)) = object.get_mut(choice) {
-            alternatives.iter_mut().for_each(|alternative| describe(alternative, path));
+            for alternative in alternatives {
+                describe(alternative, path);
+            }
         }
     }
 }

@@ -29,16 +29,16 @@ fn plant(plant: &TuningPlant, at: &str) -> Checked {
 }
 
 fn element(element: &Element, at: &str) -> Checked {
-    validate::each(&element.numerator, &format!("{at}.numerator"), coefficient)?;
-    validate::each(&element.denominator, &format!("{at}.denominator"), coefficient)?;
+    validate::each(&element.numerator, &format!("{at}.numerator"), |&value, at| coefficient(value, at))?;
+    validate::each(&element.denominator, &format!("{at}.denominator"), |&value, at| coefficient(value, at))?;
     match element.fault() {
         Some(fault) => Err(ScenarioError::Element { field: at.to_owned(), fault }),
         None => Ok(()),
     }
 }
 
-fn coefficient(value: &f64, at: &str) -> Checked {
-    if *value == 0.0 { Ok(()) } else { limits::COEFFICIENT_MAGNITUDE.check(at, value.abs()) }
+fn coefficient(value: f64, at: &str) -> Checked {
+    if value == 0.0 { Ok(()) } else { limits::COEFFICIENT_MAGNITUDE.check(at, value.abs()) }
 }
 
 fn test(test: &TestSpec, at: &str) -> Checked {

@@ -82,15 +82,14 @@ fn others(value: &Value) -> Vec<Value> {
     match value {
         Value::Bool(flag) => vec![json!(!flag)],
         Value::String(name) => NAMES.iter().filter(|other| *other != name).map(|name| json!(name)).collect(),
-        Value::Number(number) => match number.as_u64() {
-            Some(whole) => {
-                [whole + 1, whole.saturating_sub(1)].iter().filter(|&w| *w != whole).map(|w| json!(w)).collect()
-            }
-            None => {
-                let number = number.as_f64().unwrap();
-                vec![json!(number * 1.25 + 0.001), json!(number * 0.5), json!(number + 1.0), json!(0.0)]
-            }
-        },
+        Value::Number(number) if number.is_u64() => {
+            let whole = number.as_u64().unwrap();
+            [whole + 1, whole.saturating_sub(1)].into_iter().filter(|&w| w != whole).map(|w| json!(w)).collect()
+        }
+        Value::Number(number) => {
+            let number = number.as_f64().unwrap();
+            vec![json!(number * 1.25 + 0.001), json!(number * 0.5), json!(number + 1.0), json!(0.0)]
+        }
         _ => Vec::new(),
     }
 }
@@ -130,7 +129,9 @@ fn run_and_driven(text: &str) -> [Value; 2] {
     let mut driven = calm.clone();
     let setup = driven.as_object_mut().unwrap().values_mut().find(|value| value.is_object()).unwrap();
     let rig = &mut setup["plant"]["parameters"]["rig"];
-    (0..4).for_each(|tank| rig["tanks"][tank]["height"] = json!(if tank < 2 { 0.08 } else { 0.06 }));
+    for tank in 0..4 {
+        rig["tanks"][tank]["height"] = json!(if tank < 2 { 0.08 } else { 0.06 });
+    }
     rig["sensor"]["range"] = json!(0.05);
     setup["experiment"]["set_point_steps"] = json!([
         { "level": 0, "time_s": 2.0, "size": 0.2 },
