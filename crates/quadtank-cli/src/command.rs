@@ -108,7 +108,7 @@ enum Command {
 struct Source {
     /// Scenario file (JSON), or - for standard input
     file: PathBuf,
-    /// Set a value of the document before anything is computed, such as setup.controller.loops[0].gain=2; may be repeated
+    /// Set a value of the document before anything is computed, such as `setup.controller.loops[0].gain=2`; may be repeated
     ///
     /// The value is JSON, or the name of a choice. It is refused like one of the file.
     #[arg(long = "set", value_name = "PATH=VALUE", value_parser = setting_of)]
