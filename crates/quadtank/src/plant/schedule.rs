@@ -67,9 +67,7 @@ impl ValveSchedule {
                     from + (to - from) * (time_s - begin_s) / (end_s - begin_s)
                 }
             }
-            Self::Sine { mean, amplitude, frequency, phase } => {
-                mean + amplitude * (frequency * time_s + phase).sin_cos().0
-            }
+            Self::Sine { mean, amplitude, frequency, phase } => mean + amplitude * (frequency * time_s + phase).sin(),
         }
     }
 

@@ -41,7 +41,7 @@ impl Noise {
         let mut uniform = || (f64::from(self.source.next_u32()) + 1.0) / (f64::from(u32::MAX) + 1.0);
         let (radius, angle) = ((-2.0 * uniform().ln()).sqrt(), TAU * uniform());
         #[expect(clippy::cast_possible_truncation, reason = "to single precision, see above")]
-        let normal = (radius * angle.sin_cos().1) as f32;
+        let normal = (radius * angle.cos()) as f32;
         self.measurement.noise_std * f64::from(normal)
     }
 }

@@ -33,7 +33,7 @@ pub fn sine_test(
     for k in 0..(periods + 1) * STEPS {
         let angle = TAU * f64::from(k % STEPS) / f64::from(STEPS);
         let mut inputs = [0.0; 2];
-        inputs[input] = angle.sin_cos().0;
+        inputs[input] = angle.sin();
         moving.set_inputs(inputs);
         if k >= periods * STEPS {
             let turn = Complex::cis(-angle);
