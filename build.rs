@@ -1,8 +1,8 @@
 //! Turns the texts in `assets/locales` into Rust, so that a key or a value that is missing stops the compiler.
 //!
 //! Each key becomes a type: a unit struct whose `text` is a `&'static str`, or a struct with a field for each `{{ value }}`
-//! of the text, whose `text` is a `String`. The texts themselves are one string for each language, cut when the first is
-//! asked for: 386 pointers for each language between the texts were 4 KB of transfer. All languages must have the same keys and values.
+//! of the text, whose `text` is a `String`. All texts of a language are one string, which is split at the first use. All languages
+//! must have the same keys and values.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::error::Error;

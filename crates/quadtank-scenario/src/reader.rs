@@ -1,7 +1,8 @@
 //! Reading a document from a [`Tree`] into its types, strictly and with errors that name the field.
 //!
-//! What serde derives for a type asks this deserializer for what it expects. Unlike that of `serde_json`, it takes an object and
-//! nothing else for a struct, a name and nothing else for a choice without content, and says what it expected in plain words.
+//! This deserializer drives the `Deserialize` implementations that serde derives. It is stricter than that of `serde_json`: a struct
+//! is read from an object only, never from an array, and an enum variant without content from its name only. Its errors say in plain
+//! words what was expected.
 
 use std::fmt::{self, Display};
 

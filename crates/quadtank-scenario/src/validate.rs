@@ -1,6 +1,6 @@
 //! What has to hold between the numbers of a document, each of which is already within the limits of its [row](super::params).
 //!
-//! Every function is given the path of what it checks, and names the field at fault.
+//! `at` is the path of the checked value within the document, such as `setup.controller`; an error names the field at fault by it.
 
 use quadtank::control::{DecentralisedPi, ModelFree, PiSettings};
 use quadtank::plant::{Pump, QuadrupleTank, Sensor, Tank, ValveSchedule};

@@ -1,8 +1,8 @@
 //! Quadtank: a laboratory for multivariable control around Johansson's quadruple-tank process.
 //!
-//! The crate is a house of floors; each room imports only from the floors below its own. In reading order:
+//! The modules stand on floors; each imports only from the floors below its own. In reading order:
 //!
-//! | floor | room | what it is for |
+//! | floor | module | purpose |
 //! |---|---|---|
 //! | 1 | [`plant`] | what is really there: tanks, outlets, pumps, valves, sensors, and their nonlinear equations |
 //! | 1 | [`linear`] | what a linear model says: poles, transmission zeros and directions, frequency response |
