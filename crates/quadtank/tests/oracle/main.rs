@@ -2,4 +2,5 @@
 
 mod linear;
 mod plant;
+mod reference;
 mod sim;

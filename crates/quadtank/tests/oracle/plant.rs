@@ -1,10 +1,10 @@
 //! The plant against the independent reference values in `data/quadruple-tank.json`.
 
-use std::array::from_fn;
-
 use approx::assert_relative_eq;
-use quadtank::plant::{CrossSection, Outlet, PresetId, Pump, QuadrupleTank, Sensor, Tank};
+use quadtank::plant::PresetId;
 use serde::Deserialize;
+
+use crate::reference::Parameters;
 
 /// Two implementations of the same closed formulas: only rounding is between them.
 const RELATIVE: f64 = 1e-9;
@@ -26,35 +26,6 @@ struct Case {
     c: [[f64; 4]; 2],
 }
 
-#[derive(Deserialize)]
-struct Parameters {
-    gravity: f64,
-    gamma: [f64; 2],
-    pump_gain: [f64; 2],
-    sensor_gain: f64,
-    outlet_area: [f64; 4],
-    area_at_empty: [f64; 4],
-    area_slope: [f64; 4],
-}
-
-impl Parameters {
-    /// The plant of the reference, which knows neither walls nor voltage limits.
-    fn plant(&self) -> QuadrupleTank {
-        QuadrupleTank {
-            tanks: from_fn(|j| Tank {
-                section: CrossSection { area_at_empty: self.area_at_empty[j], area_slope: self.area_slope[j] },
-                outlet: Outlet { area: self.outlet_area[j], loss_coefficient: 1.0 },
-                height: f64::INFINITY,
-            }),
-            pumps: self.pump_gain.map(|gain| Pump { gain, voltage_min: 0.0, voltage_max: f64::INFINITY }),
-            valves: self.gamma,
-            power_gain: 1.0,
-            sensor: Sensor { gain: self.sensor_gain, range: f64::INFINITY, resolution: 0.0 },
-            gravity: self.gravity,
-        }
-    }
-}
-
 fn cases() -> Vec<Case> {
     let reference: Reference = serde_json::from_str(include_str!("../data/quadruple-tank.json")).unwrap();
     assert_eq!(reference.cases.len(), 14);
@@ -64,7 +35,7 @@ fn cases() -> Vec<Case> {
 #[test]
 fn equilibrium_levels() {
     for case in cases() {
-        let point = case.plant.plant().equilibrium(case.pump_voltage).unwrap();
+        let point = case.plant.rig().equilibrium(case.pump_voltage).unwrap();
         for (level, expected) in point.levels.into_iter().zip(case.levels) {
             assert_relative_eq!(level, expected, max_relative = RELATIVE);
         }
@@ -74,7 +45,7 @@ fn equilibrium_levels() {
 #[test]
 fn inputs_that_hold_the_levels() {
     for case in cases() {
-        let point = case.plant.plant().inputs_for_levels([case.levels[0], case.levels[1]]).unwrap();
+        let point = case.plant.rig().inputs_for_levels([case.levels[0], case.levels[1]]).unwrap();
         for (voltage, expected) in point.pump_voltage.into_iter().zip(case.pump_voltage) {
             assert_relative_eq!(voltage, expected, max_relative = RELATIVE);
         }
@@ -87,7 +58,7 @@ fn inputs_that_hold_the_levels() {
 #[test]
 fn time_constants() {
     for case in cases() {
-        let plant = case.plant.plant();
+        let plant = case.plant.rig();
         let found = plant.time_constants_s(&plant.free_equilibrium(case.pump_voltage));
         for (time_constant, expected) in found.into_iter().zip(case.time_constants) {
             assert_relative_eq!(time_constant.unwrap(), expected, max_relative = RELATIVE);
@@ -98,7 +69,7 @@ fn time_constants() {
 #[test]
 fn linear_model() {
     for case in cases() {
-        let plant = case.plant.plant();
+        let plant = case.plant.rig();
         let model = plant.linearise(&plant.free_equilibrium(case.pump_voltage));
         for i in 0..4 {
             for j in 0..4 {

@@ -5,9 +5,11 @@
 //! until a tank is full; `full_and_dry` has what follows.
 
 use quadtank::control::{AntiWindup, DecentralisedPi, LoopMode, Pairing, PiSettings};
-use quadtank::plant::{CrossSection, OperatingPoint, Outlet, Pump, QuadrupleTank, Sensor, Tank};
+use quadtank::plant::{OperatingPoint, QuadrupleTank};
 use quadtank::sim::{EventKind, Experiment, Measurement, SetPointStep, Trajectory, loop_metrics, simulate};
 use serde::Deserialize;
+
+use crate::reference::Parameters;
 
 /// Allowed deviation, as a fraction of the set-point step (of the step times sensor gain for controller outputs).
 const BAR: f64 = 1e-6;
@@ -24,17 +26,6 @@ struct Case {
     pump_voltage: [f64; 2],
     #[serde(default)]
     closed_loops: Vec<Loop>,
-}
-
-#[derive(Deserialize)]
-struct Parameters {
-    gravity: f64,
-    gamma: [f64; 2],
-    pump_gain: [f64; 2],
-    sensor_gain: f64,
-    outlet_area: [f64; 4],
-    area_at_empty: [f64; 4],
-    area_slope: [f64; 4],
 }
 
 #[derive(Deserialize)]
@@ -75,20 +66,13 @@ struct Sample {
 
 impl Case {
     fn rig(&self, run: &Loop) -> QuadrupleTank {
-        let p = &self.plant;
         let [low, high] = run.controller.output_limits.map(|limit| run.controller.actuator_gain * limit);
-        QuadrupleTank {
-            tanks: std::array::from_fn(|i| Tank {
-                section: CrossSection { area_at_empty: p.area_at_empty[i], area_slope: p.area_slope[i] },
-                outlet: Outlet { area: p.outlet_area[i], loss_coefficient: 1.0 },
-                height: run.tank_height,
-            }),
-            pumps: p.pump_gain.map(|gain| Pump { gain, voltage_min: low, voltage_max: high }),
-            valves: p.gamma,
-            power_gain: run.controller.actuator_gain,
-            sensor: Sensor { gain: p.sensor_gain, range: 1.0, resolution: 0.0 },
-            gravity: p.gravity,
-        }
+        let mut rig = self.plant.rig();
+        rig.tanks.iter_mut().for_each(|tank| tank.height = run.tank_height);
+        rig.pumps.iter_mut().for_each(|pump| (pump.voltage_min, pump.voltage_max) = (low, high));
+        rig.power_gain = run.controller.actuator_gain;
+        rig.sensor.range = 1.0;
+        rig
     }
 }
 
