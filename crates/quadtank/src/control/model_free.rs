@@ -147,7 +147,7 @@ struct ModelFreeLoop {
     fed_with: FedWith,
     /// φ̂ where there is no estimator.
     constant: f64,
-    /// ∫ e dt (m s).
+    /// Ki ∫ e dt (m/s).
     integral: f64,
     /// What the estimator is told at the next sample (V); `None` before the first.
     last: Option<f64>,
@@ -186,28 +186,28 @@ impl ModelFreeLoop {
         let ModelFreeSettings { model_gain, proportional, integral, anti_windup } = self.settings;
         let error = reference - measured;
         let phi = self.estimate();
-        let asked = |sum: f64| (-phi + proportional * error + integral * sum) / model_gain;
+        let asked = |integral: f64| (-phi + proportional * error + integral) / model_gain;
         let limited = |output: f64| output.max(self.limits.0).min(self.limits.1);
         // Backward Euler (eq. 17).
-        let mut sum = self.integral + self.sampling_time_s * error;
-        let mut command = asked(sum);
+        let mut next = self.integral + integral * self.sampling_time_s * error;
+        let mut command = asked(next);
         let excess = command - limited(command);
         match anti_windup {
             ModelFreeWindup::Off => {}
             ModelFreeWindup::Conditional => {
                 if excess * error > 0.0 {
-                    sum = self.integral;
-                    command = asked(sum);
+                    next = self.integral;
+                    command = asked(next);
                 }
             }
             ModelFreeWindup::BackCalculation { tracking_time_s } => {
                 if integral > 0.0 {
                     let share = (self.sampling_time_s / tracking_time_s).min(1.0);
-                    sum -= share * excess * model_gain / integral;
+                    next -= share * excess * model_gain;
                 }
             }
         }
-        self.integral = sum;
+        self.integral = next;
         let output = limited(command);
         self.last = Some(match self.fed_with {
             FedWith::Applied => output,
@@ -228,6 +228,19 @@ mod tests {
     fn with(windup: ModelFreeWindup) -> ModelFree {
         let one = ModelFreeSettings { anti_windup: windup, ..ModelFree::PUBLISHED.loops[0] };
         ModelFree { loops: [one; 2], ..ModelFree::PUBLISHED }
+    }
+
+    #[test]
+    fn back_calculation_stays_finite_with_the_least_integral_gain() {
+        let windup = ModelFreeWindup::BackCalculation { tracking_time_s: 1.0 };
+        let one = ModelFreeSettings { integral: 5e-324, anti_windup: windup, ..ModelFree::PUBLISHED.loops[0] };
+        let estimator = EstimatorSettings { fed_with: FedWith::Commanded, ..EstimatorSettings::PUBLISHED };
+        let law = ModelFree { loops: [one; 2], estimator: Some(estimator), ..ModelFree::PUBLISHED };
+        let mut law = law.start(LIMITS, [6.0, 5.0], [0.1, 0.12]).unwrap();
+        for _ in 0..100 {
+            assert!(law.step([10.0, -10.0], [0.1, 0.12]).into_iter().all(f64::is_finite));
+            assert!(law.estimates().into_iter().all(f64::is_finite));
+        }
     }
 
     #[test]
@@ -267,11 +280,11 @@ mod tests {
             }
             law.loops[0].integral
         };
-        assert_relative_eq!(wound(ModelFreeWindup::Off), 0.9, max_relative = 1e-12);
+        assert_relative_eq!(wound(ModelFreeWindup::Off), 0.05 * 0.9, max_relative = 1e-12);
         assert_eq!(wound(ModelFreeWindup::Conditional), 0.0);
         // Every sample gives the whole excess back: what is left asks for just 12 V.
         let back = wound(ModelFreeWindup::BackCalculation { tracking_time_s: 1.0 });
-        assert_relative_eq!((2.0 * 0.1 + 0.05 * back) / 1e-3, 12.0, max_relative = 1e-9);
+        assert_relative_eq!((2.0 * 0.1 + back) / 1e-3, 12.0, max_relative = 1e-9);
     }
 
     #[test]
@@ -303,9 +316,9 @@ mod tests {
     fn anti_windup_integrates_what_leads_back_and_returns_its_share_of_the_excess() {
         // An error that leads back from the limit is integrated.
         let mut law = half_a_second(ModelFreeWindup::Conditional);
-        law.loops[0].integral = 10.0;
+        law.loops[0].integral = 0.5;
         assert_eq!(law.step([0.09, 0.1], [0.1, 0.1])[0], 12.0);
-        assert_relative_eq!(law.loops[0].integral, 10.0 - 0.5 * 0.01, max_relative = 1e-12);
+        assert_relative_eq!(law.loops[0].integral, 0.5 - 0.05 * 0.5 * 0.01, max_relative = 1e-12);
         // One that leads further beyond the lower limit is not.
         let mut law = half_a_second(ModelFreeWindup::Conditional);
         assert_eq!(law.step([0.0, 0.1], [0.1, 0.1])[0], 0.0);
@@ -313,7 +326,7 @@ mod tests {
         // A quarter of the excess of 196.5 V goes back within a sample of a quarter of the tracking time.
         let mut law = half_a_second(ModelFreeWindup::BackCalculation { tracking_time_s: 2.0 });
         assert_eq!(law.step([0.2, 0.1], [0.1, 0.1])[0], 12.0);
-        assert_relative_eq!(law.loops[0].integral, 0.05 - 0.25 * 196.5 * 1e-3 / 0.05, max_relative = 1e-12);
+        assert_relative_eq!(law.loops[0].integral, 0.05 * 0.05 - 0.25 * 196.5 * 1e-3, max_relative = 1e-12);
     }
 
     #[test]

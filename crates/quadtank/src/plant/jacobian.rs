@@ -7,6 +7,10 @@ use crate::numeric::complements;
 /// larger share when its state is left out. With it, from 4e-9 on zeros get lost in the rounding of the fast entries of A.
 const QUASI_STEADY: f64 = 1e-8;
 
+/// A tank with less water than this (m) counts as dry. It is far below the size of an atom, and far above the levels at which
+/// the slope of the outflow, `∝ 1/√h`, would leave the range of numbers.
+const DRY_LEVEL_M: f64 = 1e-60;
+
 /// The linear model `dx/dt = A x + B u`, `y = C x` of the plant around an operating point, in deviations: `x` levels
 /// (m), `u` pump voltages (V), `y` measured signals (V).
 ///
@@ -91,7 +95,7 @@ impl QuadrupleTank {
             let (tank, level) = (&self.tanks[j], levels[j]);
             let area = tank.section.area(level);
             let delta = tank.section.area_slope / (area * area) * net_inflow[j];
-            (level > 0.0).then(|| tank.outflow_slope(level, self.gravity) / area + delta)
+            (level > DRY_LEVEL_M).then(|| tank.outflow_slope(level, self.gravity) / area + delta)
         })
     }
 
@@ -99,7 +103,7 @@ impl QuadrupleTank {
     fn quasi_steady(&self, levels: &[f64; 4]) -> [bool; 4] {
         let time: [f64; 4] = std::array::from_fn(|j| {
             let (tank, level) = (&self.tanks[j], levels[j]);
-            if level > 0.0 { tank.section.area(level) / tank.outflow_slope(level, self.gravity) } else { 0.0 }
+            if level > DRY_LEVEL_M { tank.section.area(level) / tank.outflow_slope(level, self.gravity) } else { 0.0 }
         });
         let longest = time.into_iter().fold(0.0, f64::max);
         std::array::from_fn(|j| time[j] == 0.0 || (j >= 2 && time[j] <= QUASI_STEADY * longest))
@@ -177,6 +181,18 @@ mod tests {
         let (plant, point) = johansson([0.7, 0.6], [0.0, 0.0]);
         let (a, b, c) = plant.linearise(&point).reduced();
         assert_eq!((a.shape(), b.shape(), c.shape()), ((0, 0), (0, 2), (2, 0)));
+    }
+
+    #[test]
+    fn a_tank_with_less_water_than_an_atom_is_dry() {
+        let (plant, _) = johansson([0.7, 0.6], [0.0, 0.0]);
+        for level in [5e-324, 1e-300, 1e-61] {
+            let point = OperatingPoint { levels: [0.1, level, level, 0.1], pump_voltage: [3.0, 3.0] };
+            assert_eq!(plant.time_constants_s(&point)[1..3], [None, None]);
+            let jacobian = plant.linearise(&point);
+            assert_eq!(jacobian.quasi_steady, [false, true, true, false]);
+            assert!(jacobian.a.iter().chain(&jacobian.b).all(|entry| entry.is_finite()));
+        }
     }
 
     #[test]
