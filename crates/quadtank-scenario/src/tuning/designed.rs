@@ -5,7 +5,7 @@ use nalgebra::Matrix2;
 use quadtank::control::{ParallelPid, PidMatrix};
 use quadtank::interaction::{Decoupling, decoupled_paths, static_decoupler};
 use quadtank::linear::{Closure, Complex, DelayedPlant, Loci, LoopStability, Path};
-use quadtank::sim::{LoopTrace, StepFigures, TwoLoops, run_two_loops};
+use quadtank::sim::{HeldPlant, LoopTrace, MAX_WORK, StepFigures, TwoLoops, run_two_loops_within};
 use quadtank::tuning::{
     Action, Design, GainLimit, PlacementWarning, PublishedPlant, TuningError, TuningRule, UltimatePoint,
     importance_direction, propose, response_at, wood_berry_full_controller,
@@ -144,7 +144,7 @@ impl Study {
     /// The response with any controllers, of the nonlinear plant where the session asks for it.
     fn response(&self, controllers: PidMatrix, setup: &TuningSetup) -> Result<StepResponse, TuningError> {
         match nonlinear(&setup.plant) {
-            Some(rig) => Ok(step_response(run_two_loops(&mut rig.held(), &loops(controllers, setup)), setup)),
+            Some(rig) => Ok(step_response(&mut rig.held(), controllers, setup)),
             None => linear_response(&self.plant.paths(), controllers, setup),
         }
     }
@@ -193,10 +193,14 @@ fn loops(controllers: PidMatrix, setup: &TuningSetup) -> TwoLoops {
 }
 
 fn linear_response(paths: &[Path], controllers: PidMatrix, setup: &TuningSetup) -> Result<StepResponse, TuningError> {
-    Ok(step_response(run_two_loops(&mut DelayedPlant::new(paths)?, &loops(controllers, setup)), setup))
+    Ok(step_response(&mut DelayedPlant::new(paths)?, controllers, setup))
 }
 
-fn step_response(trace: LoopTrace, setup: &TuningSetup) -> StepResponse {
+/// Most work of a response: two of them, one compared with the other, take no longer than one relay test.
+const MAX_RESPONSE_WORK: f64 = 0.5 * MAX_WORK;
+
+fn step_response(plant: &mut dyn HeldPlant, controllers: PidMatrix, setup: &TuningSetup) -> StepResponse {
+    let trace = run_two_loops_within(plant, &loops(controllers, setup), MAX_RESPONSE_WORK);
     let figures = trace.step_figures(setup.response.references);
     let is_bounded = trace.halt.is_none();
     StepResponse { trace, figures, is_bounded }

@@ -76,7 +76,7 @@ fn relay_tests_and_responses_have_a_bound() {
             let Ok(study) = &study else { continue };
             if let Ok(test) = study.test(&scenario.tuning) {
                 let work: f64 = traces(&test).iter().map(|trace| trace.work).sum();
-                assert!(work <= 3.0 * MAX_WORK + LAST_MOTION, "{work}: {scenario:?}");
+                assert!(work <= 2.0 * MAX_WORK + LAST_MOTION, "{work}: {scenario:?}");
             }
             if let Ok(Some(design)) = study.design(&scenario.tuning) {
                 let compared = design.comparison.as_ref().map(|comparison| &comparison.response);
@@ -97,7 +97,7 @@ fn a_response_of_stiff_elements_goes_to_its_end() {
     let design = Study::of(&scenario.tuning.plant).unwrap().design(&scenario.tuning).unwrap().unwrap();
     let trace = &design.response.trace;
     assert_eq!((trace.halt, trace.time.len()), (None, 6001));
-    assert!(trace.work < 0.1 * MAX_WORK, "{}", trace.work);
+    assert!(trace.work < 2e6, "{}", trace.work);
 }
 
 /// A relay on lags that are a million times quicker than the record is long.
