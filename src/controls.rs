@@ -7,7 +7,7 @@ use leptos::prelude::*;
 use super::lab::Lab;
 use super::start::Control;
 use super::widgets::{NumberField, Scale, Segmented, SliderField};
-use quadtank_scenario::Setup;
+use quadtank::study::quadruple_tank::Setup;
 
 /// The document of a bench, as its controls see it. A handle: copying it copies nothing.
 pub trait Document: Copy + Send + Sync + 'static {

@@ -4,13 +4,14 @@ use super::lab::Lab;
 use super::shown::{length_digits, to_shown, unit_name};
 use super::texts::tr;
 use quadtank::control::{EstimatorError, MAX_WINDOW_SAMPLES};
-use quadtank::plant::{DisplayUnit, PlantError};
+use quadtank::literature::DisplayUnit;
+use quadtank::plant::PlantError;
+use quadtank::study::relay_tuning::ElementFault;
+use quadtank::study::{StudyError, StudyFault};
 use quadtank_scenario::ScenarioError;
-use quadtank_scenario::tuning::ElementFault;
 
 /// One sentence; a field keeps its name from the document.
 pub fn of_error(lab: Lab, unit: DisplayUnit, error: &ScenarioError) -> String {
-    let number = |v: f64| lab.number_style().significant(v, 4);
     match error {
         ScenarioError::Malformed { path, reason } => {
             tr!(lab, refused.malformed, path = path.clone(), reason = reason.clone())
@@ -33,27 +34,41 @@ pub fn of_error(lab: Lab, unit: DisplayUnit, error: &ScenarioError) -> String {
         }
         ScenarioError::TooLong { length, max } => tr!(lab, refused.long, length = *length, max = *max),
         ScenarioError::DamagedLink => tr!(lab, refused.damaged).to_owned(),
-        ScenarioError::TooMuchWork { time_s, .. } => {
-            tr!(lab, refused.too_much_work, time = lab.number_style().significant(*time_s, 3))
-        }
-        ScenarioError::Plant(error) | ScenarioError::Start(error) => of_plant_error(lab, unit, error),
-        ScenarioError::Law { field, error } => match *error {
-            EstimatorError::WindowTooShort { window_s, sampling_time_s }
-            | EstimatorError::WindowTooLong { window_s, sampling_time_s }
-            | EstimatorError::WindowNotWhole { window_s, sampling_time_s } => tr!(
-                lab,
-                refused.window,
-                field = field.clone(),
-                window = number(window_s),
-                sampling = number(sampling_time_s),
-                most = MAX_WINDOW_SAMPLES
-            ),
-            EstimatorError::ModelGain { .. } => format!("{field}: {error}"),
-        },
+        ScenarioError::Study { error, .. } => of_study_error(lab, unit, error),
+        ScenarioError::Law { field, error } => of_law(lab, field, *error),
         ScenarioError::Element { field, fault } => {
             tr!(lab, refused.element, field = field.clone(), reason = of_fault(lab, *fault))
         }
-        ScenarioError::Linear(error) => error.to_string(),
+    }
+}
+
+/// Why a setup has no results.
+pub fn of_study_error(lab: Lab, unit: DisplayUnit, error: &StudyError) -> String {
+    match error.fault {
+        StudyFault::TooMuchWork { time_s } => {
+            tr!(lab, refused.too_much_work, time = lab.number_style().significant(time_s, 3))
+        }
+        StudyFault::Plant(error) => of_plant_error(lab, unit, &error),
+        StudyFault::Law(fault) => of_law(lab, error.field, fault),
+        StudyFault::Linear(error) => error.to_string(),
+    }
+}
+
+/// Why the model-free law cannot work with such settings.
+fn of_law(lab: Lab, field: &str, error: EstimatorError) -> String {
+    let number = |v: f64| lab.number_style().significant(v, 4);
+    match error {
+        EstimatorError::WindowTooShort { window_s, sampling_time_s }
+        | EstimatorError::WindowTooLong { window_s, sampling_time_s }
+        | EstimatorError::WindowNotWhole { window_s, sampling_time_s } => tr!(
+            lab,
+            refused.window,
+            field = field,
+            window = number(window_s),
+            sampling = number(sampling_time_s),
+            most = MAX_WINDOW_SAMPLES
+        ),
+        EstimatorError::ModelGain { .. } => format!("{field}: {error}"),
     }
 }
 

@@ -13,11 +13,12 @@ use super::pace::Pace;
 use super::results::{Results, run_all};
 use super::start::{Bench, Control, StartFlags};
 use super::texts::Language;
-use quadtank::plant::DisplayUnit;
+use quadtank::literature::DisplayUnit;
+use quadtank::study::quadruple_tank::Setup;
 use quadtank_figure::{Palette, Style};
 use quadtank_scenario::model_free::ModelFreeScenario;
 use quadtank_scenario::tuning::TuningScenario;
-use quadtank_scenario::{Document, Scenario, ScenarioError, Setup};
+use quadtank_scenario::{Document, Scenario, ScenarioError};
 
 /// Something to tell at the top of the page.
 #[derive(Clone, Debug, PartialEq)]
@@ -92,7 +93,7 @@ impl Lab {
             charts,
             words: charts.shared(),
             telling: Trigger::new(),
-            unit: Memo::new(move |_| scenario.with(|s| s.setup.display_unit())).into(),
+            unit: Memo::new(move |_| scenario.with(|s| s.setup.plant.display_unit())).into(),
             scenario,
             language: RwSignal::new(language),
             dark: RwSignal::new(dark),
@@ -214,11 +215,12 @@ impl Lab {
     fn compute(self) -> Option<Box<dyn FnOnce()>> {
         let after = self.scenario.try_get_untracked()?;
         let before = self.charts.setup.get_untracked();
-        let theory = (!same_theory(&before, &after.setup)).then(|| Arc::new(quadtank_scenario::analyse(&after.setup)));
+        let theory = (!same_theory(&before, &after.setup))
+            .then(|| Arc::new(quadtank::study::quadruple_tank::analyse(&after.setup)));
         let run = (*before != after.setup).then(|| {
             // A run may take megabytes: the last one goes before the next is made. Words may still hold the one they tell.
             *self.charts.run.write_untracked() = self.words.run.get_untracked();
-            Arc::new(quadtank_scenario::run(&after.setup))
+            Arc::new(quadtank::study::quadruple_tank::run(&after.setup))
         });
         let pinned = self.pinned.with_value(|pinned| *pinned != after.pinned).then(|| run_all(&after.pinned));
         Some(Box::new(move || {

@@ -6,8 +6,9 @@ use super::lab::{Lab, use_lab};
 use super::start::Control;
 use super::texts::{say, tr};
 use super::widgets::{Choice, Select};
-use quadtank::plant::PresetId;
-use quadtank_scenario::{PlantSpec, Scenario, setup_of};
+use quadtank::literature::PresetId;
+use quadtank::study::quadruple_tank::{PlantSpec, setup_of};
+use quadtank_scenario::Scenario;
 
 /// Name of a rig in the language of the laboratory.
 pub fn name_of(lab: Lab, id: PresetId) -> String {

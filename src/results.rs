@@ -4,12 +4,14 @@ use std::sync::Arc;
 
 use leptos::prelude::*;
 
-use quadtank_scenario::{Analysis, Run, Scenario, ScenarioError, Setup};
+use quadtank::study::StudyError;
+use quadtank::study::quadruple_tank::{Analysis, Run, Setup};
+use quadtank_scenario::Scenario;
 
 /// A result that a panel may show, or why there is none.
 pub type Outcome<T> = Arc<Computed<T>>;
 /// The same, not shared.
-pub type Computed<T> = Result<T, ScenarioError>;
+pub type Computed<T> = Result<T, StudyError>;
 
 /// Takes over what is newer in `newest`. Views of `told` that nothing new is shown to are left alone.
 pub fn catch_up<T: Send + Sync + 'static>(told: RwSignal<Arc<T>>, newest: RwSignal<Arc<T>>) {
@@ -42,8 +44,8 @@ impl Results {
     pub(super) fn of(scenario: &Scenario) -> Self {
         Self {
             setup: RwSignal::new(Arc::new(scenario.setup.clone())),
-            analysis: RwSignal::new(Arc::new(quadtank_scenario::analyse(&scenario.setup))),
-            run: RwSignal::new(Arc::new(quadtank_scenario::run(&scenario.setup))),
+            analysis: RwSignal::new(Arc::new(quadtank::study::quadruple_tank::analyse(&scenario.setup))),
+            run: RwSignal::new(Arc::new(quadtank::study::quadruple_tank::run(&scenario.setup))),
             pinned: RwSignal::new(run_all(&scenario.pinned)),
         }
     }
@@ -74,5 +76,5 @@ impl Results {
 
 /// Runs every setup.
 pub(super) fn run_all(setups: &[Setup]) -> Arc<Vec<Outcome<Run>>> {
-    Arc::new(setups.iter().map(|s| Arc::new(quadtank_scenario::run(s))).collect())
+    Arc::new(setups.iter().map(|s| Arc::new(quadtank::study::quadruple_tank::run(s))).collect())
 }

@@ -15,7 +15,8 @@ use super::start::{Bench, StartFlags};
 use super::stopped::Stopped;
 use super::storage::{LANGUAGE, THEME};
 use super::texts::{Language, say, tr};
-use quadtank_scenario::{Document, Scenario, setup_of};
+use quadtank::study::quadruple_tank::setup_of;
+use quadtank_scenario::{Document, Scenario};
 
 /// The element of the page that the laboratory fills; it holds the static outline until then.
 const ROOT: &str = "app";

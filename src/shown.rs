@@ -1,6 +1,6 @@
 //! Between the SI units of the core and the units on the screen. The only place that converts.
 
-use quadtank::plant::DisplayUnit;
+use quadtank::literature::DisplayUnit;
 
 /// Shown units in a metre.
 pub const fn per_metre(unit: DisplayUnit) -> f64 {

@@ -4,7 +4,7 @@
 //! these controls; `lang=en|pt-BR` and `theme=light|dark` choose without being remembered; `preset=NAME` loads a
 //! published rig; `bench=relay-tuning` or `bench=model-free` shows that bench. A flag that is not understood is ignored.
 
-use quadtank::plant::PresetId;
+use quadtank::literature::PresetId;
 
 /// A bench.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

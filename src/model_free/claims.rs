@@ -7,7 +7,7 @@ use super::session::{Session, use_session};
 use crate::start::Control;
 use crate::texts::{say, tr};
 use crate::widgets::{Card, marked};
-use quadtank_scenario::model_free::{CheckedClaim, Claim, Standing, check_claims};
+use quadtank::study::model_free::{CheckedClaim, Claim, Standing, check_claims};
 
 const IDS: [&str; 5] = ["claim-a", "claim-b", "claim-zero", "claim-c", "claim-alpha"];
 

@@ -8,9 +8,9 @@ use crate::controls::{Knob, KnobRow, Switch};
 use crate::start::Control;
 use crate::texts::{say, tr};
 use crate::widgets::{Card, Scale};
-use quadtank_scenario::model_free::{
-    LONG_RUN_S, ModelFreeSetup, PublishedExperiment, PublishedValves, published_model_free,
-};
+use quadtank::literature::junqueira::{PublishedExperiment, PublishedValves};
+use quadtank::study::model_free::{LONG_RUN_S, ModelFreeSetup};
+use quadtank_scenario::limits;
 
 const VALVE: Knob<ModelFreeSetup> = Knob {
     ids: [("", "free-gamma1"), ("", "free-gamma2")],
@@ -56,7 +56,7 @@ const DURATION: Knob<ModelFreeSetup> = Knob {
     read: |s, _| s.experiment.duration_s,
     write: |s, _, duration_s| s.experiment.duration_s = duration_s,
     limits: |s, _| {
-        let limits = s.duration_s();
+        let limits = limits::model_free_duration_s(s);
         (limits.min.max(s.shortest_s()), limits.max)
     },
     scale: Scale::Linear(10.0),
@@ -164,7 +164,7 @@ fn set_case(setup: &mut ModelFreeSetup, case: Option<PublishedValves>) {
 /// The published experiment that this is, whatever its duration; none for others.
 fn experiment_of(setup: &ModelFreeSetup) -> Option<PublishedExperiment> {
     let is_same = |experiment: &PublishedExperiment| {
-        let published = published_model_free(PublishedValves::A, *experiment);
+        let published = ModelFreeSetup::published(PublishedValves::A, *experiment);
         published.start == setup.start && published.experiment.set_point_steps == setup.experiment.set_point_steps
     };
     PublishedExperiment::ALL.into_iter().find(is_same)
@@ -173,7 +173,7 @@ fn experiment_of(setup: &ModelFreeSetup) -> Option<PublishedExperiment> {
 /// The law, the noise and the valves stay.
 fn set_experiment(setup: &mut ModelFreeSetup, experiment: Option<PublishedExperiment>) {
     let Some(experiment) = experiment else { return };
-    let published = published_model_free(PublishedValves::A, experiment);
+    let published = ModelFreeSetup::published(PublishedValves::A, experiment);
     let measurement = setup.experiment.measurement;
     setup.start = published.start;
     setup.experiment = published.experiment;

@@ -9,8 +9,8 @@ use crate::start::Control;
 use crate::texts::{say, tr};
 use crate::widgets::{Card, Scale, Sentence};
 use quadtank::control::{EstimatorSettings, FedWith, ModelFreeSettings, ModelFreeWindup, Pairing, Quadrature, Window};
+use quadtank::study::model_free::ModelFreeSetup;
 use quadtank_scenario::limits;
-use quadtank_scenario::model_free::ModelFreeSetup;
 
 /// Back-calculation when it is chosen.
 const BACK_CALCULATION: ModelFreeWindup = ModelFreeWindup::BackCalculation { tracking_time_s: 10.0 };

@@ -2,7 +2,7 @@
 
 use crate::quadruple;
 use quadtank::plant::{OperatingPoint, QuadrupleTank};
-use quadtank_scenario::model_free::{ModelFreeAnswer, ModelFreeSetup, Moment};
+use quadtank::study::model_free::{ModelFreeAnswer, ModelFreeSetup, Moment};
 
 /// A moment of a run with what theory says of it.
 #[derive(Clone, Debug, PartialEq)]

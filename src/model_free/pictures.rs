@@ -6,10 +6,12 @@ use super::session::Session;
 use crate::texts::tr;
 use crate::widgets::Picture;
 use quadtank::linear::Complex;
+use quadtank::study::quadruple_tank::ValveMap;
 use quadtank_figure::{
     self, Chart, ModelFreeCourse, ModelFreeTexts, PoleZero, PoleZeroTexts, ValvePlane, ValvePlaneTexts, with_way,
 };
-use quadtank_scenario::ValveMap;
+use quadtank_scenario::model_free::{moment_to_csv, run_to_csv};
+use quadtank_scenario::valve_map_to_csv;
 
 /// The setting whose zero is shaded half way to the full colour.
 const TYPICAL_SETTING: [f64; 2] = [0.3, 0.3];
@@ -56,7 +58,7 @@ pub fn course(session: Session, window: Signal<(f64, f64)>) -> Picture {
     };
     let csv = move || {
         let setup = session.charts.setup.get();
-        session.charts.with_answer(|answer| answer.to_csv(&setup)).unwrap_or_default()
+        session.charts.with_answer(|answer| run_to_csv(answer, &setup)).unwrap_or_default()
     };
     Picture::new(build, csv)
 }
@@ -73,7 +75,7 @@ fn map(session: Session) -> ValveMap {
 pub fn plane(session: Session, whole: bool) -> Picture {
     let lab = session.lab;
     let map = Memo::new(move |_| map(session));
-    let csv = move || map.with(|map| map.to_csv(CSV_STEPS));
+    let csv = move || map.with(|map| valve_map_to_csv(map, CSV_STEPS));
     let build = move |show: &mut dyn FnMut(&[Chart])| {
         let map = map.get();
         let plane = quadtank_figure::valve_plane(&ValvePlane {
@@ -107,7 +109,7 @@ pub fn way(session: Session) -> Vec<[f64; 2]> {
 /// Poles and zeros as they are at the shown moment.
 pub fn zeros(session: Session) -> Picture {
     let lab = session.lab;
-    let csv = move || session.shown().map(|shown| shown.theory.to_csv()).unwrap_or_default();
+    let csv = move || session.shown().map(|shown| moment_to_csv(&shown.theory)).unwrap_or_default();
     let build = move |show: &mut dyn FnMut(&[Chart])| {
         let Some(shown) = session.shown() else { return show(&[]) };
         let poles: Vec<Complex> = shown.theory.poles.iter().map(|&pole| Complex::new(pole, 0.0)).collect();

@@ -6,7 +6,7 @@ use super::session::use_session;
 use crate::quadruple::{drawing, summary};
 use crate::texts::say;
 use crate::widgets::{Card, Player, Scale, SliderField};
-use quadtank::plant::DisplayUnit;
+use quadtank::literature::DisplayUnit;
 
 /// How much faster than life the run can be shown.
 const SPEEDS: &[u32] = &[1, 5, 20, 50, 200];

@@ -3,14 +3,14 @@
 use leptos::prelude::*;
 
 use super::session::Session;
-use crate::errors::{of_error, of_plant_error};
+use crate::errors::{of_plant_error, of_study_error};
 use crate::shown::{to_metres, to_shown};
 use crate::texts::tr;
 use quadtank::control::Pairing;
-use quadtank::plant::DisplayUnit;
+use quadtank::literature::DisplayUnit;
 use quadtank::sim::{HoldingEnds, Stability, TrackingFigures};
-use quadtank_scenario::ScenarioError;
-use quadtank_scenario::model_free::{LossBy, ModelFreeVerdict};
+use quadtank::study::model_free::{LossBy, ModelFreeVerdict};
+use quadtank::study::{StudyError, StudyFault};
 
 /// A length (m), or what is proportional to one, with centimetres for metres as the source has it.
 pub fn in_cm(metres: f64) -> f64 {
@@ -33,8 +33,8 @@ pub fn of_run(session: Session) -> (bool, String) {
     let answer = match answer.as_ref() {
         Ok(answer) => answer,
         Err(error) => {
-            let reason = of_error(lab, DisplayUnit::Cm, error);
-            let begins = matches!(error, ScenarioError::TooMuchWork { .. });
+            let reason = of_study_error(lab, DisplayUnit::Cm, error);
+            let begins = matches!(error, StudyError { fault: StudyFault::TooMuchWork { .. }, .. });
             return (false, if begins { reason } else { tr!(lab, free.no_run, reason = reason) });
         }
     };

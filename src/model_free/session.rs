@@ -9,9 +9,10 @@ use super::moment::Shown;
 use crate::controls::Document;
 use crate::lab::{Lab, use_lab};
 use crate::results::{Outcome, catch_up, shared};
-use quadtank_scenario::model_free::{
-    ModelFreeAnalysis, ModelFreeAnswer, ModelFreeScenario, ModelFreeSetup, analyse_model_free, run_model_free,
+use quadtank::study::model_free::{
+    ModelFreeAnalysis, ModelFreeAnswer, ModelFreeSetup, analyse_model_free, run_model_free,
 };
+use quadtank_scenario::model_free::ModelFreeScenario;
 
 /// What was found, for the views that show it. A handle: copying it copies nothing.
 #[derive(Clone, Copy)]

@@ -10,7 +10,8 @@ use crate::texts::{say, tr};
 use crate::widgets::{Card, Scale, Segmented, Sentence, Tick};
 use quadtank::control::{AntiWindup, LoopMode, Pairing, PiSettings};
 use quadtank::interaction::PairingVerdict;
-use quadtank_scenario::{Setup, limits};
+use quadtank::study::quadruple_tank::Setup;
+use quadtank_scenario::limits;
 
 /// Tt/Ti when anti-windup is switched on (Cocota 2009, ch. 4).
 const TRACKING_RATIO: f64 = 0.5;

@@ -10,7 +10,8 @@ use crate::start::Control;
 use crate::texts::{say, tr};
 use crate::widgets::{Card, Choice, Scale, Select, Tick};
 use quadtank::sim::{Experiment, Load, LoadStep, SetPointStep};
-use quadtank_scenario::{Setup, limits};
+use quadtank::study::quadruple_tank::Setup;
+use quadtank_scenario::limits;
 
 /// Time of a step that the student adds (s).
 const FIRST_STEP_AT_S: f64 = 100.0;
@@ -27,14 +28,14 @@ const REFERENCE: Knob<Setup> = Knob {
     ids: [("step1", "step1-number"), ("step2", "step2-number")],
     label: |_, k| ["r₁", "r₂"][k],
     name: |lab, k| tr!(lab, experiment.reference, level = k + 1),
-    read: |s, k| to_shown(first_step(&s.experiment, k).size, s.display_unit()),
+    read: |s, k| to_shown(first_step(&s.experiment, k).size, s.plant.display_unit()),
     write: |s, k, size| {
-        let size = to_metres(size, s.display_unit());
+        let size = to_metres(size, s.plant.display_unit());
         first_step_mut(&mut s.experiment, k).size = size;
     },
     limits: |s, _| reach(s, 1.0),
     travel: Some(|s| reach(s, REFERENCE_TRAVEL)),
-    unit: |s| unit_name(s.display_unit()),
+    unit: |s| unit_name(s.plant.display_unit()),
     class: ["loop1-row", "loop2-row"],
     ..OF_EXPERIMENT
 };
@@ -82,11 +83,11 @@ const NOISE: Knob<Setup> = Knob {
     ids: [("noise", "noise-number"); 2],
     label: |lab, _| tr!(lab, experiment.noise),
     name: |lab, _| tr!(lab, experiment.noise_name).to_owned(),
-    read: |s, _| to_shown(s.experiment.measurement.noise_std, s.display_unit()),
-    write: |s, _, noise| s.experiment.measurement.noise_std = to_metres(noise, s.display_unit()),
+    read: |s, _| to_shown(s.experiment.measurement.noise_std, s.plant.display_unit()),
+    write: |s, _, noise| s.experiment.measurement.noise_std = to_metres(noise, s.plant.display_unit()),
     limits: |s, _| noises(s),
     travel: Some(noises),
-    unit: |s| unit_name(s.display_unit()),
+    unit: |s| unit_name(s.plant.display_unit()),
     ..OF_EXPERIMENT
 };
 const DURATION: Knob<Setup> = Knob {
@@ -117,12 +118,12 @@ const OF_EXPERIMENT: Knob<Setup> =
 /// Levels that a reference can be moved by, in the shown unit: a share of the lowest wall of the lower tanks.
 fn reach(setup: &Setup, share: f64) -> (f64, f64) {
     let [one, two, ..] = setup.plant().tanks;
-    let reach = to_shown(one.height.min(two.height), setup.display_unit()) * share;
+    let reach = to_shown(one.height.min(two.height), setup.plant.display_unit()) * share;
     (-reach, reach)
 }
 
 fn noises(setup: &Setup) -> (f64, f64) {
-    (0.0, to_shown(0.005, setup.display_unit()))
+    (0.0, to_shown(0.005, setup.plant.display_unit()))
 }
 
 /// The first step of a reference, or what it would be.

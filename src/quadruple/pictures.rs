@@ -6,10 +6,11 @@ use crate::shown::{per_metre, unit_name};
 use crate::texts::tr;
 use crate::widgets::Picture;
 use quadtank::linear::Complex;
+use quadtank::study::quadruple_tank::{Run, ValveMap};
 use quadtank_figure::{
     self, Chart, PoleZero, PoleZeroTexts, ResponseTexts, Responses, RunColumns, ValvePlane, ValvePlaneTexts,
 };
-use quadtank_scenario::{Analysis, Run, ValveMap};
+use quadtank_scenario::{roots_to_csv, run_to_csv, valve_map_to_csv};
 
 use leptos::prelude::*;
 
@@ -23,7 +24,7 @@ const CSV_STEPS: u32 = 20;
 /// The valve plane. It does not depend on the valves themselves, so dragging the point does not repaint it.
 pub fn valve_plane(lab: Lab) -> Picture {
     let map = Memo::new(move |_| lab.scenario.with(|s| ValveMap::of(&s.setup).ok().map(ValveMap::without_setting)));
-    let csv = move || map.get().map(|m| m.to_csv(CSV_STEPS)).unwrap_or_default();
+    let csv = move || map.get().map(|m| valve_map_to_csv(&m, CSV_STEPS)).unwrap_or_default();
     let build = move |visit: &mut dyn FnMut(&[Chart])| {
         let Some(map) = map.get() else { return };
         let texts = ValvePlaneTexts {
@@ -46,7 +47,7 @@ pub fn valve_plane(lab: Lab) -> Picture {
 
 /// Poles and zeros.
 pub fn pole_zero(lab: Lab) -> Picture {
-    let csv = move || lab.charts.with_analysis(Analysis::roots_to_csv).unwrap_or_default();
+    let csv = move || lab.charts.with_analysis(roots_to_csv).unwrap_or_default();
     let build = move |visit: &mut dyn FnMut(&[Chart])| {
         let map = lab.charts.setup.with_untracked(|setup| ValveMap::of(setup));
         let zero_paths = map.map(|m| m.zero_paths(PATH_POINTS)).unwrap_or_default();
@@ -76,7 +77,7 @@ pub fn pole_zero(lab: Lab) -> Picture {
 pub fn responses(lab: Lab, held: RwSignal<Option<(f64, f64)>>) -> Picture {
     let window = Memo::new(move |_| lab.scenario.with(|s| s.view.zoom_s.map(<(f64, f64)>::from)));
     let hide_linear = Memo::new(move |_| lab.scenario.with(|s| s.view.hide_linear));
-    let csv = move || lab.charts.run.with(|run| run.as_ref().as_ref().map(Run::to_csv).unwrap_or_default());
+    let csv = move || lab.charts.run.with(|run| run.as_ref().as_ref().map(run_to_csv).unwrap_or_default());
     let build = move |visit: &mut dyn FnMut(&[Chart])| {
         let (run, pinned): (Outcome<Run>, _) = (lab.charts.run.get(), lab.charts.pinned.get());
         let Ok(run) = run.as_ref() else { return };

@@ -12,7 +12,7 @@ use crate::preset::{PresetRemark, PresetSelect};
 use crate::start::Control;
 use crate::texts::{say, tr};
 use crate::widgets::{Card, NumberField, Scale, Verdict, marked};
-use quadtank_scenario::{OperatingPointSpec, Setup};
+use quadtank::study::quadruple_tank::{OperatingPointSpec, Setup};
 
 const GAMMA: Knob<Setup> = Knob {
     ids: [("gamma1", "gamma1-number"), ("gamma2", "gamma2-number")],

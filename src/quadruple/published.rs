@@ -7,7 +7,7 @@ use crate::preset::chosen;
 use crate::shown::{length_digits, to_shown, unit_name};
 use crate::texts::{say, tr};
 use crate::widgets::{Figures, Headings};
-use quadtank::plant::{Preset, PresetId};
+use quadtank::literature::{Preset, PresetId};
 
 /// A row: what, computed, printed.
 type Row = (String, String, Option<String>);
@@ -30,7 +30,7 @@ pub fn PublishedFigures() -> impl IntoView {
             if p.printed.is_none() {
                 return tr!(lab, process.none_printed, source = p.source);
             }
-            let at_home = lab.words.setup.with(|s| **s == quadtank_scenario::setup_of(p.id));
+            let at_home = lab.words.setup.with(|s| **s == quadtank::study::quadruple_tank::setup_of(p.id));
             let lead = tr!(lab, process.charts_use, source = p.source, table = p.table);
             let rest = if at_home { String::new() } else { format!(" {}", tr!(lab, process.printed_for)) };
             lead + &rest

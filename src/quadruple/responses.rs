@@ -6,7 +6,7 @@ use super::metrics::MetricsTable;
 use super::moment::{Moment, use_moment};
 use super::pictures;
 use super::set_points::SetPoints;
-use crate::errors::of_error;
+use crate::errors::of_study_error;
 use crate::lab::{Lab, use_lab};
 use crate::shown::{length_digits, to_shown, unit_name};
 use crate::texts::{say, tr};
@@ -14,8 +14,9 @@ use crate::widgets::{
     Card, ChartCanvas, ChartMenu, DataTable, Readout, Sentence, TimeAxis, TimeSurface, ZoomButtons, unmarked,
 };
 use quadtank::sim::{EventKind, LoopMetrics, Settling, Stability};
+use quadtank::study::{StudyError, StudyFault};
 use quadtank_figure::Frame;
-use quadtank_scenario::{Scenario, ScenarioError};
+use quadtank_scenario::Scenario;
 
 /// The shortest stretch of time that can be shown (s).
 const SHORTEST_S: f64 = 5.0;
@@ -158,7 +159,9 @@ fn sentence(lab: Lab) -> String {
     lab.words.run.with(|outcome| {
         let run = match outcome.as_ref() {
             Ok(run) => run,
-            Err(error @ ScenarioError::TooMuchWork { .. }) => return of_error(lab, lab.unit.get(), error),
+            Err(error @ StudyError { fault: StudyFault::TooMuchWork { .. }, .. }) => {
+                return of_study_error(lab, lab.unit.get(), error);
+            }
             Err(_) => return tr!(lab, responses.none).to_owned(),
         };
         let mut parts: Vec<String> =

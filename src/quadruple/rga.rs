@@ -6,7 +6,7 @@ use crate::lab::{Lab, use_lab};
 use crate::texts::{say, tr};
 use crate::widgets::{Caption, Card, Verdict, marked};
 use quadtank::interaction::{PairingReason, PairingVerdict};
-use quadtank_scenario::Analysis;
+use quadtank::study::quadruple_tank::Analysis;
 
 /// Relative gains above this make a plant hard to control: some directions need far more input than others.
 const LARGE: f64 = 5.0;

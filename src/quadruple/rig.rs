@@ -9,7 +9,8 @@ use crate::shown::{length_digits, to_shown, unit_name};
 use crate::start::Control;
 use crate::texts::{say, tr};
 use crate::widgets::{Drag, Handle, Nudge};
-use quadtank::plant::{DisplayUnit, Disturbance, QuadrupleTank, Tank};
+use quadtank::literature::DisplayUnit;
+use quadtank::plant::{Disturbance, QuadrupleTank, Tank};
 
 /// Where the tanks stand in the drawing (left, top), tank 1 first.
 const TANKS: [(f64, f64); 4] = [(62.0, 158.0), (150.0, 158.0), (62.0, 40.0), (150.0, 40.0)];

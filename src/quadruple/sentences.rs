@@ -8,7 +8,8 @@ use crate::texts::tr;
 use quadtank::linear::{Complex, LinearError};
 use quadtank::plant::PlantError;
 use quadtank::sim::Stability;
-use quadtank_scenario::{Analysis, ScenarioError};
+use quadtank::study::quadruple_tank::Analysis;
+use quadtank::study::{StudyError, StudyFault};
 
 /// Which of its situations a plant is in, for the sentences and the colours.
 #[derive(Clone, Debug, PartialEq)]
@@ -87,8 +88,8 @@ pub fn of_zero(lab: Lab) -> (String, bool) {
 pub fn of_equilibrium(lab: Lab) -> Vec<String> {
     lab.words.analysis.with(|outcome| match outcome.as_ref() {
         Ok(analysis) => analysis.out_of_range.iter().map(|e| of_limit(lab, e)).collect(),
-        Err(ScenarioError::Plant(PlantError::SingularPlant { .. })) => Vec::new(),
-        Err(ScenarioError::Plant(error)) => vec![of_limit(lab, error)],
+        Err(StudyError { fault: StudyFault::Plant(PlantError::SingularPlant { .. }), .. }) => Vec::new(),
+        Err(StudyError { fault: StudyFault::Plant(error), .. }) => vec![of_limit(lab, error)],
         Err(_) => Vec::new(),
     })
 }

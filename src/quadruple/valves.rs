@@ -9,7 +9,7 @@ use crate::preset::{chosen, load, name_of};
 use crate::start::Control;
 use crate::texts::{say, tr};
 use crate::widgets::{Card, ChartCanvas, ChartMenu, Nudge, PointHandle, Sentence, first_frame};
-use quadtank::plant::PresetId;
+use quadtank::literature::PresetId;
 use quadtank_figure::Frame;
 
 /// Steps of the arrow keys between shut and open.

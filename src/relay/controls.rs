@@ -5,7 +5,7 @@ use leptos::prelude::*;
 use super::session::{Session, time_unit};
 use crate::controls::{Document, Knob};
 use crate::lab::Lab;
-use quadtank_scenario::tuning::TuningSetup;
+use quadtank::study::relay_tuning::TuningSetup;
 
 impl Document for Session {
     type Setup = TuningSetup;

@@ -12,9 +12,9 @@ use crate::controls::{Knob, KnobRow};
 use crate::start::Control;
 use crate::texts::{say, tr};
 use crate::widgets::{Figures, Nudge, PointHandle, Row, Scale, TableContent, first_frame};
+use quadtank::study::relay_tuning::{CriticalSpec, TuningSetup};
 use quadtank::tuning::{GainLimit, importance_direction};
 use quadtank_figure::Frame;
-use quadtank_scenario::tuning::{CriticalSpec, TuningSetup};
 
 /// Importances that can be chosen.
 const IMPORTANCES: (f64, f64) = (0.001, 1000.0);

@@ -7,7 +7,7 @@ use crate::texts::{say, tr};
 use crate::widgets::{Folded, Row, TableContent};
 use quadtank::control::{IsaPid, ParallelPid, SeriesPid};
 use quadtank::linear::Complex;
-use quadtank_scenario::tuning::{Recovered, Tested};
+use quadtank::study::relay_tuning::{Recovered, Tested};
 
 /// What the test tells besides.
 #[component]

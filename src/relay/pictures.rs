@@ -7,11 +7,10 @@ use crate::texts::tr;
 use crate::widgets::Picture;
 use quadtank::linear::Loci;
 use quadtank::sim::LoopTrace;
+use quadtank::study::relay_tuning::{Designed, Tested, TuningPlant, rule_targets};
 use quadtank::tuning::{GainLimit, TuningRule};
 use quadtank_figure::{CurveChart, LociChart, LoopsChart, LoopsRecord, Pen};
-use quadtank_scenario::tuning::{
-    Designed, Tested, TuningPlant, curve_to_csv, loci_to_csv, record_to_csv, response_to_csv, rule_targets,
-};
+use quadtank_scenario::tuning::{curve_to_csv, loci_to_csv, record_to_csv, response_to_csv};
 
 /// Importances whose rays are drawn.
 const RAYS: [f64; 3] = [0.2, 1.0, 5.0];

@@ -14,9 +14,9 @@ use crate::start::Control;
 use crate::texts::{say, tr};
 use crate::widgets::{Choice, Figures, Nudge, PointHandle, Row, Scale, Select, TableContent};
 use quadtank::linear::{Closure, LoopStability};
+use quadtank::study::relay_tuning::{DesignRoot, TuningSetup, rule_targets};
 use quadtank::tuning::{Action, PlacementMethod, PlacementWarning, TuningRule, dynamic_relative_gain};
 use quadtank_figure::Frame;
-use quadtank_scenario::tuning::{DesignRoot, TuningSetup, rule_targets};
 
 /// Step of the arrow keys, and the grid of dragging.
 const STEP: f64 = 0.01;

@@ -12,9 +12,11 @@ use crate::start::Control;
 use crate::texts::{say, tr};
 use crate::widgets::{Card, Choice, Scale, Select};
 use quadtank::control::Pairing;
-use quadtank::plant::PresetId;
-use quadtank::tuning::PublishedPlant;
-use quadtank_scenario::tuning::{PublishedCase, TuningPlant, TuningSetup, TuningWarning};
+use quadtank::literature::PresetId;
+use quadtank::literature::campestrini::PublishedCase;
+use quadtank::literature::campestrini::PublishedPlant;
+use quadtank::study::relay_tuning::{TuningPlant, TuningSetup};
+use quadtank_scenario::tuning::{TuningWarning, warnings};
 
 const VALVE: Knob<TuningSetup> = Knob {
     ids: [("", "rig-gamma1"), ("", "rig-gamma2")],
@@ -225,7 +227,7 @@ fn CaseSelect() -> impl IntoView {
     let choices = Signal::derive(move || {
         let chosen = session.case.get();
         let changed = chosen.is_some_and(|case| {
-            case.is_placement() && session.words.setup.with(|setup| **setup != case.scenario().tuning)
+            case.is_placement() && session.words.setup.with(|setup| **setup != TuningSetup::published(case))
         });
         let one = |case: PublishedCase| {
             let text = name_of_case(lab, case);
@@ -236,7 +238,7 @@ fn CaseSelect() -> impl IntoView {
         std::iter::once(none).chain(PublishedCase::all().map(one)).collect::<Vec<_>>()
     });
     let choose = move |case: Option<PublishedCase>| match case {
-        Some(case) => session.load(case.scenario().tuning, Some(case)),
+        Some(case) => session.load(TuningSetup::published(case), Some(case)),
         None => session.case.set(None),
     };
     view! {
@@ -273,7 +275,7 @@ fn remark(session: Session) -> String {
     if session.words.setup.with(|s| rig(s).is_some_and(|(_, nonlinear)| nonlinear)) {
         text = text + " " + tr!(lab, relay.nonlinear_remark);
     }
-    for warning in session.words.setup.with(|s| s.warnings()) {
+    for warning in session.words.setup.with(|s| warnings(s)) {
         if let TuningWarning::CoefficientOrder { field, read_as, reversed } = warning {
             let order = tr!(lab, relay.coefficient_order, field = field, read = read_as, reversed = reversed);
             text = text + " " + &order;

@@ -7,7 +7,8 @@ use crate::format::NumberStyle;
 use crate::lab::Lab;
 use crate::texts::{say, tr};
 use crate::widgets::{Caption, Cells, Figures};
-use quadtank_scenario::tuning::{PrintedFigure, PrintedRemark, PublishedCase};
+use quadtank::literature::campestrini::{PrintedRemark, PublishedCase};
+use quadtank::study::relay_tuning::{PrintedFigure, printed_figures};
 
 /// The figures of the chosen case; nothing where none is chosen.
 #[component]
@@ -30,10 +31,10 @@ pub fn PrintedFigures() -> impl IntoView {
 fn table(session: Session) -> Option<impl IntoView> {
     let (lab, case) = (session.lab, session.case.get()?);
     let study = session.words.study.get();
-    let figures = case.figures(study.as_ref().as_ref().ok()?).ok()?;
+    let figures = printed_figures(case, study.as_ref().as_ref().ok()?).ok()?;
     let style = lab.number_style();
-    let symbols = figures.iter().map(|f| view! { <th scope="col">{f.symbol}</th> }).collect_view();
-    let printed = figures.iter().map(|f| style.fixed(f.printed, f.decimals.into())).collect::<Vec<_>>();
+    let symbols = figures.iter().map(|f| view! { <th scope="col">{f.printed.symbol}</th> }).collect_view();
+    let printed = figures.iter().map(|f| style.fixed(f.printed.value, f.printed.decimals.into())).collect::<Vec<_>>();
     let computed = figures.iter().map(|f| computed(style, f)).collect_view();
     Some(view! {
         <Caption text=tr!(lab, relay.printed_caption) />
@@ -48,7 +49,7 @@ fn table(session: Session) -> Option<impl IntoView> {
 /// A computed number, which agrees with the printed one or not.
 fn computed(style: NumberStyle, figure: &PrintedFigure) -> impl IntoView + use<> {
     let agrees = figure.agrees();
-    let number = style.fixed(figure.computed, usize::from(figure.decimals) + 1);
+    let number = style.fixed(figure.computed, usize::from(figure.printed.decimals) + 1);
     let sign = if agrees { "=" } else { "≠" };
     view! { <td class=if agrees { "good" } else { "warm" } data-agrees=agrees.to_string()>{format!("{sign} {number}")}</td> }
 }

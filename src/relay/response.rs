@@ -15,10 +15,11 @@ use crate::start::Control;
 use crate::texts::{say, tr};
 use crate::widgets::{Choice, DataTable, Figures, Row, Select, TableContent, ZoomButtons};
 use quadtank::linear::LoopStability;
+use quadtank::literature::campestrini::PublishedPlant;
 use quadtank::sim::Halt;
-use quadtank::tuning::PublishedPlant;
+use quadtank::study::relay_tuning::{CompareSpec, DecouplerSpec, StepResponse, TuningPlant};
 use quadtank_figure::Frame;
-use quadtank_scenario::tuning::{CompareSpec, DecouplerSpec, StepResponse, TuningPlant, TuningScenario};
+use quadtank_scenario::tuning::TuningScenario;
 
 /// The references whose steps can be looked at.
 const FIRST: [f64; 2] = [1.0, 0.0];

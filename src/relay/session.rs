@@ -8,8 +8,11 @@ use leptos::prelude::*;
 use crate::lab::{Lab, use_lab};
 use crate::results::{catch_up, shared};
 use crate::start::Control;
-use quadtank::tuning::{PublishedPlant, TuningError};
-use quadtank_scenario::tuning::{Designed, PublishedCase, Study, Tested, TuningPlant, TuningScenario, TuningSetup};
+use quadtank::literature::campestrini::PublishedCase;
+use quadtank::literature::campestrini::PublishedPlant;
+use quadtank::study::relay_tuning::{Designed, PlantStudy, Tested, TuningPlant, TuningSetup};
+use quadtank::tuning::TuningError;
+use quadtank_scenario::tuning::TuningScenario;
 
 /// A result that a panel may show, or why there is none.
 pub type Outcome<T> = Arc<Computed<T>>;
@@ -22,7 +25,7 @@ pub struct Found {
     /// The setup that the results are of.
     pub setup: RwSignal<Arc<TuningSetup>>,
     /// What follows from the plant.
-    pub study: RwSignal<Outcome<Study>>,
+    pub study: RwSignal<Outcome<PlantStudy>>,
     /// The relay test.
     pub test: RwSignal<Outcome<Tested>>,
     /// The placement with its response.
@@ -35,7 +38,7 @@ impl Found {
     /// All of a session, computed.
     fn of(scenario: &TuningScenario) -> Self {
         let setup = &scenario.tuning;
-        let study = Arc::new(Study::of(&setup.plant));
+        let study = Arc::new(PlantStudy::of(&setup.plant));
         Self {
             test: RwSignal::new(tested(&study, setup)),
             design: RwSignal::new(designed(&study, setup)),
@@ -71,16 +74,16 @@ impl Found {
     }
 }
 
-fn tested(study: &Outcome<Study>, setup: &TuningSetup) -> Outcome<Tested> {
+fn tested(study: &Outcome<PlantStudy>, setup: &TuningSetup) -> Outcome<Tested> {
     Arc::new(study.as_ref().as_ref().map_err(|&error| error).and_then(|study| study.test(setup)))
 }
 
-fn designed(study: &Outcome<Study>, setup: &TuningSetup) -> Outcome<Option<Designed>> {
+fn designed(study: &Outcome<PlantStudy>, setup: &TuningSetup) -> Outcome<Option<Designed>> {
     Arc::new(study.as_ref().as_ref().map_err(|&error| error).and_then(|study| study.design(setup)))
 }
 
 fn design_all(setups: &[TuningSetup]) -> Arc<Vec<Outcome<Option<Designed>>>> {
-    Arc::new(setups.iter().map(|setup| designed(&Arc::new(Study::of(&setup.plant)), setup)).collect())
+    Arc::new(setups.iter().map(|setup| designed(&Arc::new(PlantStudy::of(&setup.plant)), setup)).collect())
 }
 
 /// The relay-tuning bench. A handle of one pointer, as [`Lab`].
@@ -157,7 +160,7 @@ impl Session {
         let after = self.lab.tuning.try_get_untracked()?;
         let before = self.charts.setup.get_untracked();
         let setup = &after.tuning;
-        let study = (before.plant != setup.plant).then(|| Arc::new(Study::of(&setup.plant)));
+        let study = (before.plant != setup.plant).then(|| Arc::new(PlantStudy::of(&setup.plant)));
         let known = study.clone().unwrap_or_else(|| self.charts.study.get_untracked());
         let test = (study.is_some() || before.test != setup.test).then(|| tested(&known, setup));
         let same_design = before.design == setup.design && before.response == setup.response;
@@ -184,7 +187,7 @@ fn set_if_some<T: Send + Sync + 'static>(signal: RwSignal<Arc<T>>, value: Option
 
 /// The case whose session this is; of several that begin alike, the one with controllers.
 fn case_of(setup: &TuningSetup) -> Option<PublishedCase> {
-    PublishedCase::all().filter(|case| case.is_placement()).find(|case| case.scenario().tuning == *setup)
+    PublishedCase::all().filter(|case| case.is_placement()).find(|&case| TuningSetup::published(case) == *setup)
 }
 
 /// The unit of time of a plant; nothing where the document does not say.

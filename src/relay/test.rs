@@ -14,9 +14,9 @@ use crate::controls::{Knob, KnobRow, Switch};
 use crate::start::Control;
 use crate::texts::{say, tr};
 use crate::widgets::{Choice, DataTable, Figures, Scale, Select, ZoomButtons};
+use quadtank::study::relay_tuning::{Behind, CriticalSpec, TestKind, Tested, TuningSetup};
 use quadtank::tuning::TuningRule;
 use quadtank_figure::Frame;
-use quadtank_scenario::tuning::{Behind, CriticalSpec, TestKind, Tested, TuningSetup};
 
 /// Ratios of the amplitudes that the slider covers.
 const RATIOS: (f64, f64) = (0.02, 20.0);

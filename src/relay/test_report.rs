@@ -7,8 +7,8 @@ use super::session::{Session, time_unit};
 use crate::texts::tr;
 use crate::widgets::{Cells, Headings, Row, TableContent};
 use quadtank::control::IsaPid;
+use quadtank::study::relay_tuning::{TestKind, Tested};
 use quadtank::tuning::{CurveDistance, RelayReading, RelayVerdict, TestAndSettings};
-use quadtank_scenario::tuning::{TestKind, Tested};
 
 /// The readings of a test with the settings that follow, in the order of the experiments.
 fn readings(test: &Tested) -> Vec<(String, RelayReading, Option<IsaPid>)> {

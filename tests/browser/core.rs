@@ -2,9 +2,11 @@
 //! `crates/quadtank/tests/published`.
 
 use crate::seeded;
-use quadtank::plant::PresetId;
-use quadtank_scenario::model_free::{PublishedExperiment, PublishedValves, published_model_free, run_model_free};
-use quadtank_scenario::{Document, Scenario, ScenarioError, analyse, document_from_link, run, setup_of, to_link};
+use quadtank::literature::PresetId;
+use quadtank::literature::junqueira::{PublishedExperiment, PublishedValves};
+use quadtank::study::model_free::{ModelFreeSetup, run_model_free};
+use quadtank::study::quadruple_tank::{analyse, run, setup_of};
+use quadtank_scenario::{Document, Scenario, ScenarioError, document_from_link, to_link};
 use wasm_bindgen_test::wasm_bindgen_test;
 
 /// The scenario of a link.
@@ -71,7 +73,7 @@ fn a_seed_gives_the_same_run_as_on_the_host() {
 fn model_free_control_does_here_what_it_does_on_the_host() {
     // Junqueira, Neves and Angelico from empty tanks, IAE of tank 1 (cm s), as in tests/junqueira/.
     for (valves, iae) in PublishedValves::ALL.into_iter().zip([190.3, 269.1, 207.2]) {
-        let answer = run_model_free(&published_model_free(valves, PublishedExperiment::S1)).expect("empty tanks");
+        let answer = run_model_free(&ModelFreeSetup::published(valves, PublishedExperiment::S1)).expect("empty tanks");
         let found = 100.0 * answer.figures[0].iae;
         assert!((found - iae).abs() <= 0.05, "{valves:?}: {found}");
     }

@@ -7,13 +7,18 @@ use std::process::ExitCode;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::error::ErrorKind;
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use quadtank::plant::PresetId;
+use quadtank::literature::PresetId;
+use quadtank::literature::campestrini::PublishedCase;
+use quadtank::study::StudyError;
+use quadtank::study::model_free::ModelFreeSetup;
+use quadtank::study::quadruple_tank::{Setup, analyse, run, setup_of};
+use quadtank::study::relay_tuning::TuningSetup;
 use quadtank::tuning::TuningError;
-use quadtank_scenario::model_free::{ModelFreeScenario, ModelFreeSetup, published_model_free};
-use quadtank_scenario::tuning::{PublishedCase, TuningSetup};
+use quadtank_scenario::model_free::ModelFreeScenario;
+use quadtank_scenario::tuning::{TuningScenario, warnings};
 use quadtank_scenario::{
-    AnalysisReport, DOCUMENT_LIMIT, Document, Scenario, ScenarioError, Setup, analyse, check_length,
-    document_from_bytes, model_free_to_json, run, schema_of, setup_of, to_json, tuning_to_json,
+    AnalysisReport, DOCUMENT_LIMIT, Document, Scenario, ScenarioError, check_length, document_from_bytes,
+    model_free_to_json, run_to_csv, schema_of, to_json, tuning_to_json,
 };
 use serde::Serialize;
 use serde_json::Value;
@@ -143,7 +148,9 @@ fn case_of(name: &str) -> Result<Case, &'static str> {
     let model_free = || model_free::published().find(|(known, ..)| known == name);
     PublishedCase::from_name(name)
         .map(Case::Tuning)
-        .or_else(|| model_free().map(|(_, valves, run)| Case::ModelFree(Box::new(published_model_free(valves, run)))))
+        .or_else(|| {
+            model_free().map(|(_, valves, run)| Case::ModelFree(Box::new(ModelFreeSetup::published(valves, run))))
+        })
         .ok_or("unknown case; `quadtank cases` lists them")
 }
 
@@ -202,16 +209,16 @@ fn execute(command: Command) -> Result<(), Failure> {
     match command {
         Command::Analyse { source } => answer(
             &source,
-            |setup| print_json(&AnalysisReport::from(&told(&source.file, analyse(setup))?)),
+            |setup| print_json(&AnalysisReport::from(&studied(&source.file, "setup", analyse(setup))?)),
             |session| print_json(&tuned(&source.file, tune::analysis(session))?),
             |setup| print_json(&model_free::analysis(setup)),
         ),
         Command::Simulate { source, format } => answer(
             &source,
             |setup| {
-                let run = told(&source.file, run(setup))?;
+                let run = studied(&source.file, "setup", run(setup))?;
                 match format {
-                    Format::Csv => print(&run.to_csv()),
+                    Format::Csv => print(&run_to_csv(&run)),
                     Format::Json => print_json(&run),
                 }
             },
@@ -220,8 +227,8 @@ fn execute(command: Command) -> Result<(), Failure> {
                 Format::Json => print_json(&tuned(&source.file, tune::report(session))?),
             },
             |setup| match format {
-                Format::Csv => print(&told(&source.file, model_free::csv(setup))?),
-                Format::Json => print_json(&told(&source.file, model_free::report(setup))?),
+                Format::Csv => print(&studied(&source.file, "model_free", model_free::csv(setup))?),
+                Format::Json => print_json(&studied(&source.file, "model_free", model_free::report(setup))?),
             },
         ),
         Command::Plot { source, svg, chart, picture, theme } => {
@@ -231,9 +238,9 @@ fn execute(command: Command) -> Result<(), Failure> {
             };
             answer(
                 &source,
-                |setup| write(told(&source.file, plot::svg(setup, chart, &style))?),
+                |setup| write(studied(&source.file, "setup", plot::svg(setup, chart, &style))?),
                 |session| write(tuned(&source.file, tune::svg(session, picture, &style))?),
-                |setup| write(told(&source.file, model_free::svg(setup, &style))?),
+                |setup| write(studied(&source.file, "model_free", model_free::svg(setup, &style))?),
             )
         }
         Command::Tune { source, format } => answer(
@@ -247,7 +254,7 @@ fn execute(command: Command) -> Result<(), Failure> {
         ),
         Command::Cases { name: None } => print(&list_of_cases()),
         Command::Cases { name: Some(Case::Tuning(case)) } => {
-            print_document(&case.name(), tuning_to_json(&case.scenario()))
+            print_document(&case.name(), tuning_to_json(&TuningScenario::from(TuningSetup::published(case))))
         }
         Command::Cases { name: Some(Case::ModelFree(setup)) } => {
             print_document("this case", model_free_to_json(&ModelFreeScenario::from(*setup)))
@@ -272,7 +279,7 @@ fn answer(
         Document::Quadruple(scenario) => of_run(&scenario.setup),
         Document::Tuning(scenario) => {
             of_session(&scenario.tuning)?;
-            for warning in scenario.tuning.warnings() {
+            for warning in warnings(&scenario.tuning) {
                 message::tell(format!("{}: warning: {warning}", file_name(file)));
             }
             Ok(())
@@ -283,6 +290,11 @@ fn answer(
 
 fn told<T>(file: &Path, result: Result<T, ScenarioError>) -> Result<T, Failure> {
     result.map_err(|error| Failure::Scenario { file: file_name(file), error })
+}
+
+/// A result of the setup at a field of a document.
+fn studied<T>(file: &Path, setup: &'static str, result: Result<T, StudyError>) -> Result<T, Failure> {
+    told(file, result.map_err(|error| ScenarioError::Study { setup, error }))
 }
 
 fn tuned<T>(file: &Path, result: Result<T, TuningError>) -> Result<T, Failure> {

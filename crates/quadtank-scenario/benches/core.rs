@@ -6,15 +6,16 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use quadtank::control::{AntiWindup, DecentralisedPi, LoopMode, Pairing, ParallelPid, PiSettings, PidMatrix};
 use quadtank::interaction::relative_gain_array;
 use quadtank::linear::{DelayedPlant, StateSpace, transmission_zeros};
-use quadtank::plant::{OperatingPoint, PresetId, QuadrupleTank};
+use quadtank::literature::PresetId;
+use quadtank::literature::campestrini::PublishedPlant;
+use quadtank::literature::junqueira::{PublishedExperiment, PublishedValves};
+use quadtank::plant::{OperatingPoint, QuadrupleTank};
 use quadtank::sim::{
     Experiment, Measurement, SetPointStep, TwoLoops, closed_loop, loop_metrics, run_two_loops, simulate,
     simulate_linear, simulate_model_free,
 };
-use quadtank::tuning::{
-    CriticalCurve, CriticalSearch, Design, PublishedPlant, TestTime, frequency_range, simultaneous_test,
-};
-use quadtank_scenario::model_free::{ModelFreeSetup, PublishedExperiment, PublishedValves, published_model_free};
+use quadtank::study::model_free::ModelFreeSetup;
+use quadtank::tuning::{CriticalCurve, CriticalSearch, Design, TestTime, frequency_range, simultaneous_test};
 
 /// Johansson (2000), P−, with its published controllers: 3000 s at one sample per second, a step of 5 % of each
 /// reference.
@@ -124,7 +125,7 @@ fn pid(proportional: f64, integral: f64, derivative: f64) -> ParallelPid {
 /// 2000 s of each published case under the published law.
 fn model_free(c: &mut Criterion) {
     for valves in PublishedValves::ALL {
-        let mut setup = published_model_free(valves, PublishedExperiment::S2);
+        let mut setup = ModelFreeSetup::published(valves, PublishedExperiment::S2);
         setup.experiment.duration_s = 2000.0;
         let (plant, start) = (setup.plant_at(0.0), setup.start().expect("equal levels"));
         let ModelFreeSetup { valves: schedules, controller, experiment, .. } = &setup;

@@ -2,83 +2,78 @@
 
 use std::fmt::Write as _;
 
-use super::{Analysis, Run, ValveMap};
 use quadtank::linear::Complex;
+use quadtank::study::quadruple_tank::{Analysis, Run, ValveMap};
 
 /// A row of a table of poles and zeros.
 type Root = (&'static str, Complex);
 
-impl Run {
-    /// The trajectories, one row per sample, with the unit of each column in its name.
-    pub fn to_csv(&self) -> String {
-        let columns = self.columns();
-        let names: Vec<&str> = columns.iter().map(|(name, _)| name.as_str()).collect();
-        let mut text = names.join(",") + "\n";
-        for row in 0..self.nonlinear.time_s.len() {
-            for (index, (_, values)) in columns.iter().enumerate() {
-                let separator = if index == 0 { "" } else { "," };
-                // Writing to a String cannot fail.
-                let _ = match values.get(row) {
-                    Some(value) => write!(text, "{separator}{value}"),
-                    None => write!(text, "{separator}"),
-                };
-            }
-            text.push('\n');
+/// The trajectories, one row per sample, with the unit of each column in its name.
+pub fn run_to_csv(run: &Run) -> String {
+    let columns = columns(run);
+    let names: Vec<&str> = columns.iter().map(|(name, _)| name.as_str()).collect();
+    let mut text = names.join(",") + "\n";
+    for row in 0..run.nonlinear.time_s.len() {
+        for (index, (_, values)) in columns.iter().enumerate() {
+            let separator = if index == 0 { "" } else { "," };
+            // Writing to a String cannot fail.
+            let _ = match values.get(row) {
+                Some(value) => write!(text, "{separator}{value}"),
+                None => write!(text, "{separator}"),
+            };
         }
-        text
+        text.push('\n');
     }
+    text
+}
 
-    fn columns(&self) -> Vec<(String, &[f64])> {
-        let (plant, model) = (&self.nonlinear, &self.linear);
-        let mut columns = vec![("time_s".to_owned(), plant.time_s.as_slice())];
-        columns.extend(numbered("level", "m", &plant.levels));
-        columns.extend(numbered("reference", "m", &plant.references));
-        columns.extend(numbered("controller_output", "v", &plant.controller_output));
-        columns.extend(numbered("pump_voltage", "v", &plant.pump_voltage));
-        columns.extend(numbered("linear_level", "m", &model.levels));
-        columns.extend(numbered("linear_pump_voltage", "v", &model.pump_voltage));
-        columns
-    }
+fn columns(run: &Run) -> Vec<(String, &[f64])> {
+    let (plant, model) = (&run.nonlinear, &run.linear);
+    let mut columns = vec![("time_s".to_owned(), plant.time_s.as_slice())];
+    columns.extend(numbered("level", "m", &plant.levels));
+    columns.extend(numbered("reference", "m", &plant.references));
+    columns.extend(numbered("controller_output", "v", &plant.controller_output));
+    columns.extend(numbered("pump_voltage", "v", &plant.pump_voltage));
+    columns.extend(numbered("linear_level", "m", &model.levels));
+    columns.extend(numbered("linear_pump_voltage", "v", &model.pump_voltage));
+    columns
 }
 
 fn numbered<'a>(name: &str, unit: &str, series: &'a [Vec<f64>]) -> impl Iterator<Item = (String, &'a [f64])> {
     series.iter().enumerate().map(move |(index, values)| (format!("{name}_{}_{unit}", index + 1), values.as_slice()))
 }
 
-impl Analysis {
-    /// Poles and zeros (1/s), one row each.
-    pub fn roots_to_csv(&self) -> String {
-        let poles = self.poles.iter().map(|&s| ("pole", s));
-        let zeros = self.zeros.iter().flatten().map(|z| ("transmission_zero", z.value));
-        let closed = self.closed_loop.poles_s.iter().map(|&s| ("closed_loop_pole", s));
-        let row = |(kind, s): Root| format!("{kind},{},{}\n", s.re, s.im);
-        "kind,real_per_s,imaginary_per_s\n".to_owned() + &poles.chain(zeros).chain(closed).map(row).collect::<String>()
-    }
+/// Poles and zeros (1/s), one row each.
+pub fn roots_to_csv(analysis: &Analysis) -> String {
+    let poles = analysis.poles.iter().map(|&s| ("pole", s));
+    let zeros = analysis.zeros.iter().flatten().map(|z| ("transmission_zero", z.value));
+    let closed = analysis.closed_loop.poles_s.iter().map(|&s| ("closed_loop_pole", s));
+    let row = |(kind, s): Root| format!("{kind},{},{}\n", s.re, s.im);
+    "kind,real_per_s,imaginary_per_s\n".to_owned() + &poles.chain(zeros).chain(closed).map(row).collect::<String>()
 }
 
-impl ValveMap {
-    /// The right-most zero (1/s) over the valve plane in `steps` steps of each valve; empty where there is none.
-    pub fn to_csv(&self, steps: u32) -> String {
-        let fraction = |step: u32| f64::from(step) / f64::from(steps.max(1));
-        let row = |valves: [f64; 2]| {
-            let zero = self.rightmost_zero(valves).map_or_else(String::new, |z| z.to_string());
-            format!("{},{},{zero}\n", valves[0], valves[1])
-        };
-        let rows = (0..=steps).flat_map(|i| (0..=steps).map(move |j| [fraction(i), fraction(j)]));
-        "gamma_1,gamma_2,rightmost_zero_per_s\n".to_owned() + &rows.map(row).collect::<String>()
-    }
+/// The right-most zero (1/s) over the valve plane in `steps` steps of each valve; empty where there is none.
+pub fn valve_map_to_csv(map: &ValveMap, steps: u32) -> String {
+    let fraction = |step: u32| f64::from(step) / f64::from(steps.max(1));
+    let row = |valves: [f64; 2]| {
+        let zero = map.rightmost_zero(valves).map_or_else(String::new, |z| z.to_string());
+        format!("{},{},{zero}\n", valves[0], valves[1])
+    };
+    let rows = (0..=steps).flat_map(|i| (0..=steps).map(move |j| [fraction(i), fraction(j)]));
+    "gamma_1,gamma_2,rightmost_zero_per_s\n".to_owned() + &rows.map(row).collect::<String>()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::{analyse, run, setup_of};
     use super::*;
-    use quadtank::plant::PresetId;
+    use quadtank::literature::PresetId;
+    use quadtank::study::quadruple_tank::{analyse, run, setup_of};
 
     #[test]
     fn every_row_has_a_value_for_every_column() -> Result<(), Box<dyn std::error::Error>> {
         let setup = setup_of(PresetId::JohanssonNonMinimumPhase);
-        let texts = [run(&setup)?.to_csv(), analyse(&setup)?.roots_to_csv(), ValveMap::of(&setup)?.to_csv(4)];
+        let texts =
+            [run_to_csv(&run(&setup)?), roots_to_csv(&analyse(&setup)?), valve_map_to_csv(&ValveMap::of(&setup)?, 4)];
         for (text, rows) in texts.iter().zip([3002, 1 + 4 + 2 + 6, 1 + 25]) {
             assert_eq!(text.lines().count(), rows);
             let columns = text.lines().next().map_or(0, |line| line.split(',').count());
@@ -90,7 +85,7 @@ mod tests {
     #[test]
     fn the_zeros_of_the_table_are_those_of_the_analysis() -> Result<(), Box<dyn std::error::Error>> {
         let analysis = analyse(&setup_of(PresetId::JohanssonNonMinimumPhase))?;
-        let text = analysis.roots_to_csv();
+        let text = roots_to_csv(&analysis);
         let zero = analysis.rightmost_zero().map_or(f64::NAN, |z| z.value.re);
         assert!(text.contains(&format!("transmission_zero,{zero},0\n")), "{text}");
         Ok(())

@@ -1,85 +1,8 @@
-use quadtank::control::DecentralisedPi;
-use quadtank::plant::{DisplayUnit, OperatingPoint, PresetId, QuadrupleTank};
-use quadtank::sim::Experiment;
+use quadtank::literature::PresetId;
+use quadtank::study::quadruple_tank::{Setup, setup_of};
 use serde::{Deserialize, Serialize};
 
 use super::{ScenarioError, params, validate};
-
-/// The plant of a setup: a published rig by name, or all its parameters.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-#[expect(clippy::large_enum_variant, reason = "one per scenario, and plain data is easier to share than a box")]
-pub enum PlantSpec {
-    /// A published rig; its valves are overridden by those of the setup.
-    Preset(PresetId),
-    /// A rig of one's own.
-    Parameters {
-        /// All parameters, in SI; the valves are overridden by those of the setup.
-        rig: QuadrupleTank,
-        /// The unit to show levels in.
-        display_unit: DisplayUnit,
-    },
-}
-
-/// How the operating point is given.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "snake_case")]
-pub enum OperatingPointSpec {
-    /// The pump voltages (V); the levels follow, for any valves.
-    PumpVoltage([f64; 2]),
-    /// The levels of tanks 1 and 2 (m); the voltages follow, unless γ1 + γ2 = 1.
-    Levels([f64; 2]),
-}
-
-/// Everything that one run depends on.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub struct Setup {
-    /// The plant.
-    pub plant: PlantSpec,
-    /// Valve fractions γ1, γ2, each in [0, 1].
-    pub valves: [f64; 2],
-    /// Where it rests before the experiment.
-    pub operating_point: OperatingPointSpec,
-    /// The controller.
-    pub controller: DecentralisedPi,
-    /// What is done to it.
-    pub experiment: Experiment,
-}
-
-impl Setup {
-    /// The rig, with the valves of this setup.
-    pub fn plant(&self) -> QuadrupleTank {
-        let rig = match self.plant {
-            PlantSpec::Preset(id) => id.preset().plant,
-            PlantSpec::Parameters { rig, .. } => rig,
-        };
-        rig.with_valves(self.valves)
-    }
-
-    /// The unit to show levels in.
-    pub fn display_unit(&self) -> DisplayUnit {
-        match self.plant {
-            PlantSpec::Preset(id) => id.preset().display_unit,
-            PlantSpec::Parameters { display_unit, .. } => display_unit,
-        }
-    }
-
-    /// The equilibrium that the experiment starts from, whether or not walls and pumps allow it.
-    ///
-    /// # Errors
-    /// [`ScenarioError::Plant`] when levels are given and no input holds them.
-    pub fn operating_point(&self) -> Result<OperatingPoint, ScenarioError> {
-        let plant = self.plant();
-        match self.operating_point {
-            OperatingPointSpec::PumpVoltage(voltage) => Ok(plant.free_equilibrium(voltage)),
-            OperatingPointSpec::Levels(levels) => Ok(plant.inputs_for_levels(levels)?),
-        }
-    }
-}
 
 /// What the screen shows beside the run itself. Nothing here changes a number.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -131,5 +54,19 @@ impl Scenario {
         validate::setup(&self.setup, "setup")?;
         validate::each(&self.pinned, "pinned", validate::setup)?;
         validate::view(&self.view, "view")
+    }
+}
+
+/// The first published rig, nothing pinned.
+impl Default for Scenario {
+    fn default() -> Self {
+        Self::from(setup_of(PresetId::JohanssonMinimumPhase))
+    }
+}
+
+/// A setup alone, nothing pinned.
+impl From<Setup> for Scenario {
+    fn from(setup: Setup) -> Self {
+        Self { version: Self::VERSION, setup, pinned: Vec::new(), view: View::default() }
     }
 }

@@ -1,11 +1,10 @@
 use thiserror::Error;
 
 use quadtank::control::EstimatorError;
-use quadtank::linear::LinearError;
-use quadtank::plant::PlantError;
+use quadtank::study::StudyError;
 
 use super::limits::Limits;
-use super::tuning::ElementFault;
+use quadtank::study::relay_tuning::ElementFault;
 
 /// Why a document is not a scenario, or a scenario cannot be computed.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -74,22 +73,14 @@ pub enum ScenarioError {
     /// A link that is cut off or damaged.
     #[error("the link is damaged or cut off")]
     DamagedLink,
-    /// A run whose integration takes more work than any experiment is given.
-    #[error(
-        "{field}: not computed beyond {time_s} s, because tanks that are almost dry or at their walls ask for too many steps"
-    )]
-    TooMuchWork {
-        /// Where in the document.
-        field: String,
-        /// How far the run came (s).
-        time_s: f64,
+    /// The setup of a document has no results.
+    #[error("{setup}.{error}")]
+    Study {
+        /// Where the setup is in its document.
+        setup: &'static str,
+        /// What is wrong with it.
+        error: StudyError,
     },
-    /// The plant has no such operating point.
-    #[error("setup.operating_point: {0}")]
-    Plant(#[from] PlantError),
-    /// Nothing holds the levels that a run under the model-free law is to begin with.
-    #[error("model_free.start: {0}")]
-    Start(PlantError),
     /// The model-free law cannot work with such settings.
     #[error("{field}: {error}")]
     Law {
@@ -106,9 +97,6 @@ pub enum ScenarioError {
         /// What is wrong.
         fault: ElementFault,
     },
-    /// The linear model does not answer.
-    #[error(transparent)]
-    Linear(#[from] LinearError),
 }
 
 /// The number at a path of a document that is not within its limits.

@@ -4,6 +4,8 @@
 //! The limits are wide on purpose: they keep a document computable (no overflow, no endless run), not sensible. What a
 //! rig can really do is a matter of its walls and pumps, which [`quadtank::plant::QuadrupleTank::violations`] checks.
 
+use quadtank::study::model_free::ModelFreeSetup;
+
 /// A closed interval of allowed values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
@@ -153,6 +155,13 @@ pub fn sampling_time_s(duration_s: f64) -> Limits {
 /// Allowed durations of an experiment (s) at a sampling time (s): those of [`DURATION_S`] with at most [`MAX_SAMPLES`] samples.
 pub fn duration_s(sampling_time_s: f64) -> Limits {
     Limits { max: DURATION_S.max.min(MAX_SAMPLES * sampling_time_s), ..DURATION_S }
+}
+
+/// The same of a run under the model-free law, whose valves turn by at most [`MAX_VALVE_TURN`].
+pub fn model_free_duration_s(setup: &ModelFreeSetup) -> Limits {
+    let Limits { min, max } = duration_s(setup.controller.sampling_time_s);
+    let turning = setup.valves[0].turning().max(setup.valves[1].turning());
+    Limits { min, max: max.min(MAX_VALVE_TURN / turning) }
 }
 
 /// Allowed angular frequencies of a swinging valve (rad/s) in an experiment of a duration (s): those of [`VALVE_FREQUENCY`] at

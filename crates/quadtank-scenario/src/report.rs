@@ -6,7 +6,7 @@ use quadtank::linear::{Complex, LinearError, TransmissionZero};
 use quadtank::plant::{OperatingPoint, PlantError};
 use quadtank::sim::Stability;
 
-use super::{Analysis, Margins};
+use quadtank::study::quadruple_tank::{Analysis, GuaranteedMargins};
 
 /// An [`Analysis`] as it is written to JSON: complex numbers as `{"re", "im"}`, matrices by rows, and where theory has
 /// no answer the typed error in its place.
@@ -72,7 +72,7 @@ struct Loop {
     poles_z: Vec<Point>,
     poles_s: Vec<Point>,
     sensitivity_peak: Option<f64>,
-    guaranteed_margins: Option<Margins>,
+    guaranteed_margins: Option<GuaranteedMargins>,
 }
 
 impl From<&Analysis> for AnalysisReport {
@@ -96,7 +96,7 @@ impl From<&Analysis> for AnalysisReport {
                 poles_z: points(&closed_loop.poles_z),
                 poles_s: points(&closed_loop.poles_s),
                 sensitivity_peak: closed_loop.sensitivity_peak,
-                guaranteed_margins: closed_loop.sensitivity_peak.map(Margins::guaranteed_by),
+                guaranteed_margins: closed_loop.sensitivity_peak.map(GuaranteedMargins::of),
             },
         }
     }

@@ -7,7 +7,8 @@ use quadtank::plant::{Pump, QuadrupleTank, Sensor, Tank, ValveSchedule};
 use quadtank::sim::Experiment;
 
 use super::limits::{self, Limits};
-use super::{PlantSpec, ScenarioError, Setup, View};
+use super::{ScenarioError, View};
+use quadtank::study::quadruple_tank::{PlantSpec, Setup};
 
 type Checked = Result<(), ScenarioError>;
 

@@ -7,8 +7,9 @@ use nalgebra::Matrix2;
 use num_complex::Complex64;
 use quadtank::control::{ParallelPid, PidMatrix};
 use quadtank::linear::{LoopStability, Margins, TransferFunction, TransferMatrix};
-use quadtank::tuning::{Action, Design, PlacementMethod, PublishedPlant, propose, response_at};
-use quadtank_scenario::tuning::Study;
+use quadtank::literature::campestrini::PublishedPlant;
+use quadtank::study::relay_tuning::PlantStudy;
+use quadtank::tuning::{Action, Design, PlacementMethod, propose, response_at};
 use quadtank_scenario::{Document, document_from_json};
 
 /// Random numbers (Steele, Lea and Flood 2014, `SplitMix64`).
@@ -349,7 +350,7 @@ fn a_dip_between_grid_points_is_found() {
     // coarser grid: distance 0.02684 at ω = 21.836, gain margin 1.0273.
     let text = include_str!("data/margins-between-grid-points.json");
     let Document::Tuning(scenario) = document_from_json(text).unwrap() else { panic!("a session of tuning") };
-    let study = Study::of(&scenario.tuning.plant).unwrap();
+    let study = PlantStudy::of(&scenario.tuning.plant).unwrap();
     let design = study.design(&scenario.tuning).unwrap().unwrap();
     let root = &design.roots[1];
     assert_eq!(root.stability, LoopStability::Stable);

@@ -10,6 +10,8 @@
 //! | 2 | [`control`] | what acts: sampled PI and PID controllers, alone, decentralised or as a matrix; relays |
 //! | 3 | [`sim`] | plant + controller + experiment → trajectories, events, metrics |
 //! | 4 | [`tuning`] | how gains are found: relay tests, ultimate points, critical curve, rules, placement |
+//! | 5 | [`literature`] | what is printed, by source: rigs, cases, printed numbers and what is to be known about them |
+//! | 6 | [`study`] | what each bench computes: from the setup of its document to results, and the verdicts on them |
 //!
 //! Under all of them lies `numeric`: roots, matrix exponential, singular values, guarded eigenvalues.
 //!
@@ -21,6 +23,8 @@ mod numeric;
 pub mod control;
 pub mod interaction;
 pub mod linear;
+pub mod literature;
 pub mod plant;
 pub mod sim;
+pub mod study;
 pub mod tuning;

@@ -1,19 +1,30 @@
-//! The floors of the crate: a module imports only from modules below its own, so no circle can arise.
+//! The floors of the crate: a module imports only from modules below its own, so no circle can arise. Unit tests may use what is
+//! above, such as the published rigs.
 
 use std::fs;
 use std::path::Path;
 
 /// Modules from the ground up. Those of one floor do not know each other.
-const FLOORS: [&[&str]; 5] = [&["numeric"], &["plant", "linear"], &["interaction", "control"], &["sim"], &["tuning"]];
+const FLOORS: [&[&str]; 7] = [
+    &["numeric"],
+    &["plant", "linear"],
+    &["interaction", "control"],
+    &["sim"],
+    &["tuning"],
+    &["literature"],
+    &["study"],
+];
 
 fn floor_of(module: &str) -> usize {
     FLOORS.iter().position(|floor| floor.contains(&module)).unwrap_or_else(|| panic!("`{module}` stands on no floor"))
 }
 
-/// Text of every source file at or below a path.
+/// Text of every source file at or below a path, without its unit tests, which are at the end.
 fn sources(path: &Path) -> Vec<String> {
     if path.is_file() {
-        return vec![fs::read_to_string(path).expect("a source file is readable")];
+        let text = fs::read_to_string(path).expect("a source file is readable");
+        let end = ["#[cfg(test)]", "#[cfg(all(test"].iter().filter_map(|mark| text.find(mark)).min();
+        return vec![text[..end.unwrap_or(text.len())].to_owned()];
     }
     let entries = fs::read_dir(path).expect("a source folder is readable");
     entries.flat_map(|entry| sources(&entry.expect("an entry is readable").path())).collect()

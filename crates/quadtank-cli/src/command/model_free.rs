@@ -1,12 +1,12 @@
 //! The model-free law without a screen: what theory says of a run and what happens in it, as JSON, CSV or a picture.
 
 use quadtank::linear::Complex;
+use quadtank::literature::junqueira::{PublishedExperiment, PublishedValves};
 use quadtank::sim::{HoldingEnds, TrackingFigures};
+use quadtank::study::StudyError;
+use quadtank::study::model_free::{ModelFreeSetup, Moment, analyse_model_free, run_model_free};
 use quadtank_figure::{ModelFreeCourse, ModelFreeTexts, Size, Style, model_free_course, to_svg};
-use quadtank_scenario::ScenarioError;
-use quadtank_scenario::model_free::{
-    ModelFreeSetup, Moment, PublishedExperiment, PublishedValves, analyse_model_free, run_model_free,
-};
+use quadtank_scenario::model_free::run_to_csv;
 use serde_json::{Value, json};
 
 /// Steps along each side of the outline of the levels that can be held.
@@ -67,7 +67,7 @@ fn ends(end: HoldingEnds) -> Value {
 }
 
 /// Figures of both loops, events, and what the zero dynamics foretell.
-pub fn report(setup: &ModelFreeSetup) -> Result<Value, ScenarioError> {
+pub fn report(setup: &ModelFreeSetup) -> Result<Value, StudyError> {
     let found = run_model_free(setup)?;
     let figures = |of: &[TrackingFigures; 2]| json!(of);
     Ok(json!({
@@ -82,12 +82,12 @@ pub fn report(setup: &ModelFreeSetup) -> Result<Value, ScenarioError> {
 }
 
 /// The run, one row per sample.
-pub fn csv(setup: &ModelFreeSetup) -> Result<String, ScenarioError> {
-    Ok(run_model_free(setup)?.to_csv(setup))
+pub fn csv(setup: &ModelFreeSetup) -> Result<String, StudyError> {
+    Ok(run_to_csv(&run_model_free(setup)?, setup))
 }
 
 /// Draws the run as an SVG document.
-pub fn svg(setup: &ModelFreeSetup, style: &Style) -> Result<String, ScenarioError> {
+pub fn svg(setup: &ModelFreeSetup, style: &Style) -> Result<String, StudyError> {
     let found = run_model_free(setup)?;
     let trajectory = &found.run.trajectory;
     let sample_time_s: Vec<f64> = trajectory.time_s.iter().copied().step_by(found.run.rows_per_sample).collect();

@@ -1,10 +1,11 @@
 use clap::ValueEnum;
-use quadtank::plant::{DisplayUnit, PresetId};
+use quadtank::literature::{DisplayUnit, PresetId};
+use quadtank::study::StudyError;
+use quadtank::study::quadruple_tank::{PlantSpec, Setup, ValveMap, analyse, run};
 use quadtank_figure::{
     self, Palette, PoleZero, PoleZeroTexts, ResponseTexts, Responses, RunColumns, Size, Style, ValvePlane,
     ValvePlaneTexts, to_svg,
 };
-use quadtank_scenario::{PlantSpec, ScenarioError, Setup, ValveMap, analyse, run};
 
 /// What can be drawn.
 #[derive(Clone, Copy, ValueEnum)]
@@ -35,7 +36,7 @@ impl Colours {
 }
 
 /// Draws a chart of a setup as an SVG document.
-pub fn svg(setup: &Setup, chart: Chart, style: &Style) -> Result<String, ScenarioError> {
+pub fn svg(setup: &Setup, chart: Chart, style: &Style) -> Result<String, StudyError> {
     match chart {
         Chart::Responses => responses(setup, style),
         Chart::ValvePlane => valve_plane(setup, style),
@@ -43,10 +44,10 @@ pub fn svg(setup: &Setup, chart: Chart, style: &Style) -> Result<String, Scenari
     }
 }
 
-fn responses(setup: &Setup, style: &Style) -> Result<String, ScenarioError> {
+fn responses(setup: &Setup, style: &Style) -> Result<String, StudyError> {
     let run = run(setup)?;
     let plant = setup.plant();
-    let (level, level_scale) = match setup.display_unit() {
+    let (level, level_scale) = match setup.plant.display_unit() {
         DisplayUnit::Cm => ("level (cm)", 100.0),
         DisplayUnit::Mm => ("level (mm)", 1000.0),
     };
@@ -78,7 +79,7 @@ fn responses(setup: &Setup, style: &Style) -> Result<String, ScenarioError> {
     Ok(to_svg(&charts, size, style, "Responses", description))
 }
 
-fn valve_plane(setup: &Setup, style: &Style) -> Result<String, ScenarioError> {
+fn valve_plane(setup: &Setup, style: &Style) -> Result<String, StudyError> {
     let map = ValveMap::of(setup)?;
     let published = published_settings(setup);
     let [t3, t4] = map.upper_time_constants_s([0.5, 0.5]);
@@ -117,7 +118,7 @@ fn label(id: PresetId) -> &'static str {
     }
 }
 
-fn pole_zero(setup: &Setup, style: &Style) -> Result<String, ScenarioError> {
+fn pole_zero(setup: &Setup, style: &Style) -> Result<String, StudyError> {
     /// Points along the way of a zero.
     const POINTS: usize = 200;
     let analysis = analyse(setup)?;

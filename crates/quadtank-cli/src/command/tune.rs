@@ -4,6 +4,9 @@ use clap::ValueEnum;
 use quadtank::control::{IsaPid, ParallelPid};
 use quadtank::linear::{Closure, Complex, LinearError, Loci, LoopStability};
 use quadtank::sim::{Halt, LoopTrace, StepFigures};
+use quadtank::study::relay_tuning::{
+    Comparison, DesignRoot, Designed, PlantStudy, SteadyState, TestSpec, Tested, Tuning, TuningSetup, tune,
+};
 use quadtank::tuning::{
     Corner, CurveDistance, CurvePoint, GainLimit, RelayReading, RelayVerdict, TestAndSettings, TuningError,
     dynamic_relative_gain,
@@ -12,10 +15,7 @@ use quadtank_figure::{
     Chart, CurveChart, LociChart, LoopsChart, LoopsRecord, Pen, Size, Style, characteristic_loci, critical_curve,
     to_svg, two_loops,
 };
-use quadtank_scenario::tuning::{
-    Comparison, DesignRoot, Designed, SteadyState, Study, TestSpec, Tested, Tuning, TuningSetup, record_to_csv,
-    response_to_csv, tune,
-};
+use quadtank_scenario::tuning::{record_to_csv, response_to_csv, warnings};
 use serde_json::{Value, json};
 
 /// What can be drawn of a session.
@@ -47,7 +47,7 @@ fn rows<T>(entry: impl Fn(usize, usize) -> T) -> [[T; 2]; 2] {
 /// What follows from the plant alone.
 pub fn analysis(setup: &TuningSetup) -> Result<Value, TuningError> {
     let steady_state = SteadyState::of(&setup.plant.transfer_matrix()?);
-    let curve = match Study::of(&setup.plant) {
+    let curve = match PlantStudy::of(&setup.plant) {
         // A loop without a gain of its own: the axes of the curve have no unit.
         Err(TuningError::Linear(error @ LinearError::SingularGain { .. })) => Err(error),
         study => Ok(study?.curve),
@@ -58,7 +58,7 @@ pub fn analysis(setup: &TuningSetup) -> Result<Value, TuningError> {
         "niederlinski_diagonal": steady_state.niederlinski_diagonal,
         "critical_curve": in_place(curve.as_ref(), |curve| curve.points.iter().map(point).collect()),
         "corners": in_place(curve.as_ref(), |curve| curve.corners.iter().map(corner).collect()),
-        "warnings": setup.warnings(),
+        "warnings": warnings(setup),
     }))
 }
 
@@ -91,10 +91,10 @@ pub fn report(setup: &TuningSetup) -> Result<Value, TuningError> {
     let found = tune(setup)?;
     let design = found.design.as_ref().map(|design| designed(&found.study, design, setup)).transpose()?;
     let test = tested(&found.study, &found.test, &setup.test)?;
-    Ok(json!({ "test": test, "design": design, "warnings": setup.warnings() }))
+    Ok(json!({ "test": test, "design": design, "warnings": warnings(setup) }))
 }
 
-fn tested(study: &Study, test: &Tested, spec: &TestSpec) -> Result<Value, TuningError> {
+fn tested(study: &PlantStudy, test: &Tested, spec: &TestSpec) -> Result<Value, TuningError> {
     Ok(match test {
         Tested::Single(test, found) => {
             let cycle = match test.reading.oscillation {
@@ -176,7 +176,7 @@ fn isa(pid: IsaPid) -> Value {
     json!({ "gain": pid.gain, "integral_time": integral_time, "derivative_time": pid.derivative_time })
 }
 
-fn designed(study: &Study, design: &Designed, setup: &TuningSetup) -> Result<Value, TuningError> {
+fn designed(study: &PlantStudy, design: &Designed, setup: &TuningSetup) -> Result<Value, TuningError> {
     let [one, two] = &design.roots;
     Ok(json!({
         "frequency": design.frequency,
@@ -218,7 +218,7 @@ fn stability(of: LoopStability) -> Value {
     }
 }
 
-fn root(study: &Study, root: &DesignRoot) -> Result<Value, TuningError> {
+fn root(study: &PlantStudy, root: &DesignRoot) -> Result<Value, TuningError> {
     let margins = study.margins(root)?;
     Ok(json!({
         "controllers": root.controllers.map(gains),

@@ -3,8 +3,9 @@
 use std::fs;
 
 use proptest::prelude::*;
-use quadtank::plant::PresetId;
-use quadtank_scenario::{Document, Scenario, ScenarioError, document_from_bytes, from_json, setup_of};
+use quadtank::literature::PresetId;
+use quadtank::study::quadruple_tank::setup_of;
+use quadtank_scenario::{Document, Scenario, ScenarioError, document_from_bytes, from_json};
 
 use super::{folder, pipe, preset, run, stderr, stdout};
 

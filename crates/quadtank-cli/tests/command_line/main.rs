@@ -13,7 +13,7 @@ use std::io::Write;
 use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};
 
-use quadtank::plant::PresetId;
+use quadtank::literature::PresetId;
 use serde_json::Value;
 
 fn quadtank() -> Command {

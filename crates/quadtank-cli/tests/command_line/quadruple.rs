@@ -6,8 +6,9 @@ use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
 use approx::assert_relative_eq;
-use quadtank::plant::PresetId;
-use quadtank_scenario::{Scenario, from_json, setup_of};
+use quadtank::literature::PresetId;
+use quadtank::study::quadruple_tank::setup_of;
+use quadtank_scenario::{Scenario, from_json};
 use serde_json::{Value, json};
 
 use super::{assert_described, folder, pipe, preset, quadtank, run, stderr, stdout};

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use quadtank::plant::PresetId;
+use quadtank::literature::PresetId;
 use serde_json::{Value, json};
 
 use super::{folder, pipe, preset, stderr, stdout};

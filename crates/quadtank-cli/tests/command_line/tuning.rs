@@ -1,7 +1,7 @@
 //! The commands on sessions of the relay-tuning bench.
 
 use approx::assert_relative_eq;
-use quadtank::plant::PresetId;
+use quadtank::literature::PresetId;
 use serde_json::{Value, json};
 
 use super::{assert_described, pipe, preset, run, stderr, stdout};

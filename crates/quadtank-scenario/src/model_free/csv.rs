@@ -1,53 +1,49 @@
 use std::fmt::Write as _;
 
-use super::{ModelFreeAnswer, ModelFreeSetup, Moment};
 use quadtank::plant::OperatingPoint;
+use quadtank::study::model_free::{ModelFreeAnswer, ModelFreeSetup, Moment};
 
-impl Moment {
-    /// Poles and zeros of the moment (1/s).
-    pub fn to_csv(&self) -> String {
-        let mut text = "kind,real_per_s,imaginary_per_s\n".to_owned();
-        // Writing to a String cannot fail.
-        for pole in &self.poles {
-            let _ = writeln!(text, "pole,{pole},0");
-        }
-        for zero in self.zeros.iter().flatten() {
-            let _ = writeln!(text, "zero,{},{}", zero.re, zero.im);
-        }
-        text
+/// Poles and zeros of the moment (1/s).
+pub fn moment_to_csv(moment: &Moment) -> String {
+    let mut text = "kind,real_per_s,imaginary_per_s\n".to_owned();
+    // Writing to a String cannot fail.
+    for pole in &moment.poles {
+        let _ = writeln!(text, "pole,{pole},0");
     }
+    for zero in moment.zeros.iter().flatten() {
+        let _ = writeln!(text, "zero,{},{}", zero.re, zero.im);
+    }
+    text
 }
 
-impl ModelFreeAnswer {
-    /// The run, one row per sample, with the unit of each column in its name. φ̂ is what the law used at the sample, φ what it
-    /// really is from there on; the zero is that of the moment, empty where there is none.
-    pub fn to_csv(&self, setup: &ModelFreeSetup) -> String {
-        let mut text = "time_s,level_1_m,level_2_m,level_3_m,level_4_m,reference_1_m,reference_2_m,pump_voltage_1_v,\
+/// The run, one row per sample, with the unit of each column in its name. φ̂ is what the law used at the sample, φ what it
+/// really is from there on; the zero is that of the moment, empty where there is none.
+pub fn run_to_csv(answer: &ModelFreeAnswer, setup: &ModelFreeSetup) -> String {
+    let mut text = "time_s,level_1_m,level_2_m,level_3_m,level_4_m,reference_1_m,reference_2_m,pump_voltage_1_v,\
              pump_voltage_2_v,gamma_1,gamma_2,phi_estimate_1_m_per_s,phi_estimate_2_m_per_s,phi_1_m_per_s,phi_2_m_per_s,\
              rightmost_zero_per_s\n"
             .to_owned();
-        let (run, trajectory) = (&self.run, &self.run.trajectory);
-        for (sample, row) in (0..trajectory.time_s.len()).step_by(run.rows_per_sample).enumerate() {
-            let time = trajectory.time_s[row];
-            let columns = trajectory.levels.iter().chain(&trajectory.references).chain(&trajectory.pump_voltage);
-            let phi = run.estimates.iter().chain(&run.true_values).map(|column| column[sample]);
-            let values = columns.map(|column| column[row]).chain(setup.valves.map(|valve| valve.at(time))).chain(phi);
-            // Writing to a String cannot fail.
-            let _ = write!(text, "{time}");
-            for value in values {
-                let _ = write!(text, ",{value}");
-            }
-            // Of the linear model as levels, voltages and valves are at that moment.
-            let of = |column: &Vec<f64>| column[row];
-            let point = OperatingPoint {
-                levels: trajectory.levels.each_ref().map(of),
-                pump_voltage: trajectory.pump_voltage.each_ref().map(of),
-            };
-            let _ = match Moment::of(&setup.plant_at(time), &point).rightmost_zero() {
-                Some(zero) => writeln!(text, ",{zero}"),
-                None => writeln!(text, ","),
-            };
+    let (run, trajectory) = (&answer.run, &answer.run.trajectory);
+    for (sample, row) in (0..trajectory.time_s.len()).step_by(run.rows_per_sample).enumerate() {
+        let time = trajectory.time_s[row];
+        let columns = trajectory.levels.iter().chain(&trajectory.references).chain(&trajectory.pump_voltage);
+        let phi = run.estimates.iter().chain(&run.true_values).map(|column| column[sample]);
+        let values = columns.map(|column| column[row]).chain(setup.valves.map(|valve| valve.at(time))).chain(phi);
+        // Writing to a String cannot fail.
+        let _ = write!(text, "{time}");
+        for value in values {
+            let _ = write!(text, ",{value}");
         }
-        text
+        // Of the linear model as levels, voltages and valves are at that moment.
+        let of = |column: &Vec<f64>| column[row];
+        let point = OperatingPoint {
+            levels: trajectory.levels.each_ref().map(of),
+            pump_voltage: trajectory.pump_voltage.each_ref().map(of),
+        };
+        let _ = match Moment::of(&setup.plant_at(time), &point).rightmost_zero() {
+            Some(zero) => writeln!(text, ",{zero}"),
+            None => writeln!(text, ","),
+        };
     }
+    text
 }

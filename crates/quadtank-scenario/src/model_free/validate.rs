@@ -1,7 +1,7 @@
 use crate::limits::{self, Limits};
 use crate::{ScenarioError, validate};
 
-use super::ModelFreeSetup;
+use quadtank::study::model_free::ModelFreeSetup;
 
 /// Checks what has to hold between the numbers of the setup at a path.
 pub fn setup(setup: &ModelFreeSetup, at: &str) -> Result<(), ScenarioError> {

@@ -6,7 +6,7 @@ use quadtank::linear::Loci;
 use quadtank::sim::LoopTrace;
 use quadtank::tuning::{CriticalCurve, GainLimit};
 
-use super::Designed;
+use quadtank::study::relay_tuning::Designed;
 
 /// A line of numbers; one that is missing is an empty cell.
 fn line(text: &mut String, numbers: &[Option<f64>]) {

@@ -1,7 +1,7 @@
 use crate::limits::{self, Limits};
 use crate::{ScenarioError, validate};
 
-use super::{Element, ResponseSpec, TestSpec, TuningPlant, TuningSetup};
+use quadtank::study::relay_tuning::{Element, ResponseSpec, TestSpec, TuningPlant, TuningSetup};
 
 type Checked = Result<(), ScenarioError>;
 
@@ -54,7 +54,7 @@ fn response(response: &ResponseSpec, at: &str) -> Checked {
 
 /// The quickest part of the plant can be followed over the longest record and over its dead times.
 fn pace(setup: &TuningSetup, at: &str) -> Checked {
-    // A plant that cannot be built has no rates to check; `Study::of` reports why.
+    // A plant that cannot be built has no rates to check; `PlantStudy::of` reports why.
     let (quickest, dead_time) = setup.plant.pace().unwrap_or_default();
     let longest = setup.test.duration.max(setup.response.duration);
     limits::QUICKEST_IN_RECORD.check(&format!("{at}.plant: quickest pole * duration"), quickest * longest)?;

@@ -1,9 +1,9 @@
 use serde::Serialize;
 use thiserror::Error;
 
-use quadtank::tuning::PublishedPlant;
+use quadtank::literature::campestrini::PublishedPlant;
 
-use super::{Behind, CompareSpec, DecouplerSpec, Element, TestKind, TuningPlant, TuningSetup};
+use quadtank::study::relay_tuning::{Behind, CompareSpec, DecouplerSpec, Element, TestKind, TuningPlant, TuningSetup};
 
 /// What a session may not have been meant to say. Nothing is refused for it.
 #[derive(Clone, Debug, PartialEq, Error, Serialize)]
@@ -36,89 +36,83 @@ const LONGEST_DEAD_TIME: f64 = 5.0;
 /// Lag in sampling times of the controllers from which on a reading is plausible.
 const SHORTEST_LAG: f64 = 2.0;
 
-impl TuningSetup {
-    /// What this session may not have been meant to say.
-    pub fn warnings(&self) -> Vec<TuningWarning> {
-        self.coefficient_order().into_iter().chain(self.settings_without_effect()).collect()
-    }
+/// What a session may not have been meant to say.
+pub fn warnings(setup: &TuningSetup) -> Vec<TuningWarning> {
+    coefficient_order(setup).into_iter().chain(settings_without_effect(setup)).collect()
+}
 
-    /// Settings with a value of their own that change nothing, because the session has no use for them.
-    fn settings_without_effect(&self) -> impl Iterator<Item = TuningWarning> {
-        let (test, kind) = (&self.test, self.test.kind);
-        let is_single = kind == TestKind::Single;
-        // Index of the loop without a relay.
-        let idle = |index: usize| is_single && test.number != index + 1;
-        let nonlinear = matches!(self.plant, TuningPlant::QuadrupleTank { nonlinear: true, .. });
-        let is_column = self.plant == TuningPlant::Published(PublishedPlant::WoodBerry);
-        let dynamic = !matches!(self.design.decoupler, DecouplerSpec::None | DecouplerSpec::Static);
-        [
-            (!is_single && test.number != 1, "tuning.test.number", "in a single test"),
-            (!is_single && test.behind != Behind::Nothing, "tuning.test.behind", "in a single test"),
-            (idle(0) && test.hysteresis[0] != 0.0, "tuning.test.hysteresis[0]", "with a relay in loop 1"),
-            (idle(1) && test.hysteresis[1] != 0.0, "tuning.test.hysteresis[1]", "with a relay in loop 2"),
-            (idle(0) && test.bias[0] != 0.0, "tuning.test.bias[0]", "with a relay in loop 1"),
-            (idle(1) && test.bias[1] != 0.0, "tuning.test.bias[1]", "with a relay in loop 2"),
-            (
-                kind != TestKind::Independent && test.detuning != [1.0; 2],
-                "tuning.test.detuning",
-                "in independent tests",
-            ),
-            (kind != TestKind::Sequential && test.passes != 1, "tuning.test.passes", "in a sequential test"),
-            (
-                nonlinear && kind != TestKind::Simultaneous,
-                "tuning.plant.quadruple_tank.nonlinear",
-                "in a simultaneous test and in the response; other tests run on the linear model",
-            ),
-            (
-                nonlinear && dynamic,
-                "tuning.plant.quadruple_tank.nonlinear",
-                "without a dynamic decoupler, with which the response is that of the linear model",
-            ),
-            (
-                self.response.compare == CompareSpec::Full && !is_column,
-                "tuning.response.compare",
-                "on the column of Wood and Berry, whose full controller it is",
-            ),
-        ]
-        .into_iter()
-        .filter_map(|(is_idle, field, acts)| is_idle.then_some(TuningWarning::NoEffect { field, acts }))
-    }
+/// Settings with a value of their own that change nothing, because the session has no use for them.
+fn settings_without_effect(setup: &TuningSetup) -> impl Iterator<Item = TuningWarning> + use<> {
+    let (test, kind) = (&setup.test, setup.test.kind);
+    let is_single = kind == TestKind::Single;
+    // Index of the loop without a relay.
+    let idle = |index: usize| is_single && test.number != index + 1;
+    let nonlinear = matches!(setup.plant, TuningPlant::QuadrupleTank { nonlinear: true, .. });
+    let is_column = setup.plant == TuningPlant::Published(PublishedPlant::WoodBerry);
+    let dynamic = !matches!(setup.design.decoupler, DecouplerSpec::None | DecouplerSpec::Static);
+    [
+        (!is_single && test.number != 1, "tuning.test.number", "in a single test"),
+        (!is_single && test.behind != Behind::Nothing, "tuning.test.behind", "in a single test"),
+        (idle(0) && test.hysteresis[0] != 0.0, "tuning.test.hysteresis[0]", "with a relay in loop 1"),
+        (idle(1) && test.hysteresis[1] != 0.0, "tuning.test.hysteresis[1]", "with a relay in loop 2"),
+        (idle(0) && test.bias[0] != 0.0, "tuning.test.bias[0]", "with a relay in loop 1"),
+        (idle(1) && test.bias[1] != 0.0, "tuning.test.bias[1]", "with a relay in loop 2"),
+        (kind != TestKind::Independent && test.detuning != [1.0; 2], "tuning.test.detuning", "in independent tests"),
+        (kind != TestKind::Sequential && test.passes != 1, "tuning.test.passes", "in a sequential test"),
+        (
+            nonlinear && kind != TestKind::Simultaneous,
+            "tuning.plant.quadruple_tank.nonlinear",
+            "in a simultaneous test and in the response; other tests run on the linear model",
+        ),
+        (
+            nonlinear && dynamic,
+            "tuning.plant.quadruple_tank.nonlinear",
+            "without a dynamic decoupler, with which the response is that of the linear model",
+        ),
+        (
+            setup.response.compare == CompareSpec::Full && !is_column,
+            "tuning.response.compare",
+            "on the column of Wood and Berry, whose full controller it is",
+        ),
+    ]
+    .into_iter()
+    .filter_map(|(is_idle, field, acts)| is_idle.then_some(TuningWarning::NoEffect { field, acts }))
+}
 
-    /// Whether the elements look as if the highest power of s had been written first. Then the denominators are written as those
-    /// of lags usually are, with the constant term 1 at the end, and either
-    ///
-    /// * one ends with a zero, which as the highest power is no coefficient and as the constant term an integrator; or
-    /// * with the lags that were read neither sampling time nor duration of the response nor the dead times make sense, but they
-    ///   do with the lags of the reversed polynomials, and these are far apart.
-    fn coefficient_order(&self) -> Option<TuningWarning> {
-        let TuningPlant::Elements(rows) = &self.plant else { return None };
-        let is_dynamic = |of: &Element| of.denominator.len() > 1 && of.numerator.iter().any(|&b| b != 0.0);
-        let elements = || {
-            let places = [(0, 0), (0, 1), (1, 0), (1, 1)];
-            places.into_iter().map(|(i, j)| ((i, j), &rows[i][j])).filter(|(_, element)| is_dynamic(element))
+/// Whether the elements look as if the highest power of s had been written first. Then the denominators are written as those
+/// of lags usually are, with the constant term 1 at the end, and either
+///
+/// * one ends with a zero, which as the highest power is no coefficient and as the constant term an integrator; or
+/// * with the lags that were read neither sampling time nor duration of the response nor the dead times make sense, but they
+///   do with the lags of the reversed polynomials, and these are far apart.
+fn coefficient_order(setup: &TuningSetup) -> Option<TuningWarning> {
+    let TuningPlant::Elements(rows) = &setup.plant else { return None };
+    let is_dynamic = |of: &Element| of.denominator.len() > 1 && of.numerator.iter().any(|&b| b != 0.0);
+    let elements = || {
+        let places = [(0, 0), (0, 1), (1, 0), (1, 1)];
+        places.into_iter().map(|(i, j)| ((i, j), &rows[i][j])).filter(|(_, element)| is_dynamic(element))
+    };
+    let integrator = elements().find(|(_, of)| of.denominator.last() == Some(&0.0) && ends_with_one(of));
+    let turned = || {
+        let plausible = |lag: f64| {
+            let dead_time = elements().map(|(_, of)| of.dead_time).fold(0.0, f64::max);
+            (SHORTEST_LAG * setup.response.step..=setup.response.duration).contains(&lag)
+                && dead_time <= LONGEST_DEAD_TIME * lag
         };
-        let integrator = elements().find(|(_, of)| of.denominator.last() == Some(&0.0) && ends_with_one(of));
-        let turned = || {
-            let plausible = |lag: f64| {
-                let dead_time = elements().map(|(_, of)| of.dead_time).fold(0.0, f64::max);
-                (SHORTEST_LAG * self.response.step..=self.response.duration).contains(&lag)
-                    && dead_time <= LONGEST_DEAD_TIME * lag
-            };
-            let longest = |lag: fn(&Element) -> f64| elements().map(|(_, of)| lag(of)).fold(0.0, f64::max);
-            let (read, reversed) = (longest(lag_of), longest(reversed_lag_of));
-            let far_apart = (reversed / read).ln().abs() >= FAR_APART.ln();
-            let is_turned = far_apart && !plausible(read) && plausible(reversed);
-            let like_lags = elements().all(|(_, of)| of.denominator.last() == Some(&1.0));
-            elements().find(|(_, of)| ends_with_one(of)).filter(|_| like_lags && is_turned)
-        };
-        let ((row, column), element) = integrator.or_else(turned)?;
-        let powers = &element.denominator;
-        Some(TuningWarning::CoefficientOrder {
-            field: format!("tuning.plant.elements[{row}][{column}].denominator"),
-            read_as: polynomial(powers.iter()),
-            reversed: polynomial(powers.iter().rev()),
-        })
-    }
+        let longest = |lag: fn(&Element) -> f64| elements().map(|(_, of)| lag(of)).fold(0.0, f64::max);
+        let (read, reversed) = (longest(lag_of), longest(reversed_lag_of));
+        let far_apart = (reversed / read).ln().abs() >= FAR_APART.ln();
+        let is_turned = far_apart && !plausible(read) && plausible(reversed);
+        let like_lags = elements().all(|(_, of)| of.denominator.last() == Some(&1.0));
+        elements().find(|(_, of)| ends_with_one(of)).filter(|_| like_lags && is_turned)
+    };
+    let ((row, column), element) = integrator.or_else(turned)?;
+    let powers = &element.denominator;
+    Some(TuningWarning::CoefficientOrder {
+        field: format!("tuning.plant.elements[{row}][{column}].denominator"),
+        read_as: polynomial(powers.iter()),
+        reversed: polynomial(powers.iter().rev()),
+    })
 }
 
 /// Whether the last coefficient that is not zero is 1, and the first one is not.

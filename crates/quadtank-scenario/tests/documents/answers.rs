@@ -6,12 +6,12 @@ use proptest::prelude::*;
 use quadtank::control::Pairing;
 use quadtank::interaction::{PairingReason, PairingVerdict};
 use quadtank::linear::LinearError;
-use quadtank::plant::{PlantError, PresetId};
+use quadtank::literature::PresetId;
+use quadtank::plant::PlantError;
 use quadtank::sim::{Settling, Stability, Trajectory};
-use quadtank_scenario::{
-    Analysis, AnalysisReport, OperatingPointSpec, Scenario, ScenarioError, Setup, ValveMap, analyse, from_json, limits,
-    run, setup_of,
-};
+use quadtank::study::quadruple_tank::{Analysis, OperatingPointSpec, Setup, ValveMap, analyse, run, setup_of};
+use quadtank::study::{StudyError, StudyFault};
+use quadtank_scenario::{AnalysisReport, Scenario, from_json, limits};
 use serde_json::Value;
 
 /// Bar of the project for zeros, poles, gains and relative gains (relative).
@@ -186,8 +186,9 @@ fn on_the_line_the_gain_is_singular_and_a_zero_is_at_the_origin() {
     let rightmost = analysis.zeros.unwrap().last().unwrap().value;
     assert!(rightmost.norm() < 1e-12, "{rightmost}");
     let at_levels = Setup { operating_point: OperatingPointSpec::Levels([0.1, 0.1]), ..johansson([0.625, 0.375]) };
-    let expected = ScenarioError::Plant(PlantError::SingularPlant { gamma_sum: 1.0 });
-    assert_eq!(analyse(&at_levels), Err(expected.clone()));
+    let expected =
+        StudyError { field: "operating_point", fault: StudyFault::Plant(PlantError::SingularPlant { gamma_sum: 1.0 }) };
+    assert_eq!(analyse(&at_levels), Err(expected));
     assert_eq!(run(&at_levels), Err(expected));
 }
 
@@ -203,7 +204,9 @@ fn in_two_corners_the_plant_is_singular_for_every_s() {
 #[test]
 fn levels_that_no_input_holds_are_named() {
     let setup = Setup { operating_point: OperatingPointSpec::Levels([0.19, 0.01]), ..johansson([0.7, 0.6]) };
-    assert!(matches!(analyse(&setup), Err(ScenarioError::Plant(PlantError::VoltageOutOfRange { .. }))));
+    let StudyError { field, fault } = analyse(&setup).unwrap_err();
+    assert_eq!(field, "operating_point");
+    assert!(matches!(fault, StudyFault::Plant(PlantError::VoltageOutOfRange { .. })));
 }
 
 #[test]

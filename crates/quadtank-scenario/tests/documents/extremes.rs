@@ -6,12 +6,15 @@ use std::fmt::Debug;
 use proptest::prelude::*;
 use proptest::sample::Index;
 use proptest::test_runner::RngSeed;
+use quadtank::literature::campestrini::PublishedCase;
 use quadtank::sim::LoopMetrics;
-use quadtank_scenario::model_free::{ModelFreeSetup, analyse_model_free, run_model_free};
-use quadtank_scenario::tuning::{PublishedCase, TuningSetup, record_to_csv, tune};
+use quadtank::study::model_free::{ModelFreeSetup, analyse_model_free, run_model_free};
+use quadtank::study::quadruple_tank::{Setup, ValveMap, analyse, run};
+use quadtank::study::relay_tuning::{TuningSetup, tune};
+use quadtank_scenario::tuning::{TuningScenario, record_to_csv};
 use quadtank_scenario::{
-    Document, ScenarioError, Setup, ValveMap, analyse, document_from_json, model_free_to_json, run, to_json,
-    tuning_to_json,
+    Document, ScenarioError, document_from_json, model_free, model_free_to_json, roots_to_csv, run_to_csv, to_json,
+    tuning_to_json, valve_map_to_csv,
 };
 use serde_json::{Value, json};
 
@@ -113,13 +116,13 @@ fn check(document: &Document) {
 fn check_run(setup: &Setup) {
     if let Ok(analysis) = analyse(setup) {
         assert_finite(&analysis);
-        assert_table(&analysis.roots_to_csv());
-        assert_table(&ValveMap::of(setup).unwrap().to_csv(4));
+        assert_table(&roots_to_csv(&analysis));
+        assert_table(&valve_map_to_csv(&ValveMap::of(setup).unwrap(), 4));
     }
     if let Ok(run) = run(setup) {
         assert_finite(&(run.metrics, run.linear_metrics));
         run.metrics.iter().chain(&run.linear_metrics).for_each(assert_reasons);
-        assert_table(&run.to_csv());
+        assert_table(&run_to_csv(&run));
     }
 }
 
@@ -127,7 +130,7 @@ fn check_model_free(setup: &ModelFreeSetup) {
     assert_finite(&analyse_model_free(setup));
     if let Ok(answer) = run_model_free(setup) {
         assert_finite(&(answer.figures, answer.predicted, answer.comparison.as_ref().map(|of| of.1)));
-        assert_table(&answer.to_csv(setup));
+        assert_table(&model_free::run_to_csv(&answer, setup));
     }
 }
 
@@ -165,7 +168,8 @@ fn of_every_field_at_each_of_its_extremes() {
 
 /// The published sessions, and one with a plant of transfer functions.
 fn sessions() -> Vec<String> {
-    let published = PublishedCase::all().map(|case| tuning_to_json(&case.scenario()).unwrap());
+    let published =
+        PublishedCase::all().map(|case| tuning_to_json(&TuningScenario::from(TuningSetup::published(case))).unwrap());
     published.chain([include_str!("../data/margins-between-grid-points.json").to_owned()]).collect()
 }
 

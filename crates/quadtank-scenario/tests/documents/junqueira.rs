@@ -1,16 +1,17 @@
 //! What the bench says of each case, computed from the run and from theory.
 
 use quadtank::control::Pairing;
-use quadtank::plant::{OperatingPoint, PresetId};
+use quadtank::literature::PresetId;
+use quadtank::literature::junqueira::{PublishedExperiment, PublishedValves};
+use quadtank::plant::OperatingPoint;
 use quadtank::sim::{HoldingEnds, Stability};
-use quadtank_scenario::ScenarioError;
-use quadtank_scenario::model_free::{
-    Claim, LossBy, ModelFreeSetup, ModelFreeVerdict, Moment, PublishedExperiment, PublishedValves, Standing,
-    analyse_model_free, check_claims, published_model_free, run_model_free,
+use quadtank::study::StudyError;
+use quadtank::study::model_free::{
+    Claim, LossBy, ModelFreeSetup, ModelFreeVerdict, Moment, Standing, analyse_model_free, check_claims, run_model_free,
 };
 
-fn verdict(v: PublishedValves, e: PublishedExperiment, duration_s: f64) -> Result<ModelFreeVerdict, ScenarioError> {
-    let mut setup = published_model_free(v, e);
+fn verdict(v: PublishedValves, e: PublishedExperiment, duration_s: f64) -> Result<ModelFreeVerdict, StudyError> {
+    let mut setup = ModelFreeSetup::published(v, e);
     setup.experiment.duration_s = duration_s;
     Ok(ModelFreeVerdict::of(&setup, &run_model_free(&setup)?, &analyse_model_free(&setup)))
 }
@@ -18,7 +19,7 @@ fn verdict(v: PublishedValves, e: PublishedExperiment, duration_s: f64) -> Resul
 const LONG: f64 = 2000.0;
 
 #[test]
-fn case_a_settles_whatever_is_asked_of_it() -> Result<(), ScenarioError> {
+fn case_a_settles_whatever_is_asked_of_it() -> Result<(), StudyError> {
     use PublishedExperiment::{S1, S2, S3};
     // The settling times of the second program, S1 and S2.
     for (experiment, times) in [(S1, [122.0, 121.0]), (S2, [108.0, 107.0])] {
@@ -31,7 +32,7 @@ fn case_a_settles_whatever_is_asked_of_it() -> Result<(), ScenarioError> {
 }
 
 #[test]
-fn case_b_looks_settled_while_the_upper_tanks_leave_and_is_lost_when_told() -> Result<(), ScenarioError> {
+fn case_b_looks_settled_while_the_upper_tanks_leave_and_is_lost_when_told() -> Result<(), StudyError> {
     let ModelFreeVerdict::Leaving { ends_s, e_folding_s, .. } =
         verdict(PublishedValves::B, PublishedExperiment::S2, 320.0)?
     else {
@@ -52,7 +53,7 @@ fn case_b_looks_settled_while_the_upper_tanks_leave_and_is_lost_when_told() -> R
 }
 
 #[test]
-fn a_step_of_one_level_of_case_b_is_lost_at_the_limit_of_a_pump() -> Result<(), ScenarioError> {
+fn a_step_of_one_level_of_case_b_is_lost_at_the_limit_of_a_pump() -> Result<(), StudyError> {
     let seen = verdict(PublishedValves::B, PublishedExperiment::S3, 320.0)?;
     let ModelFreeVerdict::Lost { level: 0, at_s, by: LossBy::Pump(0), .. } = seen else { panic!("{seen:?}") };
     // The source: under two minutes after the step at 20 s.
@@ -61,7 +62,7 @@ fn a_step_of_one_level_of_case_b_is_lost_at_the_limit_of_a_pump() -> Result<(), 
 }
 
 #[test]
-fn case_c_ripples_for_equal_set_points_and_cannot_hold_others() -> Result<(), ScenarioError> {
+fn case_c_ripples_for_equal_set_points_and_cannot_hold_others() -> Result<(), StudyError> {
     let equal = verdict(PublishedValves::C, PublishedExperiment::S2, 320.0)?;
     // The mean of its zeros is at the origin: the swings push the upper tanks apart, a little more in each.
     let ModelFreeVerdict::Rippling { error, apart: Some(apart) } = equal else { panic!("{equal:?}") };
@@ -79,17 +80,17 @@ fn case_c_ripples_for_equal_set_points_and_cannot_hold_others() -> Result<(), Sc
 
 /// What a plot of the outputs shows: a swing or noise is no loss, and a level that has just come inside has not settled.
 #[test]
-fn swings_and_noise_are_neither_settled_nor_lost() -> Result<(), ScenarioError> {
+fn swings_and_noise_are_neither_settled_nor_lost() -> Result<(), StudyError> {
     let with = |change: &dyn Fn(&mut ModelFreeSetup)| {
-        let mut setup = published_model_free(PublishedValves::A, PublishedExperiment::S2);
+        let mut setup = ModelFreeSetup::published(PublishedValves::A, PublishedExperiment::S2);
         change(&mut setup);
-        Ok::<_, ScenarioError>((setup.clone(), run_model_free(&setup)?))
+        Ok::<_, StudyError>((setup.clone(), run_model_free(&setup)?))
     };
     let too_slow = |s: &mut ModelFreeSetup| s.controller = s.controller.with_sampling_time(3.0);
     let noisy = |s: &mut ModelFreeSetup| s.experiment.measurement.noise_std = 0.05;
     let small = |s: &mut ModelFreeSetup| s.controller.loops.iter_mut().for_each(|l| l.model_gain = 1e-5);
     let swapped = |s: &mut ModelFreeSetup| {
-        s.valves = published_model_free(PublishedValves::B, PublishedExperiment::S2).valves;
+        s.valves = ModelFreeSetup::published(PublishedValves::B, PublishedExperiment::S2).valves;
         s.controller.pairing = Pairing::Swapped;
     };
     for change in [&too_slow as &dyn Fn(&mut ModelFreeSetup), &noisy, &small, &swapped] {
@@ -103,7 +104,7 @@ fn swings_and_noise_are_neither_settled_nor_lost() -> Result<(), ScenarioError> 
 
 #[test]
 fn without_integral_action_case_a_is_stable() {
-    let mut setup = published_model_free(PublishedValves::A, PublishedExperiment::S2);
+    let mut setup = ModelFreeSetup::published(PublishedValves::A, PublishedExperiment::S2);
     setup.controller.loops.iter_mut().for_each(|settings| settings.integral = 0.0);
     let poles = analyse_model_free(&setup).poles.unwrap().unwrap();
     assert_eq!(poles.stability, Stability::Stable);
@@ -127,7 +128,7 @@ fn on_the_line_the_zero_is_at_the_origin_and_beside_it_on_its_side() {
 }
 
 #[test]
-fn every_claim_of_the_paper_stands_as_the_documentation_says() -> Result<(), ScenarioError> {
+fn every_claim_of_the_paper_stands_as_the_documentation_says() -> Result<(), StudyError> {
     let claims = check_claims()?;
     let standing: Vec<(Claim, Standing)> = claims.iter().map(|claim| (claim.claim, claim.standing)).collect();
     assert_eq!(

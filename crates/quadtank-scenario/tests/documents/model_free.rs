@@ -1,14 +1,16 @@
 //! Documents of runs under the model-free law: what goes out comes back, and what is broken is named.
 
 use proptest::prelude::*;
-use quadtank_scenario::model_free::{ModelFreeScenario, PublishedExperiment, PublishedValves, published_model_free};
+use quadtank::literature::junqueira::{PublishedExperiment, PublishedValves};
+use quadtank::study::model_free::ModelFreeSetup;
+use quadtank_scenario::model_free::ModelFreeScenario;
 use quadtank_scenario::{
     Document, LINK_LIMIT, document_from_json, document_from_link, limits, model_free_to_json, model_free_to_link,
 };
 
 fn published() -> impl Iterator<Item = ModelFreeScenario> {
     let cases = PublishedValves::ALL.into_iter().flat_map(|valves| PublishedExperiment::ALL.map(|run| (valves, run)));
-    cases.map(|(valves, run)| ModelFreeScenario::from(published_model_free(valves, run)))
+    cases.map(|(valves, run)| ModelFreeScenario::from(ModelFreeSetup::published(valves, run)))
 }
 
 proptest! {
@@ -73,7 +75,7 @@ fn cursor_and_comparison_stand_only_where_there_are_any() {
 // A link that is out in the world: this one never changes, nor does the dictionary.
 #[test]
 fn an_old_link_still_opens() {
-    let mut scenario = ModelFreeScenario::from(published_model_free(PublishedValves::B, PublishedExperiment::S3));
+    let mut scenario = ModelFreeScenario::from(ModelFreeSetup::published(PublishedValves::B, PublishedExperiment::S3));
     scenario.model_free.controller.loops[0].proportional = 0.5;
     scenario.cursor_s = Some(123.0);
     let link = include_str!("../data/scenario-v3-junqueira.link").trim();

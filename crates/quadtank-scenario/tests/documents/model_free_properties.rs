@@ -2,17 +2,17 @@
 
 use approx::assert_relative_eq;
 use quadtank::control::{EstimatorSettings, ModelFree, ModelFreeSettings, Pairing, Window};
-use quadtank::plant::{Disturbance, PresetId, ValveSchedule};
+use quadtank::literature::PresetId;
+use quadtank::literature::junqueira::{PublishedExperiment, PublishedValves};
+use quadtank::plant::{Disturbance, ValveSchedule};
 use quadtank::sim::{
     Load, LoadStep, SetPointStep, continuous_model_free_poles, model_free_poles, simulate_model_free,
     smallest_model_gain,
 };
-use quadtank_scenario::model_free::{
-    ModelFreeSetup, PublishedExperiment, PublishedValves, StartSpec, published_model_free, run_model_free,
-};
+use quadtank::study::model_free::{ModelFreeSetup, StartSpec, run_model_free};
 
 fn published(valves: PublishedValves, experiment: PublishedExperiment) -> ModelFreeSetup {
-    published_model_free(valves, experiment)
+    ModelFreeSetup::published(valves, experiment)
 }
 
 fn step(level: usize, time_s: f64, size: f64) -> SetPointStep {

@@ -1,8 +1,10 @@
 //! Nothing is accepted and ignored: whatever is changed in a document changes an answer, or a warning, or is refused.
 
-use quadtank_scenario::model_free::{analyse_model_free, run_model_free};
-use quadtank_scenario::tuning::tune;
-use quadtank_scenario::{Document, analyse, document_from_json, run};
+use quadtank::study::model_free::{analyse_model_free, run_model_free};
+use quadtank::study::quadruple_tank::{analyse, run};
+use quadtank::study::relay_tuning::tune;
+use quadtank_scenario::tuning::warnings;
+use quadtank_scenario::{Document, document_from_json};
 use serde_json::{Value, json};
 
 use super::examples::{leaves, pointer, sessions};
@@ -61,7 +63,7 @@ const NAMES: [&str; 39] = [
 fn answers(document: &Document) -> String {
     match document {
         Document::Quadruple(scenario) => format!("{:?} {:?}", analyse(&scenario.setup), run(&scenario.setup)),
-        Document::Tuning(scenario) => format!("{:?} {:?}", tune(&scenario.tuning), scenario.tuning.warnings()),
+        Document::Tuning(scenario) => format!("{:?} {:?}", tune(&scenario.tuning), warnings(&scenario.tuning)),
         Document::ModelFree(scenario) => {
             let setup = &scenario.model_free;
             format!("{:?} {:?}", analyse_model_free(setup), run_model_free(setup))

@@ -5,11 +5,13 @@ use fields::{LEAVES, full};
 use proptest::prelude::*;
 use proptest::sample::Index;
 use quadtank::control::{AntiWindup, LoopMode, Pairing};
-use quadtank::plant::{CrossSection, DisplayUnit, Outlet, PresetId, Sensor};
+use quadtank::literature::{DisplayUnit, PresetId};
+use quadtank::plant::{CrossSection, Outlet, Sensor};
 use quadtank::sim::{Load, LoadStep, Measurement, SetPointStep};
+use quadtank::study::quadruple_tank::{OperatingPointSpec, PlantSpec, Setup, setup_of};
 use quadtank_scenario::{
-    DOCUMENT_LIMIT, Document, LINK_LIMIT, OperatingPointSpec, PlantSpec, Scenario, ScenarioError, Setup, View,
-    document_from_link, from_json, limits, setup_of, to_json, to_link,
+    DOCUMENT_LIMIT, Document, LINK_LIMIT, Scenario, ScenarioError, View, document_from_link, from_json, limits,
+    to_json, to_link,
 };
 use serde_json::json;
 

@@ -7,10 +7,13 @@ use quadtank::control::{
     AntiWindup, DecentralisedPi, EstimatorSettings, FedWith, LoopMode, ModelFree, ModelFreeSettings, ModelFreeWindup,
     Pairing, PiSettings, Quadrature, Window,
 };
-use quadtank::plant::{CrossSection, DisplayUnit, Outlet, PresetId, Pump, QuadrupleTank, Sensor, Tank, ValveSchedule};
+use quadtank::literature::{DisplayUnit, PresetId};
+use quadtank::plant::{CrossSection, Outlet, Pump, QuadrupleTank, Sensor, Tank, ValveSchedule};
 use quadtank::sim::{Experiment, Load, LoadStep, Measurement, SetPointStep};
-use quadtank_scenario::model_free::{ModelFreeScenario, ModelFreeSetup, StartSpec};
-use quadtank_scenario::{Limits, OperatingPointSpec, PlantSpec, Scenario, Setup, View, limits};
+use quadtank::study::model_free::{ModelFreeSetup, StartSpec};
+use quadtank::study::quadruple_tank::{OperatingPointSpec, PlantSpec, Setup};
+use quadtank_scenario::model_free::ModelFreeScenario;
+use quadtank_scenario::{Limits, Scenario, View, limits};
 
 /// One of the published rigs.
 pub fn preset() -> impl Strategy<Value = PresetId> {

@@ -2,9 +2,11 @@
 
 use proptest::prelude::*;
 use quadtank::control::LoopMode;
-use quadtank::plant::{DisplayUnit, OperatingPoint};
+use quadtank::literature::DisplayUnit;
+use quadtank::plant::OperatingPoint;
 use quadtank::sim::Trajectory;
-use quadtank_scenario::{OperatingPointSpec, PlantSpec, Setup, limits, run};
+use quadtank::study::quadruple_tank::{OperatingPointSpec, PlantSpec, Setup, run};
+use quadtank_scenario::limits;
 
 /// Largest departure of a level from where it began, as a share of it, or of 1 µm where that is more.
 fn departure(run: &Trajectory, start: &OperatingPoint) -> f64 {

@@ -4,11 +4,13 @@ use std::f64::consts::TAU;
 
 use quadtank::control::Pairing;
 use quadtank::linear::LoopStability;
-use quadtank::plant::PresetId;
-use quadtank::tuning::RelayReading;
-use quadtank_scenario::tuning::{
-    Element, PublishedCase, Study, TestKind, TestSpec, Tested, TuningPlant, TuningScenario, TuningSetup, tune,
+use quadtank::literature::PresetId;
+use quadtank::literature::campestrini::PublishedCase;
+use quadtank::study::relay_tuning::{
+    Element, PlantStudy, TestKind, TestSpec, Tested, TuningPlant, TuningSetup, printed_figures, tune,
 };
+use quadtank::tuning::RelayReading;
+use quadtank_scenario::tuning::TuningScenario;
 use quadtank_scenario::{
     Document, ScenarioError, document_from_json, document_from_link, from_json, tuning_to_json, tuning_to_link,
 };
@@ -52,11 +54,11 @@ const DIFFERENT: [(u32, usize, &str); 23] = [
 fn every_published_case_gives_its_printed_numbers_but_for_those_known() {
     let mut different = Vec::new();
     for case in PublishedCase::all() {
-        let study = Study::of(&case.scenario().tuning.plant).unwrap();
-        let figures = case.figures(&study).unwrap();
+        let study = PlantStudy::of(&TuningSetup::published(case).plant).unwrap();
+        let figures = printed_figures(case, &study).unwrap();
         assert!(!figures.is_empty(), "{}", case.name());
         for figure in figures.iter().filter(|figure| !figure.agrees()) {
-            different.push((case.table, case.row, figure.symbol, figure.printed, figure.computed));
+            different.push((case.table, case.row, figure.printed.symbol, figure.printed.value, figure.computed));
         }
     }
     let names: Vec<_> = different.iter().map(|&(table, row, symbol, ..)| (table, row, symbol)).collect();
@@ -66,7 +68,7 @@ fn every_published_case_gives_its_printed_numbers_but_for_those_known() {
 #[test]
 fn every_published_placement_is_stable_but_one() {
     for case in PublishedCase::all().filter(|case| case.is_placement()) {
-        let scenario = case.scenario();
+        let scenario = TuningScenario::from(TuningSetup::published(case));
         let design = tune(&scenario.tuning).unwrap().design.unwrap();
         let stable = design.roots[scenario.tuning.design.root - 1].stability == LoopStability::Stable;
         assert_eq!(stable, case != PublishedCase { table: 15, row: 2 }, "{}", case.name());
@@ -79,8 +81,8 @@ fn every_published_placement_is_stable_but_one() {
 fn documents_of_both_versions_come_back() {
     for case in PublishedCase::all() {
         assert_eq!(PublishedCase::from_name(&case.name()), Some(case));
-        let text = tuning_to_json(&case.scenario()).unwrap();
-        assert_eq!(document_from_json(&text), Ok(Document::Tuning(case.scenario())));
+        let text = tuning_to_json(&TuningScenario::from(TuningSetup::published(case))).unwrap();
+        assert_eq!(document_from_json(&text), Ok(Document::Tuning(TuningScenario::from(TuningSetup::published(case)))));
         // Who reads only the first version says so.
         assert!(matches!(from_json(&text), Err(ScenarioError::UnknownVersion { found: 2, newest: 1 })));
     }
@@ -92,7 +94,8 @@ fn documents_of_both_versions_come_back() {
 
 #[test]
 fn a_wrong_field_is_named() {
-    let text = tuning_to_json(&PublishedCase { table: 5, row: 1 }.scenario()).unwrap();
+    let text =
+        tuning_to_json(&TuningScenario::from(TuningSetup::published(PublishedCase { table: 5, row: 1 }))).unwrap();
     let refused = |from: &str, to: &str| {
         assert!(text.contains(from), "{from}");
         document_from_json(&text.replacen(from, to, 1)).unwrap_err().to_string()
@@ -141,7 +144,7 @@ fn what_may_be_absent_is_as_if_it_were_not_used() {
 
 #[test]
 fn links_bring_sessions_back_and_are_short() {
-    let scenarios = PublishedCase::all().map(PublishedCase::scenario);
+    let scenarios = PublishedCase::all().map(|case| TuningScenario::from(TuningSetup::published(case)));
     let rigs = PresetId::ALL
         .map(|id| TuningScenario { tuning: TuningSetup::on(TuningPlant::rig(id)), ..TuningScenario::default() });
     for scenario in scenarios.chain(rigs) {
@@ -157,7 +160,7 @@ fn links_bring_sessions_back_and_are_short() {
 // A link that is out in the world: this one never changes, nor does the dictionary.
 #[test]
 fn an_old_link_still_opens() {
-    let scenario = PublishedCase { table: 16, row: 2 }.scenario();
+    let scenario = TuningScenario::from(TuningSetup::published(PublishedCase { table: 16, row: 2 }));
     assert_eq!(
         document_from_link(include_str!("../data/scenario-v2-table-16.link").trim()),
         Ok(Document::Tuning(scenario))
@@ -190,7 +193,7 @@ fn two_lags(kind: TestKind) -> TuningSetup {
 
 /// Period and gain by first harmonics of both loops.
 fn oscillations(setup: &TuningSetup) -> [(f64, f64); 2] {
-    let study = Study::of(&setup.plant).unwrap();
+    let study = PlantStudy::of(&setup.plant).unwrap();
     let of = |reading: &RelayReading, index: usize| {
         let oscillation = reading.oscillation.unwrap();
         (oscillation.period, oscillation.loops[index].gain_by_harmonic.unwrap())

@@ -2,11 +2,13 @@
 
 use quadtank::control::Pairing;
 use quadtank::linear::LinearError;
-use quadtank::plant::PresetId;
-use quadtank_scenario::tuning::{
-    Behind, CompareSpec, DecouplerSpec, Element, ElementFault, PublishedCase, SteadyState, Study, TestKind,
-    TuningPlant, TuningScenario, TuningSetup, TuningWarning, tune,
+use quadtank::literature::PresetId;
+use quadtank::literature::campestrini::PublishedCase;
+use quadtank::study::relay_tuning::{
+    Behind, CompareSpec, DecouplerSpec, Element, ElementFault, PlantStudy, SteadyState, TestKind, TuningPlant,
+    TuningSetup, tune,
 };
+use quadtank_scenario::tuning::{TuningScenario, TuningWarning, warnings};
 use quadtank_scenario::{ScenarioError, document_from_json, tuning_to_json};
 
 /// A change of a session.
@@ -56,10 +58,10 @@ fn elements_written_highest_power_first_are_told() {
     for (column, with_dead_time) in COLUMNS.into_iter().flat_map(|column| [(column, true), (column, false)]) {
         let meant =
             column.map(element).map(|of| Element { dead_time: if with_dead_time { of.dead_time } else { 0.0 }, ..of });
-        assert_eq!(session(meant.clone()).warnings(), []);
+        assert_eq!(warnings(&session(meant.clone())), []);
         // Another usual way to write, which is read as meant.
-        assert_eq!(session(meant.each_ref().map(monic)).warnings(), []);
-        let warnings = session(meant.map(reversed)).warnings();
+        assert_eq!(warnings(&session(meant.each_ref().map(monic))), []);
+        let warnings = warnings(&session(meant.map(reversed)));
         let [TuningWarning::CoefficientOrder { field, read_as, reversed }] = &warnings[..] else {
             panic!("{column:?}: {warnings:?}")
         };
@@ -67,14 +69,14 @@ fn elements_written_highest_power_first_are_told() {
         assert_eq!(field, "tuning.plant.elements[0][0].denominator");
         assert_eq!((read_as, reversed), (&format!("{time} + 1 s"), &format!("1 + {time} s")));
     }
-    let warning = session(COLUMNS[0].map(element).map(reversed)).warnings().swap_remove(0).to_string();
+    let warning = warnings(&session(COLUMNS[0].map(element).map(reversed))).swap_remove(0).to_string();
     let expected = "tuning.plant.elements[0][0].denominator: read by rising powers of s, as 16.7 + 1 s; \
         if 1 + 16.7 s is meant, turn the coefficients round";
     assert_eq!(warning, expected);
     // s (10 s + 1), of which the integrator would be lost.
     let mut elements = COLUMNS[0].map(element);
     elements[3].denominator = vec![10.0, 1.0, 0.0];
-    let warnings = session(elements).warnings();
+    let warnings = warnings(&session(elements));
     assert!(matches!(&warnings[..], [TuningWarning::CoefficientOrder { field, .. }] if field.contains("[1][1]")));
 }
 
@@ -94,13 +96,13 @@ fn elements_that_are_plausible_as_they_stand_are_not_doubted() {
         // A lag that is short beside everything, but written as one.
         lag(&[1.0, 0.01], 3.0),
     ] {
-        assert_eq!(alike(element.clone()).warnings(), [], "{element:?}");
+        assert_eq!(warnings(&alike(element.clone())), [], "{element:?}");
     }
     for case in PublishedCase::all() {
-        assert_eq!(case.scenario().tuning.warnings(), [], "{}", case.name());
+        assert_eq!(warnings(&TuningSetup::published(case)), [], "{}", case.name());
     }
     for preset in PresetId::ALL {
-        assert_eq!(TuningSetup::on(TuningPlant::rig(preset)).warnings(), [], "{preset:?}");
+        assert_eq!(warnings(&TuningSetup::on(TuningPlant::rig(preset))), [], "{preset:?}");
     }
 }
 
@@ -144,7 +146,7 @@ fn a_singular_gain_leaves_everything_else_known() {
     let steady_state = SteadyState::of(&setup.plant.transfer_matrix().unwrap());
     assert!(matches!(steady_state.rga_11, Err(LinearError::SingularGain { .. })), "{steady_state:?}");
     assert_eq!((steady_state.dc_gain.sum(), steady_state.niederlinski_diagonal), (4.0, None));
-    let study = Study::of(&setup.plant).unwrap();
+    let study = PlantStudy::of(&setup.plant).unwrap();
     assert_eq!((study.rga_11, study.curve.points.len()), (None, 200));
     // Rounding does not hide it: a row three times the other one.
     let rows = [(0.1, 3.0), (0.7, 2.0), (0.3, 1.0), (2.1, 4.0)];
@@ -200,7 +202,7 @@ fn a_setting_without_effect_is_told() {
     for (change, expected) in cases {
         let mut setup = TuningScenario::default().tuning;
         change(&mut setup);
-        let warnings = setup.warnings();
+        let warnings = warnings(&setup);
         assert!(matches!(&warnings[..], [TuningWarning::NoEffect { field, .. }] if *field == expected), "{warnings:?}");
     }
 }
@@ -225,7 +227,7 @@ fn a_setting_has_an_effect_where_no_warning_says_otherwise() {
         for change in changes {
             let mut setup = plain.clone();
             change(&mut setup);
-            let warnings = setup.warnings();
+            let warnings = warnings(&setup);
             assert_eq!(found(&setup) == before, !warnings.is_empty(), "{kind:?}: {warnings:?}");
         }
     }

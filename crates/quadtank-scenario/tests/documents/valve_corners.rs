@@ -3,10 +3,10 @@
 use approx::assert_relative_eq;
 use quadtank::interaction::{PairingReason, PairingVerdict};
 use quadtank::linear::{Complex, LinearError};
-use quadtank::plant::PresetId;
+use quadtank::literature::PresetId;
 use quadtank::sim::Stability;
-use quadtank_scenario::model_free::Moment;
-use quadtank_scenario::{Analysis, Setup, ValveMap, analyse, setup_of};
+use quadtank::study::model_free::Moment;
+use quadtank::study::quadruple_tank::{Analysis, Setup, ValveMap, analyse, setup_of};
 
 /// Bar of the project for zeros (relative).
 const ORACLE: f64 = 1e-9;

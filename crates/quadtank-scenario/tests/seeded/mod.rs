@@ -1,7 +1,7 @@
 //! A noisy run whose figures must be the same wherever it is computed.
 
-use quadtank::plant::PresetId;
-use quadtank_scenario::{run, setup_of};
+use quadtank::literature::PresetId;
+use quadtank::study::quadruple_tank::{run, setup_of};
 
 /// Total variation of the first controller output of the default experiment with noise of 0.1 mm from seed 2000 (V), as
 /// computed on x86-64. Other noise gives other digits from the second on.

@@ -56,7 +56,7 @@ pub fn place_nearest_at_origin(zeros: &mut [TransmissionZero]) {
 /// The rig of Johansson (2000) in its non-minimum-phase setting has a zero in the right half-plane, at 0.013 1/s.
 /// ```
 /// use quadtank::linear::{StateSpace, transmission_zeros};
-/// use quadtank::plant::PresetId;
+/// use quadtank::literature::PresetId;
 ///
 /// let rig = PresetId::JohanssonNonMinimumPhase.preset();
 /// let rest = rig.plant.equilibrium(rig.pump_voltage)?;

@@ -80,7 +80,7 @@ impl QuadrupleTank {
     }
 
     /// Solves the flow balance of the lower tanks for the pump voltages (V), without any check.
-    pub(super) fn balancing_voltages(&self, levels: [f64; 2]) -> [f64; 2] {
+    pub(crate) fn balancing_voltages(&self, levels: [f64; 2]) -> [f64; 2] {
         let ([gamma_1, gamma_2], [above_1, above_2]) = (self.valves, complements(self.valves));
         let [k1, k2] = self.pumps.map(|pump| pump.gain);
         let determinant = excess_over_one(self.valves);
@@ -123,7 +123,7 @@ impl QuadrupleTank {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plant::PresetId;
+    use crate::literature::PresetId;
 
     fn johansson(valves: [f64; 2]) -> QuadrupleTank {
         PresetId::JohanssonMinimumPhase.preset().plant.with_valves(valves)

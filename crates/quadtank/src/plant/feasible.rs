@@ -26,7 +26,7 @@ impl QuadrupleTank {
 
 #[cfg(test)]
 mod tests {
-    use crate::plant::PresetId;
+    use crate::literature::PresetId;
 
     /// Twice the area inside, in terms of flows: levels as √h.
     fn area(outline: &[[f64; 2]]) -> f64 {

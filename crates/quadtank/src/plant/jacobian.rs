@@ -115,7 +115,7 @@ mod tests {
     use approx::assert_relative_eq;
 
     use super::*;
-    use crate::plant::PresetId;
+    use crate::literature::PresetId;
 
     fn johansson(valves: [f64; 2], pump_voltage: [f64; 2]) -> (QuadrupleTank, OperatingPoint) {
         let plant = PresetId::JohanssonMinimumPhase.preset().plant.with_valves(valves);

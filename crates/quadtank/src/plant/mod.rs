@@ -1,14 +1,11 @@
 //! What is really there: tanks, outlets, pumps, valves and sensors, and the nonlinear equations they obey.
 //!
-//! Start with [`QuadrupleTank`]; [`OperatingPoint`] is where it rests, [`Jacobian`] how it moves around that point, and
-//! [`PresetId`] names the published rigs.
+//! Start with [`QuadrupleTank`]; [`OperatingPoint`] is where it rests, [`Jacobian`] how it moves around that point.
 
 mod equilibrium;
 mod error;
 mod feasible;
 mod jacobian;
-mod preset;
-mod published;
 mod quadruple;
 mod schedule;
 mod tank;
@@ -16,7 +13,6 @@ mod tank;
 pub use equilibrium::{OperatingPoint, SINGULAR_MARGIN};
 pub use error::PlantError;
 pub use jacobian::Jacobian;
-pub use preset::{DisplayUnit, Preset, PresetId, Printed, Remark};
 pub use quadruple::{Disturbance, Pump, QuadrupleTank, Sensor};
 pub use schedule::ValveSchedule;
 pub use tank::{CrossSection, Outlet, Tank};

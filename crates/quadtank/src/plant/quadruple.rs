@@ -143,7 +143,7 @@ mod tests {
     use approx::assert_relative_eq;
 
     use super::*;
-    use crate::plant::PresetId;
+    use crate::literature::PresetId;
 
     #[test]
     fn sensor_limits_then_rounds() {

@@ -44,7 +44,7 @@ impl Process for Rig<'_> {
 /// A step of one level by 1 cm on the rig of Johansson (2000), and what becomes of it:
 /// ```
 /// use quadtank::control::{AntiWindup, DecentralisedPi, LoopMode, Pairing, PiSettings};
-/// use quadtank::plant::PresetId;
+/// use quadtank::literature::PresetId;
 /// use quadtank::sim::{Experiment, Measurement, SetPointStep, loop_metrics, simulate};
 ///
 /// let rig = PresetId::JohanssonMinimumPhase.preset();

@@ -110,7 +110,7 @@ mod tests {
 
     use super::*;
     use crate::linear::{StateSpace, transmission_zeros};
-    use crate::plant::PresetId;
+    use crate::literature::PresetId;
 
     #[test]
     fn at_rest_nothing_moves_and_around_it_the_zeros_are_the_rates() {

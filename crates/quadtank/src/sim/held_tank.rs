@@ -111,7 +111,7 @@ mod tests {
 
     use super::*;
     use crate::control::{ParallelPid, PidMatrix, Relay};
-    use crate::plant::PresetId;
+    use crate::literature::PresetId;
     use crate::sim::{TwoLoops, run_two_loops};
 
     #[test]

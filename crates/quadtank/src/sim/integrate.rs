@@ -229,7 +229,8 @@ impl Hydraulics {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plant::{CrossSection, Disturbance, PresetId};
+    use crate::literature::PresetId;
+    use crate::plant::{CrossSection, Disturbance};
     use crate::sim::implicit::STAGES;
 
     struct Nobody;

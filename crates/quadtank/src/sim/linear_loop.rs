@@ -114,7 +114,7 @@ mod tests {
 
     use super::*;
     use crate::control::{AntiWindup, LoopMode, Pairing, PiSettings};
-    use crate::plant::PresetId;
+    use crate::literature::PresetId;
     use crate::sim::{Load, LoadStep, Measurement, simulate};
 
     /// Levels (m) that a load moves in the end, with both pumps by hand: nonlinear and linear.

@@ -130,7 +130,7 @@ mod tests {
 
     use super::*;
     use crate::control::{AntiWindup, LoopMode, Pairing, PiSettings};
-    use crate::plant::PresetId;
+    use crate::literature::PresetId;
     use crate::sim::{Load, LoadStep, Measurement, SetPointStep};
 
     const STEP: f64 = 0.01;

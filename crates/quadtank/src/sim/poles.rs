@@ -100,7 +100,7 @@ mod tests {
     use super::*;
     use crate::control::{AntiWindup, LoopMode, Pairing, PiSettings};
     use crate::linear::{StateSpace, singular_values};
-    use crate::plant::PresetId;
+    use crate::literature::PresetId;
 
     fn law(pairing: Pairing, gains: [f64; 2], integral_times: [f64; 2]) -> DecentralisedPi {
         let settings = |i: usize| PiSettings {

@@ -172,7 +172,7 @@ pub struct SequentialStep {
 }
 
 /// Sequential tests (SRF, Campestrini 2006, §3.6): a relay in loop 1, the loop closed by the rule, a relay in loop 2 and so
-/// on, any number of passes. It need not converge; the steps show it. All tests together take at most twice
+/// on, any number of passes. It need not converge; the steps show it. All tests together take at most four times
 /// the work of one: the test in which it is spent is the last, and unfinished.
 ///
 /// # Errors
@@ -186,7 +186,7 @@ pub fn sequential_tuning(
 ) -> Result<Vec<SequentialStep>, TuningError> {
     let mut steps = Vec::new();
     let mut controllers = [ParallelPid::default(); 2];
-    let mut left = 2.0 * MAX_WORK;
+    let mut left = 4.0 * MAX_WORK;
     for pass in 1..=passes {
         for index in [0, 1] {
             let most = left.min(MAX_WORK);

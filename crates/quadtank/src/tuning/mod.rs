@@ -10,11 +10,10 @@ mod experiment;
 mod identification;
 mod limit_cycle;
 mod placement;
-mod plants;
 mod proposal;
 mod relay_reading;
 mod rules;
-mod usol;
+mod tank_elements;
 
 pub use critical::{CriticalPoint, CriticalSearch, GainLimit, frequency_range, importance, importance_direction};
 pub use curve::{Corner, CriticalCurve, CurvePoint};
@@ -28,11 +27,10 @@ pub use experiment::{
 pub use identification::{complete_response, sine_test};
 pub use limit_cycle::{LimitCycle, limit_cycles};
 pub use placement::{ControllerPair, integral_action_may_be_stable, place_both_loci, place_one_locus};
-pub use plants::{PublishedPlant, tank_transfer_matrix, wood_berry_full_controller};
 pub use proposal::{Action, PlacementMethod, PlacementWarning, Proposal, dynamic_relative_gain, propose, response_at};
 pub use relay_reading::{
     CurveDistance, Exciter, LoopMeasurement, Oscillation, RelayReading, RelayVerdict, distance_from_curve,
     read_relay_test,
 };
 pub use rules::{TuningRule, UltimatePoint};
-pub use usol::{USOL, UsolRecord};
+pub use tank_elements::tank_transfer_matrix;

@@ -173,7 +173,7 @@ mod tests {
     use std::f64::consts::TAU;
 
     use super::*;
-    use crate::tuning::PublishedPlant;
+    use crate::literature::campestrini::PublishedPlant;
 
     fn of(
         method: PlacementMethod,

@@ -1,7 +1,7 @@
 //! The plant against the independent reference values in `data/quadruple-tank.json`.
 
 use approx::assert_relative_eq;
-use quadtank::plant::PresetId;
+use quadtank::literature::PresetId;
 use serde::Deserialize;
 
 use crate::reference::Parameters;

@@ -8,7 +8,8 @@ use approx::assert_abs_diff_eq;
 use open_loop::{BAR, OpenLoop, johansson, with_heights};
 use proptest::prelude::*;
 use quadtank::control::{AntiWindup, DecentralisedPi, LoopMode, Pairing, PiSettings};
-use quadtank::plant::{PresetId, ValveSchedule};
+use quadtank::literature::PresetId;
+use quadtank::plant::ValveSchedule;
 use quadtank::sim::{EventKind, Experiment, HeldPlant, HeldTank, Measurement, SetPointStep, simulate};
 use reference::{Reference, pumped};
 

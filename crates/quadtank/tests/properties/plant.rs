@@ -5,9 +5,9 @@ use std::array::from_fn;
 use proptest::prelude::*;
 use quadtank::control::{AntiWindup, DecentralisedPi, LoopMode, Pairing, Pi, PiSettings};
 use quadtank::linear::{StateSpace, quadruple, transmission_zeros};
+use quadtank::literature::PresetId;
 use quadtank::plant::{
-    CrossSection, Disturbance, OperatingPoint, Outlet, PlantError, PresetId, Pump, QuadrupleTank, SINGULAR_MARGIN,
-    Sensor, Tank,
+    CrossSection, Disturbance, OperatingPoint, Outlet, PlantError, Pump, QuadrupleTank, SINGULAR_MARGIN, Sensor, Tank,
 };
 
 fn tank() -> impl Strategy<Value = Tank> {

@@ -3,7 +3,8 @@
 
 use proptest::prelude::*;
 use quadtank::control::{AntiWindup, DecentralisedPi, LoopMode, Pairing, PiSettings};
-use quadtank::plant::{Disturbance, OperatingPoint, PresetId, QuadrupleTank};
+use quadtank::literature::PresetId;
+use quadtank::plant::{Disturbance, OperatingPoint, QuadrupleTank};
 use quadtank::sim::{
     EventKind, Experiment, Load, LoadStep, Measurement, SetPointStep, Stability, Trajectory, closed_loop, loop_metrics,
     simulate, simulate_linear,

@@ -8,9 +8,10 @@ use approx::assert_relative_eq;
 use nalgebra::Matrix2;
 use quadtank::control::{ParallelPid, PidMatrix, Relay};
 use quadtank::linear::{Closure, Complex, DelayedPlant, LoopStability, TransferFunction, TransferMatrix};
+use quadtank::literature::campestrini::PublishedPlant;
 use quadtank::sim::{TwoLoops, run_two_loops};
 use quadtank::tuning::{
-    CriticalSearch, Design, GainLimit, PublishedPlant, RelayVerdict, TestTime, complete_response, frequency_range,
+    CriticalSearch, Design, GainLimit, RelayVerdict, TestTime, complete_response, frequency_range,
     importance_direction, place_both_loci, place_one_locus, relay_test, simultaneous_test, sine_test,
 };
 #[cfg(target_arch = "wasm32")]

@@ -6,9 +6,8 @@ use std::f64::consts::TAU;
 
 use quadtank::control::ParallelPid;
 use quadtank::linear::Complex;
-use quadtank::tuning::{
-    ControllerPair, PublishedPlant, TuningRule, integral_action_may_be_stable, place_both_loci, place_one_locus,
-};
+use quadtank::literature::campestrini::PublishedPlant;
+use quadtank::tuning::{ControllerPair, TuningRule, integral_action_may_be_stable, place_both_loci, place_one_locus};
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 

@@ -4,10 +4,11 @@
 use approx::assert_relative_eq;
 use quadtank::control::Relay;
 use quadtank::linear::{Complex, TransferFunction};
+use quadtank::literature::campestrini::PublishedPlant;
 use quadtank::tuning::{
-    CriticalSearch, CurveDistance, Exciter, LimitCycle, PublishedPlant, RelayTest, RelayVerdict, TestTime, TuningError,
-    TuningRule, distance_from_curve, frequency_range, independent_tuning, limit_cycles, modulus_estimator,
-    read_relay_test, sequential_tuning, simultaneous_test, single_loop_test, with_integrator,
+    CriticalSearch, CurveDistance, Exciter, LimitCycle, RelayTest, RelayVerdict, TestTime, TuningError, TuningRule,
+    distance_from_curve, frequency_range, independent_tuning, limit_cycles, modulus_estimator, read_relay_test,
+    sequential_tuning, simultaneous_test, single_loop_test, with_integrator,
 };
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;

@@ -3,9 +3,9 @@
 
 use approx::assert_relative_eq;
 use quadtank::linear::TransferMatrix;
+use quadtank::literature::campestrini::{PublishedPlant, USOL};
 use quadtank::tuning::{
-    CriticalCurve, CriticalSearch, GainLimit, PublishedPlant, TuningRule, USOL, UltimatePoint, frequency_range,
-    importance_direction,
+    CriticalCurve, CriticalSearch, GainLimit, TuningRule, UltimatePoint, frequency_range, importance_direction,
 };
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;

@@ -2,7 +2,8 @@
 //! §4.2 decentralised PI. Tolerances are half a unit of the last printed digit unless they say otherwise.
 
 use quadtank::control::{AntiWindup, DecentralisedPi, LoopMode, Pairing, PiSettings};
-use quadtank::plant::{OperatingPoint, PresetId, QuadrupleTank};
+use quadtank::literature::PresetId;
+use quadtank::plant::{OperatingPoint, QuadrupleTank};
 use quadtank::sim::{
     EventKind, Experiment, Load, LoadStep, LoopMetrics, Measurement, SetPointStep, Settling, Stability, Trajectory,
     closed_loop, loop_metrics, simulate, simulate_linear,

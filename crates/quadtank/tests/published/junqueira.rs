@@ -3,7 +3,8 @@
 use quadtank::control::{EstimatorSettings, FedWith, ModelFree, ModelFreeSettings, ModelFreeWindup, Pairing, Window};
 use quadtank::interaction::{niederlinski, relative_gain_array};
 use quadtank::linear::{StateSpace, transmission_zeros};
-use quadtank::plant::{OperatingPoint, PresetId, QuadrupleTank, ValveSchedule};
+use quadtank::literature::PresetId;
+use quadtank::plant::{OperatingPoint, QuadrupleTank, ValveSchedule};
 use quadtank::sim::{
     EventKind, Experiment, HeldOutputs, HoldingEnds, Measurement, ModelFreeRun, SetPointStep, Stability,
     TrackingFigures, continuous_model_free_poles, model_free_poles, simulate_model_free, smallest_model_gain,

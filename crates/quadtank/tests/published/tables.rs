@@ -8,7 +8,8 @@ use std::array::from_fn;
 use nalgebra::{DMatrix, Vector2, Vector4, dmatrix};
 use quadtank::interaction::{PairingVerdict, recommend_pairing, relative_gain_array};
 use quadtank::linear::{StateSpace, eigenvalues, quadruple, transmission_zeros};
-use quadtank::plant::{Disturbance, Jacobian, OperatingPoint, Outlet, Preset, PresetId, Printed, QuadrupleTank};
+use quadtank::literature::{Preset, PresetId, Printed};
+use quadtank::plant::{Disturbance, Jacobian, OperatingPoint, Outlet, QuadrupleTank};
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 

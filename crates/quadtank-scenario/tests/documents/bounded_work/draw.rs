@@ -5,15 +5,20 @@ use quadtank::control::{
     Pairing, PiSettings, Quadrature, Window,
 };
 use quadtank::linear::TransferFunction;
-use quadtank::plant::{CrossSection, DisplayUnit, Outlet, PresetId, Pump, QuadrupleTank, Sensor, Tank, ValveSchedule};
+use quadtank::literature::campestrini::PublishedPlant;
+use quadtank::literature::{DisplayUnit, PresetId};
+use quadtank::plant::{CrossSection, Outlet, Pump, QuadrupleTank, Sensor, Tank, ValveSchedule};
 use quadtank::sim::{Experiment, Load, LoadStep, Measurement, SetPointStep};
-use quadtank::tuning::{Action, PlacementMethod, PublishedPlant, TuningRule};
-use quadtank_scenario::model_free::{ModelFreeScenario, ModelFreeSetup, StartSpec};
-use quadtank_scenario::tuning::{
+use quadtank::study::model_free::{ModelFreeSetup, StartSpec};
+use quadtank::study::quadruple_tank::{OperatingPointSpec, PlantSpec, Setup};
+use quadtank::study::relay_tuning::{
     Behind, CompareSpec, CriticalSpec, DecouplerSpec, DesignSpec, Element, ResponseSpec, TestKind, TestSpec,
-    TuningPlant, TuningScenario, TuningSetup,
+    TuningPlant, TuningSetup,
 };
-use quadtank_scenario::{Limits, OperatingPointSpec, PlantSpec, Scenario, Setup, View, limits};
+use quadtank::tuning::{Action, PlacementMethod, TuningRule};
+use quadtank_scenario::model_free::ModelFreeScenario;
+use quadtank_scenario::tuning::TuningScenario;
+use quadtank_scenario::{Limits, Scenario, View, limits};
 
 /// Farthest target of a placement, the limit of the document.
 const FARTHEST_TARGET: f64 = 1e6;

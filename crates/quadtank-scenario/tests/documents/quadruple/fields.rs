@@ -1,11 +1,10 @@
 //! Broken fields: each is named, with what is wrong about it.
 
 use quadtank::control::LoopMode;
-use quadtank::plant::PresetId;
+use quadtank::literature::PresetId;
 use quadtank::sim::Load;
-use quadtank_scenario::{
-    DOCUMENT_LIMIT, OperatingPointSpec, Scenario, ScenarioError, View, from_json, limits, setup_of, to_json, to_link,
-};
+use quadtank::study::quadruple_tank::{OperatingPointSpec, setup_of};
+use quadtank_scenario::{DOCUMENT_LIMIT, Scenario, ScenarioError, View, from_json, limits, to_json, to_link};
 use serde_json::{Value, json};
 
 use super::largest_setup;

@@ -2,7 +2,8 @@
 
 use approx::assert_abs_diff_eq;
 use quadtank::control::{AntiWindup, DecentralisedPi, LoopMode, Pairing, PiSettings};
-use quadtank::plant::{OperatingPoint, PresetId, QuadrupleTank, ValveSchedule};
+use quadtank::literature::PresetId;
+use quadtank::plant::{OperatingPoint, QuadrupleTank, ValveSchedule};
 use quadtank::sim::{EventKind, Experiment, Load, LoadStep, Measurement, Trajectory, simulate, simulate_with_valves};
 
 use super::reference::{Reference, pumped};

@@ -1,6 +1,8 @@
 use serde::{Deserialize, Serialize};
 
-use super::{QuadrupleTank, published};
+use super::{cocota, johansson, junqueira};
+use crate::control::Pairing;
+use crate::plant::QuadrupleTank;
 
 /// The published rigs. The names are those of the scenario document.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -57,12 +59,12 @@ impl PresetId {
     /// The rig with its numbers.
     pub fn preset(self) -> Preset {
         match self {
-            Self::JohanssonMinimumPhase => published::johansson_minimum_phase(),
-            Self::JohanssonNonMinimumPhase => published::johansson_non_minimum_phase(),
-            Self::CocotaMinimumPhase => published::cocota_minimum_phase(),
-            Self::CocotaNonMinimumPhase => published::cocota_non_minimum_phase(),
-            Self::JunqueiraA => published::junqueira(self, 0.6),
-            Self::JunqueiraB => published::junqueira(self, 0.4),
+            Self::JohanssonMinimumPhase => johansson::minimum_phase(),
+            Self::JohanssonNonMinimumPhase => johansson::non_minimum_phase(),
+            Self::CocotaMinimumPhase => cocota::minimum_phase(),
+            Self::CocotaNonMinimumPhase => cocota::non_minimum_phase(),
+            Self::JunqueiraA => junqueira::case(self, 0.6),
+            Self::JunqueiraB => junqueira::case(self, 0.4),
         }
     }
 }
@@ -106,6 +108,21 @@ pub struct Printed {
     pub dc_gain: Option<[[f64; 2]; 2]>,
 }
 
+/// Two PI loops and an experiment that steps one reference after the other. The settings are those of the source where it prints any.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PiExperiment {
+    /// Which pump each loop drives.
+    pub pairing: Pairing,
+    /// K (V/V) of the loops of levels 1 and 2.
+    pub gains: [f64; 2],
+    /// Ti (s) of the loops of levels 1 and 2.
+    pub integral_times_s: [f64; 2],
+    /// When references 1 and 2 step (s).
+    pub step_times_s: [f64; 2],
+    /// When the experiment ends (s).
+    pub duration_s: f64,
+}
+
 /// A published rig: the plant, the inputs at which it was run, and what the source prints about it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Preset {
@@ -121,6 +138,8 @@ pub struct Preset {
     pub plant: QuadrupleTank,
     /// Pump voltages at the published operating point (V).
     pub pump_voltage: [f64; 2],
+    /// Two PI loops for it.
+    pub pi: PiExperiment,
     /// What to know before comparing numbers.
     pub remarks: &'static [Remark],
     /// What the source prints, where it prints anything.

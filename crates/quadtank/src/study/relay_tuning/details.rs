@@ -2,14 +2,14 @@
 
 use nalgebra::Matrix2;
 
-use quadtank::control::PidMatrix;
-use quadtank::linear::{Complex, Margins, TransferFunction, TransferMatrix};
-use quadtank::tuning::{
+use crate::control::PidMatrix;
+use crate::linear::{Complex, Margins, TransferFunction, TransferMatrix};
+use crate::tuning::{
     Design, LimitCycle, Oscillation, TuningError, complete_response, limit_cycles, modulus_estimator, response_at,
     sine_test, with_integrator,
 };
 
-use super::{Behind, DesignRoot, Study, TestSpec};
+use super::{Behind, DesignRoot, PlantStudy, TestSpec};
 
 /// Time constants after which a transient of a sine test counts as gone: 1e-7 of it is left.
 const SETTLED: f64 = 16.0;
@@ -27,7 +27,7 @@ pub struct Recovered {
     pub exact: Matrix2<Complex>,
 }
 
-impl Study {
+impl PlantStudy {
     /// How far from −1 the loci stay with a root; `None` where the search is beyond its bound on work.
     ///
     /// # Errors
@@ -97,12 +97,12 @@ fn slowest_rate(plant: &TransferMatrix) -> Result<f64, TuningError> {
 mod tests {
     use approx::assert_relative_eq;
 
+    use super::super::{TestKind, Tested, TuningPlant, TuningSetup};
     use super::*;
-    use crate::tuning::{TestKind, Tested, TuningPlant, TuningSetup};
-    use quadtank::tuning::PublishedPlant;
+    use crate::literature::campestrini::PublishedPlant;
 
-    fn study(setup: &TuningSetup) -> (Study, Oscillation) {
-        let study = Study::of(&setup.plant).unwrap();
+    fn study(setup: &TuningSetup) -> (PlantStudy, Oscillation) {
+        let study = PlantStudy::of(&setup.plant).unwrap();
         let reading = match study.test(setup).unwrap() {
             Tested::Simultaneous(test, _) | Tested::Single(test, _) => test.reading,
             _ => unreachable!("not asked for"),
@@ -139,8 +139,8 @@ mod tests {
             }
         }
         setup.test.hysteresis = [0.1; 2];
-        assert_eq!(Study::of(&setup.plant).unwrap().exact_limit_cycle(&setup.test, 1.0), Ok(None));
+        assert_eq!(PlantStudy::of(&setup.plant).unwrap().exact_limit_cycle(&setup.test, 1.0), Ok(None));
         setup = TuningSetup::on(TuningPlant::Published(PublishedPlant::WoodBerry));
-        assert_eq!(Study::of(&setup.plant).unwrap().exact_limit_cycle(&setup.test, 1.0), Ok(None));
+        assert_eq!(PlantStudy::of(&setup.plant).unwrap().exact_limit_cycle(&setup.test, 1.0), Ok(None));
     }
 }

@@ -1,13 +1,12 @@
-use quadtank::interaction::{
+use crate::interaction::{
     PairingVerdict, interpolation_integral, niederlinski, recommend_pairing, relative_gain_array,
 };
-use quadtank::linear::{
-    Complex, LinearError, StateSpace, TransmissionZero, place_nearest_at_origin, transmission_zeros,
-};
-use quadtank::plant::{OperatingPoint, PlantError};
-use quadtank::sim::{ClosedLoop, Experiment, closed_loop};
+use crate::linear::{Complex, LinearError, StateSpace, TransmissionZero, place_nearest_at_origin, transmission_zeros};
+use crate::plant::{OperatingPoint, PlantError};
+use crate::sim::{ClosedLoop, Experiment, closed_loop};
 
-use super::{ScenarioError, Setup};
+use super::Setup;
+use crate::study::StudyError;
 
 /// All that linear theory says about a setup, at the exact equilibrium of its inputs.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,21 +39,21 @@ pub struct Analysis {
 /// Asks linear theory about a setup.
 ///
 /// # Errors
-/// [`ScenarioError::Plant`] when levels are given and no input holds them, [`ScenarioError::Linear`] when the model has
+/// [`StudyError`] at `operating_point` when levels are given and no input holds them, at `plant` when the model has
 /// no poles or no steady-state gain. Questions that only singular plants leave open are answered by an error in place.
 ///
 /// # Examples
 /// λ11 = γ1 γ2/(γ1 + γ2 − 1) = 1.4 for the valves 0.7 and 0.6 of Johansson (2000).
 /// ```
-/// use quadtank::plant::PresetId;
-/// use quadtank_scenario::{analyse, setup_of};
+/// use quadtank::literature::PresetId;
+/// use quadtank::study::quadruple_tank::{analyse, setup_of};
 ///
 /// let analysis = analyse(&setup_of(PresetId::JohanssonMinimumPhase))?;
 /// let lambda = analysis.rga_11.expect("the gain is not singular");
 /// assert!((lambda - 1.4).abs() < 1e-9);
-/// # Ok::<(), quadtank_scenario::ScenarioError>(())
+/// # Ok::<(), quadtank::study::StudyError>(())
 /// ```
-pub fn analyse(setup: &Setup) -> Result<Analysis, ScenarioError> {
+pub fn analyse(setup: &Setup) -> Result<Analysis, StudyError> {
     let plant = setup.plant();
     let operating_point = setup.operating_point()?;
     let jacobian = plant.linearise(&operating_point);
@@ -104,8 +103,8 @@ impl Analysis {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::setup_of;
-    use quadtank::plant::PresetId;
+    use crate::literature::PresetId;
+    use crate::study::quadruple_tank::setup_of;
 
     #[test]
     fn on_the_line_the_zero_is_at_the_origin_and_nothing_of_rounding_is_told() {

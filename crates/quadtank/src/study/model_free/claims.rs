@@ -1,9 +1,8 @@
-use crate::ScenarioError;
+use crate::study::StudyError;
 
-use super::{
-    ModelFreeAnswer, ModelFreeSetup, ModelFreeVerdict, PublishedExperiment, PublishedValves, analyse_model_free,
-    published_model_free, run_model_free,
-};
+use super::{ModelFreeAnswer, ModelFreeSetup, ModelFreeVerdict, analyse_model_free, run_model_free};
+
+use crate::literature::junqueira::{PublishedExperiment, PublishedValves};
 
 use PublishedExperiment::{S1, S2, S3};
 use PublishedValves::{A, B, C};
@@ -60,7 +59,7 @@ pub struct CheckedClaim {
 impl CheckedClaim {
     /// The setup that shows it; for the model gain with one that is too small.
     pub fn setup(&self) -> ModelFreeSetup {
-        let mut setup = published_model_free(self.case.0, self.case.1);
+        let mut setup = ModelFreeSetup::published(self.case.0, self.case.1);
         setup.experiment.duration_s = self.duration_s;
         if self.claim == Claim::ModelGain {
             setup.controller.loops.iter_mut().for_each(|settings| settings.model_gain = TOO_SMALL * self.figures[0]);
@@ -81,7 +80,7 @@ impl CheckedClaim {
 ///
 /// # Errors
 /// What [`run_model_free`] finds, which no published case has.
-pub fn check_claims() -> Result<Vec<CheckedClaim>, ScenarioError> {
+pub fn check_claims() -> Result<Vec<CheckedClaim>, StudyError> {
     Ok(vec![case_a()?, case_b()?, any_zero()?, case_c()?, model_gain()])
 }
 
@@ -89,21 +88,21 @@ pub fn check_claims() -> Result<Vec<CheckedClaim>, ScenarioError> {
 fn run(
     (valves, experiment): (PublishedValves, PublishedExperiment),
     duration_s: Option<f64>,
-) -> Result<(ModelFreeAnswer, ModelFreeVerdict), ScenarioError> {
-    let mut setup = published_model_free(valves, experiment);
+) -> Result<(ModelFreeAnswer, ModelFreeVerdict), StudyError> {
+    let mut setup = ModelFreeSetup::published(valves, experiment);
     setup.experiment.duration_s = duration_s.unwrap_or(setup.experiment.duration_s);
     let answer = run_model_free(&setup)?;
     let verdict = ModelFreeVerdict::of(&setup, &answer, &analyse_model_free(&setup));
     Ok((answer, verdict))
 }
 
-fn case_a() -> Result<CheckedClaim, ScenarioError> {
+fn case_a() -> Result<CheckedClaim, StudyError> {
     let case = (A, S1);
     let (answer, verdict) = run(case, None)?;
     let [first, second] = answer.figures;
     let settles = matches!(verdict, ModelFreeVerdict::Settled(_));
     let saturates = first.saturated_s > 0.0 && second.saturated_s > 0.0;
-    let duration_s = published_model_free(case.0, case.1).experiment.duration_s;
+    let duration_s = ModelFreeSetup::published(case.0, case.1).experiment.duration_s;
     Ok(CheckedClaim {
         claim: Claim::CaseA,
         standing: if settles && saturates { Standing::Reproduced } else { Standing::Refuted },
@@ -118,7 +117,7 @@ fn case_a() -> Result<CheckedClaim, ScenarioError> {
     })
 }
 
-fn case_b() -> Result<CheckedClaim, ScenarioError> {
+fn case_b() -> Result<CheckedClaim, StudyError> {
     let case = (B, S2);
     let (answer, verdict) = run(case, None)?;
     let (long, long_verdict) = run(case, Some(LONG_RUN_S))?;
@@ -140,10 +139,10 @@ fn case_b() -> Result<CheckedClaim, ScenarioError> {
     })
 }
 
-fn any_zero() -> Result<CheckedClaim, ScenarioError> {
+fn any_zero() -> Result<CheckedClaim, StudyError> {
     let case = (B, S3);
     let lost_s = lost_at(&run(case, None)?.0);
-    let setup = published_model_free(case.0, case.1);
+    let setup = ModelFreeSetup::published(case.0, case.1);
     let theory = analyse_model_free(&setup);
     let moment = theory.moment.as_ref();
     let poles = theory.continuous_poles.and_then(Result::ok).unwrap_or_default();
@@ -162,7 +161,7 @@ fn any_zero() -> Result<CheckedClaim, ScenarioError> {
     })
 }
 
-fn case_c() -> Result<CheckedClaim, ScenarioError> {
+fn case_c() -> Result<CheckedClaim, StudyError> {
     let ripple = |verdict| match verdict {
         ModelFreeVerdict::Rippling { error: [one, two], apart } => Some((one.max(two), apart)),
         _ => None,
@@ -195,7 +194,7 @@ fn case_c() -> Result<CheckedClaim, ScenarioError> {
 
 fn model_gain() -> CheckedClaim {
     let case = (A, S2);
-    let setup = published_model_free(case.0, case.1);
+    let setup = ModelFreeSetup::published(case.0, case.1);
     // At the levels that the run begins with.
     let mut before = setup.clone();
     before.experiment.set_point_steps.clear();

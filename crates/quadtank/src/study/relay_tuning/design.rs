@@ -2,17 +2,18 @@ use std::f64::consts::TAU;
 
 use nalgebra::Matrix2;
 
-use quadtank::control::{ParallelPid, PidMatrix};
-use quadtank::interaction::{Decoupling, decoupled_paths, static_decoupler};
-use quadtank::linear::{Closure, Complex, DelayedPlant, Loci, LoopStability, Path};
-use quadtank::sim::{HeldPlant, LoopTrace, MAX_WORK, StepFigures, TwoLoops, run_two_loops_within};
-use quadtank::tuning::{
-    Action, Design, GainLimit, PlacementWarning, PublishedPlant, TuningError, TuningRule, UltimatePoint,
-    importance_direction, propose, response_at, wood_berry_full_controller,
+use crate::control::{ParallelPid, PidMatrix};
+use crate::interaction::{Decoupling, decoupled_paths, static_decoupler};
+use crate::linear::{Closure, Complex, DelayedPlant, Loci, LoopStability, Path};
+use crate::literature::campestrini::{PublishedPlant, wood_berry_full_controller};
+use crate::sim::{HeldPlant, LoopTrace, MAX_WORK, StepFigures, TwoLoops, run_two_loops_within};
+use crate::tuning::{
+    Action, Design, GainLimit, PlacementWarning, TuningError, TuningRule, UltimatePoint, importance_direction, propose,
+    response_at,
 };
 
 use super::rig::nonlinear;
-use super::{CompareSpec, CriticalSpec, DecouplerSpec, Study, TuningPlant, TuningSetup};
+use super::{CompareSpec, CriticalSpec, DecouplerSpec, PlantStudy, TuningPlant, TuningSetup};
 
 /// Both roots of a placement.
 #[derive(Clone, Debug, PartialEq)]
@@ -80,7 +81,7 @@ impl Designed {
     }
 }
 
-impl Study {
+impl PlantStudy {
     /// The controllers of a session; `None` where the curve has no ultimate point in the direction asked for.
     ///
     /// # Errors

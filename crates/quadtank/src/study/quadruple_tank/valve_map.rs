@@ -1,8 +1,9 @@
-use quadtank::linear::Complex;
-use quadtank::linear::quadruple::{path, rightmost_zero};
-use quadtank::plant::QuadrupleTank;
+use crate::linear::Complex;
+use crate::linear::quadruple::{path, rightmost_zero};
+use crate::plant::QuadrupleTank;
 
-use super::{ScenarioError, Setup};
+use super::Setup;
+use crate::study::StudyError;
 
 /// The transmission zeros of a rig as its valves move and its pump voltages stay: the map under the valve plane, and the
 /// paths in the pole-zero chart. Each question takes well under a microsecond.
@@ -16,8 +17,8 @@ impl ValveMap {
     /// The map at the pump voltages of a setup.
     ///
     /// # Errors
-    /// [`ScenarioError::Plant`] when levels are given and no input holds them.
-    pub fn of(setup: &Setup) -> Result<Self, ScenarioError> {
+    /// [`StudyError`] at `operating_point` when levels are given and no input holds them.
+    pub fn of(setup: &Setup) -> Result<Self, StudyError> {
         Ok(Self { plant: setup.plant(), pump_voltage: setup.operating_point()?.pump_voltage })
     }
 

@@ -1,10 +1,11 @@
 use serde::Serialize;
 
-use quadtank::sim::{
+use crate::sim::{
     LoopMetrics, NoResponse, Stability, Trajectory, closed_loop, loop_metrics, simulate, simulate_linear,
 };
 
-use super::{ScenarioError, Setup};
+use super::Setup;
+use crate::study::{StudyError, whole};
 
 /// What happens in the experiment of a setup: the nonlinear plant, its linear model, and how the loops did.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -24,12 +25,13 @@ pub struct Run {
 /// would have to be higher than its walls at the start: such a run does not begin at rest.
 ///
 /// # Errors
-/// [`ScenarioError::Plant`] when levels are given and no input holds them; [`ScenarioError::TooMuchWork`].
-pub fn run(setup: &Setup) -> Result<Run, ScenarioError> {
+/// [`StudyError`] at `operating_point` when levels are given and no input holds them, at `experiment.duration_s` when the run takes
+/// too much work.
+pub fn run(setup: &Setup) -> Result<Run, StudyError> {
     let plant = setup.plant();
     let start = setup.operating_point()?;
     let Setup { controller, experiment, .. } = setup;
-    let nonlinear = whole(simulate(&plant, &start, controller, experiment), "setup.experiment.duration_s")?;
+    let nonlinear = whole(simulate(&plant, &start, controller, experiment))?;
     let jacobian = plant.linearise(&start);
     let linear = simulate_linear(&plant, &start, &jacobian, controller, experiment);
     let is_unstable =
@@ -44,20 +46,12 @@ pub fn run(setup: &Setup) -> Result<Run, ScenarioError> {
     Ok(Run { metrics: metrics(&nonlinear), linear_metrics: metrics(&linear), nonlinear, linear })
 }
 
-/// A run that went to its end; the field of the document that says how long it is meant to be.
-pub(super) fn whole(run: Trajectory, field: &str) -> Result<Trajectory, ScenarioError> {
-    match run.halted_at_s {
-        None => Ok(run),
-        Some(time_s) => Err(ScenarioError::TooMuchWork { field: field.to_owned(), time_s }),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::setup_of;
-    use quadtank::control::Pairing;
-    use quadtank::plant::PresetId;
+    use crate::control::Pairing;
+    use crate::literature::PresetId;
+    use crate::study::quadruple_tank::setup_of;
 
     #[test]
     fn an_unstable_loop_has_sums_but_no_step_response() {

@@ -1,9 +1,5 @@
-use quadtank::tuning::{Action, PlacementMethod, PublishedPlant, TuningRule};
-
-use super::{
-    CompareSpec, CriticalSpec, DecouplerSpec, DesignSpec, ResponseSpec, TestSpec, TuningPlant, TuningScenario,
-    TuningSetup,
-};
+use super::PublishedPlant;
+use crate::tuning::{Action, PlacementMethod, TuningRule};
 
 /// A published case of Campestrini (2006): a table and its row. Equation 88 counts as table 88, and the record of the solvents
 /// column, §6.4, as table 0.
@@ -15,11 +11,27 @@ pub struct PublishedCase {
     pub row: usize,
 }
 
-/// Plant, critical point (kc1, kc2, Tc), method, action, λ and root of a row.
-type Row = (PublishedPlant, [f64; 3], PlacementMethod, Action, [f64; 2], usize);
+/// The placement of a case, as printed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PublishedPlacement {
+    /// The plant.
+    pub plant: PublishedPlant,
+    /// Gains kc1, kc2 of the critical point.
+    pub critical_gains: [f64; 2],
+    /// Its period Tc, in the unit of time of the plant.
+    pub critical_period: f64,
+    /// Which loci.
+    pub method: PlacementMethod,
+    /// With which controllers.
+    pub action: Action,
+    /// Target λ: real and imaginary part.
+    pub target: [f64; 2],
+    /// Root 1 or 2; root 1 has the larger controller in loop 1.
+    pub root: usize,
+}
 
 /// The rows of Table 4.
-pub(super) const RULES: [(TuningRule, Action); 4] = [
+pub const RULES: [(TuningRule, Action); 4] = [
     (TuningRule::ZieglerNicholsPi, Action::Pi),
     (TuningRule::ZieglerNicholsPid, Action::Pid),
     (TuningRule::TyreusLuybenPi, Action::Pi),
@@ -47,7 +59,7 @@ const TABLES: [(u32, usize); 16] = [
 ];
 
 impl PublishedCase {
-    /// All cases, in the order of the thesis. With method A the root is the one that has the sign of the plant.
+    /// All cases, in the order of the thesis.
     pub fn all() -> impl Iterator<Item = Self> {
         TABLES.into_iter().flat_map(|(table, rows)| (1..=rows).map(move |row| Self { table, row }))
     }
@@ -71,7 +83,8 @@ impl PublishedCase {
         Self::all().find(|case| case.name() == name)
     }
 
-    fn parts(self) -> Row {
+    /// The placement of the case; with method A the root is the one that has the sign of the plant.
+    pub fn placement(self) -> PublishedPlacement {
         use Action::{Pi, Pid};
         use PlacementMethod::{BothLoci, OneLocus};
         use PublishedPlant::{ProcessTwo, WoodBerry};
@@ -91,7 +104,7 @@ impl PublishedCase {
             }
         };
         let rule_target = |rule: TuningRule| [rule.target().re, rule.target().im];
-        match (self.table, self.row) {
+        let (plant, [kc1, kc2, critical_period], method, action, target, root) = match (self.table, self.row) {
             (4, row) => {
                 let (rule, action) = RULES[row - 1];
                 (WoodBerry, wood_berry(2), OneLocus, action, rule_target(rule), 2)
@@ -109,37 +122,7 @@ impl PublishedCase {
             (15, point) => (ProcessTwo, process_two(point), BothLoci, Pi, [-0.2, 0.01], 2),
             // Tables 13 and 16.
             (_, point) => (ProcessTwo, process_two(point), BothLoci, Pid, [-0.3, -0.3], 2),
-        }
-    }
-
-    /// The session of a case, with a simultaneous test of equal amplitudes beside it.
-    pub fn scenario(self) -> TuningScenario {
-        let (plant, [kc1, kc2, period], method, action, target, root) = self.parts();
-        let (duration, step, response) = match plant {
-            PublishedPlant::WoodBerry => (400.0, 0.05, 200.0),
-            PublishedPlant::ProcessTwo => (40.0, 0.005, 20.0),
         };
-        TuningScenario {
-            version: TuningScenario::VERSION,
-            tuning: TuningSetup {
-                plant: TuningPlant::Published(plant),
-                test: TestSpec::simultaneous(duration, 0.01 * duration, step),
-                design: DesignSpec {
-                    critical: CriticalSpec::Point { gains: [kc1, kc2], period },
-                    method,
-                    action,
-                    target,
-                    root,
-                    decoupler: DecouplerSpec::None,
-                },
-                response: ResponseSpec {
-                    references: [1.0, 0.0],
-                    duration: response,
-                    step: 2.0 * step,
-                    compare: CompareSpec::Nothing,
-                },
-            },
-            pinned: Vec::new(),
-        }
+        PublishedPlacement { plant, critical_gains: [kc1, kc2], critical_period, method, action, target, root }
     }
 }

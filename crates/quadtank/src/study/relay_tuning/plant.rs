@@ -1,7 +1,8 @@
-use quadtank::control::Pairing;
-use quadtank::linear::{Complex, TransferFunction, TransferMatrix};
-use quadtank::plant::PresetId;
-use quadtank::tuning::{PublishedPlant, TuningError, tank_transfer_matrix};
+use crate::control::Pairing;
+use crate::linear::{Complex, TransferFunction, TransferMatrix};
+use crate::literature::PresetId;
+use crate::literature::campestrini::PublishedPlant;
+use crate::tuning::{TuningError, tank_transfer_matrix};
 use serde::{Deserialize, Serialize};
 
 use super::Element;
@@ -63,7 +64,7 @@ impl TuningPlant {
     }
 
     /// The magnitude of the quickest pole, and the longest dead time; `None` for a plant that is none.
-    pub(super) fn pace(&self) -> Option<(f64, f64)> {
+    pub fn pace(&self) -> Option<(f64, f64)> {
         let transfer = self.transfer_matrix().ok()?;
         let elements = transfer.0.as_flattened();
         let quickest = elements.iter().filter_map(|g| g.poles().ok()).flatten().map(Complex::norm).fold(0.0, f64::max);

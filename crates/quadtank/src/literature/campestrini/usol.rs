@@ -1,4 +1,4 @@
-use super::UltimatePoint;
+use crate::tuning::UltimatePoint;
 
 /// The relay test on a solvents column that Campestrini (2006, §6.4) prints: data only, there is no model of it.
 ///

@@ -1,14 +1,13 @@
-use crate::ScenarioError;
-use crate::run::whole;
-use quadtank::control::{DecentralisedPi, ModelFree, Pairing};
-use quadtank::interaction::{niederlinski, relative_gain_array};
-use quadtank::linear::{Complex, LinearError, StateSpace, place_nearest_at_origin, transmission_zeros};
-use quadtank::plant::{OperatingPoint, PlantError, QuadrupleTank, ValveSchedule};
-use quadtank::sim::{
+use crate::control::{DecentralisedPi, ModelFree, Pairing};
+use crate::interaction::{niederlinski, relative_gain_array};
+use crate::linear::{Complex, LinearError, StateSpace, place_nearest_at_origin, transmission_zeros};
+use crate::plant::{OperatingPoint, PlantError, QuadrupleTank, ValveSchedule};
+use crate::sim::{
     Experiment, HeldOutputs, HoldingEnds, ModelFreePoles, ModelFreeRun, Stability, TrackingFigures, Trajectory,
     continuous_model_free_poles, model_free_poles, simulate_model_free, simulate_with_valves, smallest_model_gain,
     smallest_model_gain_of_integrator, tracking_figures,
 };
+use crate::study::{StudyError, whole};
 
 use super::{ModelFreeSetup, StartSpec};
 
@@ -138,20 +137,20 @@ const HELD_FOR_S: f64 = 10.0;
 /// Runs the experiment of a setup.
 ///
 /// # Errors
-/// [`ScenarioError::Start`] when no input holds the levels that it begins with; [`ScenarioError::TooMuchWork`].
-pub fn run_model_free(setup: &ModelFreeSetup) -> Result<ModelFreeAnswer, ScenarioError> {
+/// [`StudyError`] at `start` when no input holds the levels that it begins with, at `experiment.duration_s` when the run takes too
+/// much work.
+pub fn run_model_free(setup: &ModelFreeSetup) -> Result<ModelFreeAnswer, StudyError> {
     let (plant, start) = (setup.plant_at(0.0), setup.start()?);
     let ModelFreeSetup { valves, controller, experiment, .. } = setup;
-    let run = simulate_model_free(&plant, valves, &start, controller, experiment)
-        .map_err(|error| ScenarioError::Law { field: "model_free.controller".to_owned(), error })?;
-    let duration = "model_free.experiment.duration_s";
-    let run = ModelFreeRun { trajectory: whole(run.trajectory, duration)?, ..run };
+    let run =
+        simulate_model_free(&plant, valves, &start, controller, experiment).map_err(StudyError::at("controller"))?;
+    let run = ModelFreeRun { trajectory: whole(run.trajectory)?, ..run };
     let figures_of = |run: &Trajectory, rows: usize, pairing: Pairing| tracking_figures(run, rows, &plant, pairing);
     let compared = |compare: DecentralisedPi| {
         let (run, rows) = simulate_with_valves(&plant, valves, &start, &compare, experiment);
-        let run = whole(run, duration)?;
+        let run = whole(run)?;
         let figures = figures_of(&run, rows, compare.pairing);
-        Ok::<_, ScenarioError>((run, figures))
+        Ok::<_, StudyError>((run, figures))
     };
     let comparison = setup.compare.map(compared).transpose()?;
     let figures = figures_of(&run.trajectory, run.rows_per_sample, controller.pairing);

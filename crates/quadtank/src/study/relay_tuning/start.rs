@@ -1,12 +1,13 @@
 use std::f64::consts::TAU;
 
-use quadtank::control::Pairing;
-use quadtank::plant::PresetId;
-use quadtank::tuning::{Action, GainLimit, PlacementMethod, PublishedPlant, TuningRule, importance_direction};
+use crate::control::Pairing;
+use crate::literature::PresetId;
+use crate::literature::campestrini::{PublishedCase, PublishedPlacement, PublishedPlant};
+use crate::tuning::{Action, GainLimit, PlacementMethod, TuningRule, importance_direction};
 
 use super::{
-    Behind, CompareSpec, CriticalSpec, DecouplerSpec, DesignSpec, PublishedCase, ResponseSpec, Study, TestKind,
-    TestSpec, TuningPlant, TuningScenario, TuningSetup,
+    Behind, CompareSpec, CriticalSpec, DecouplerSpec, DesignSpec, PlantStudy, ResponseSpec, TestKind, TestSpec,
+    TuningPlant, TuningSetup,
 };
 
 /// Dead time that a rig begins with (s): without one its minimum-phase setting has no ultimate point, and relays chatter.
@@ -37,13 +38,6 @@ impl TestSpec {
     }
 }
 
-impl Default for TuningScenario {
-    /// What the source recommends: both loci, PID, a target in the third quadrant (Campestrini 2006, Table 12).
-    fn default() -> Self {
-        PublishedCase { table: 12, row: 2 }.scenario()
-    }
-}
-
 impl TuningPlant {
     /// A published rig with the pairing that its relative gains suggest.
     pub fn rig(preset: PresetId) -> Self {
@@ -57,14 +51,14 @@ impl TuningSetup {
     /// A session to begin with on a plant: its records are long enough for what oscillates at equal importance.
     pub fn on(plant: TuningPlant) -> Self {
         match plant {
-            TuningPlant::Published(PublishedPlant::WoodBerry) => TuningScenario::default().tuning,
-            TuningPlant::Published(PublishedPlant::ProcessTwo) => PublishedCase { table: 16, row: 1 }.scenario().tuning,
+            TuningPlant::Published(PublishedPlant::WoodBerry) => Self::default(),
+            TuningPlant::Published(PublishedPlant::ProcessTwo) => Self::published(PublishedCase { table: 16, row: 1 }),
             plant => Self::paced(plant),
         }
     }
 
     fn paced(plant: TuningPlant) -> Self {
-        let limit = Study::of(&plant).map(|study| study.search.limit(importance_direction(&study.dc_gain, 1.0)));
+        let limit = PlantStudy::of(&plant).map(|study| study.search.limit(importance_direction(&study.dc_gain, 1.0)));
         let period = match limit {
             Ok(GainLimit::Oscillation(point)) => TAU / point.frequency,
             _ => NO_PERIOD,
@@ -87,5 +81,40 @@ impl TuningSetup {
                 compare: CompareSpec::Nothing,
             },
         }
+    }
+
+    /// The session of a published case, with a simultaneous test of equal amplitudes beside it.
+    pub fn published(case: PublishedCase) -> Self {
+        let PublishedPlacement { plant, critical_gains, critical_period, method, action, target, root } =
+            case.placement();
+        let (duration, step, response) = match plant {
+            PublishedPlant::WoodBerry => (400.0, 0.05, 200.0),
+            PublishedPlant::ProcessTwo => (40.0, 0.005, 20.0),
+        };
+        Self {
+            plant: TuningPlant::Published(plant),
+            test: TestSpec::simultaneous(duration, 0.01 * duration, step),
+            design: DesignSpec {
+                critical: CriticalSpec::Point { gains: critical_gains, period: critical_period },
+                method,
+                action,
+                target,
+                root,
+                decoupler: DecouplerSpec::None,
+            },
+            response: ResponseSpec {
+                references: [1.0, 0.0],
+                duration: response,
+                step: 2.0 * step,
+                compare: CompareSpec::Nothing,
+            },
+        }
+    }
+}
+
+impl Default for TuningSetup {
+    /// What the source recommends: both loci, PID, a target in the third quadrant (Campestrini 2006, Table 12).
+    fn default() -> Self {
+        Self::published(PublishedCase { table: 12, row: 2 })
     }
 }

@@ -1,6 +1,6 @@
 use thiserror::Error;
 
-use quadtank::linear::{LinearError, TransferFunction};
+use crate::linear::{LinearError, TransferFunction};
 use serde::{Deserialize, Serialize};
 
 /// An element `b(s)/a(s) e^(−θ s)` of a plant of one's own.

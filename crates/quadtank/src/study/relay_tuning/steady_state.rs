@@ -1,7 +1,7 @@
 use nalgebra::{DMatrix, Matrix2};
 
-use quadtank::interaction::{niederlinski, relative_gain_array};
-use quadtank::linear::{LinearError, TransferMatrix};
+use crate::interaction::{niederlinski, relative_gain_array};
+use crate::linear::{LinearError, TransferMatrix};
 
 /// What the steady-state gain says of a plant with two loops.
 #[derive(Clone, Copy, Debug, PartialEq)]

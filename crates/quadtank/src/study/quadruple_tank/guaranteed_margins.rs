@@ -6,7 +6,7 @@ use serde::Serialize;
 ///
 /// A loop may well tolerate more. Ms = 2 gives 0.67 to 2 and 29°.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Margins {
+pub struct GuaranteedMargins {
     /// Smallest factor on the gain.
     pub gain_min: f64,
     /// Largest factor on the gain; `None` when any factor is tolerated.
@@ -15,9 +15,9 @@ pub struct Margins {
     pub phase_rad: f64,
 }
 
-impl Margins {
+impl GuaranteedMargins {
     /// The margins that a sensitivity peak guarantees.
-    pub fn guaranteed_by(sensitivity_peak: f64) -> Self {
+    pub fn of(sensitivity_peak: f64) -> Self {
         let ms = sensitivity_peak;
         Self {
             gain_min: ms / (ms + 1.0),
@@ -35,7 +35,7 @@ mod tests {
 
     #[test]
     fn a_peak_of_two_gives_the_textbook_margins() {
-        let margins = Margins::guaranteed_by(2.0);
+        let margins = GuaranteedMargins::of(2.0);
         assert_relative_eq!(margins.gain_min, 2.0 / 3.0);
         assert_eq!(margins.gain_max, Some(2.0));
         // 28.955°, from 2 asin(1/4).
@@ -44,9 +44,9 @@ mod tests {
 
     #[test]
     fn without_a_peak_any_higher_gain_is_tolerated() {
-        let margins = Margins::guaranteed_by(1.0);
+        let margins = GuaranteedMargins::of(1.0);
         assert_eq!(margins.gain_max, None);
         assert_relative_eq!(margins.phase_rad, std::f64::consts::FRAC_PI_3);
-        assert!(Margins::guaranteed_by(0.1).phase_rad.is_finite());
+        assert!(GuaranteedMargins::of(0.1).phase_rad.is_finite());
     }
 }

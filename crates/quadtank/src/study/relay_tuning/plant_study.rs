@@ -1,8 +1,8 @@
 use nalgebra::Matrix2;
 
-use quadtank::control::{PidMatrix, Relay};
-use quadtank::linear::{Complex, DelayedPlant, LinearError, TransferMatrix};
-use quadtank::tuning::{
+use crate::control::{PidMatrix, Relay};
+use crate::linear::{Complex, DelayedPlant, LinearError, TransferMatrix};
+use crate::tuning::{
     CriticalCurve, CriticalSearch, CurveDistance, RelayTest, SequentialStep, TestAndSettings, TestTime, TuningError,
     check_stable, distance_from_curve, frequency_range, independent_tuning, relay_test, sequential_tuning,
     single_loop_test,
@@ -17,7 +17,7 @@ const DIRECTIONS: usize = 200;
 
 /// What follows from the plant alone. Tests and designs start from it.
 #[derive(Clone, Debug)]
-pub struct Study {
+pub struct PlantStudy {
     /// The plant as transfer functions.
     pub plant: TransferMatrix,
     /// G(0).
@@ -34,7 +34,7 @@ pub struct Study {
 #[derive(Clone, Debug)]
 pub struct Tuning {
     /// What follows from the plant.
-    pub study: Study,
+    pub study: PlantStudy,
     /// The relay test.
     pub test: Tested,
     /// The controllers; `None` where the curve has no ultimate point in the direction asked for.
@@ -70,14 +70,14 @@ pub struct FoundPoint {
 /// Runs a session.
 ///
 /// # Errors
-/// As [`Study::of`], [`Study::test`] and [`Study::design`].
+/// As [`PlantStudy::of`], [`PlantStudy::test`] and [`PlantStudy::design`].
 pub fn tune(setup: &TuningSetup) -> Result<Tuning, TuningError> {
-    let study = Study::of(&setup.plant)?;
+    let study = PlantStudy::of(&setup.plant)?;
     let (test, design) = (study.test(setup)?, study.design(setup)?);
     Ok(Tuning { study, test, design })
 }
 
-impl Study {
+impl PlantStudy {
     /// Studies a plant.
     ///
     /// # Errors

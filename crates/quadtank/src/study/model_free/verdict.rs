@@ -1,5 +1,5 @@
-use quadtank::plant::{QuadrupleTank, ValveSchedule};
-use quadtank::sim::{EventKind, HoldingEnds, TrackingFigures, Trajectory};
+use crate::plant::{QuadrupleTank, ValveSchedule};
+use crate::sim::{EventKind, HoldingEnds, TrackingFigures, Trajectory};
 
 use super::{ModelFreeAnalysis, ModelFreeAnswer, ModelFreeSetup};
 

@@ -1,6 +1,6 @@
-use quadtank::control::Pairing;
-use quadtank::plant::{OperatingPoint, QuadrupleTank};
-use quadtank::sim::HeldTank;
+use crate::control::Pairing;
+use crate::plant::{OperatingPoint, QuadrupleTank};
+use crate::sim::HeldTank;
 
 use super::TuningPlant;
 

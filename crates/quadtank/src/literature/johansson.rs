@@ -1,0 +1,80 @@
+//! Johansson (2000), "The quadruple-tank process": two settings of one rig, with two PI loops.
+
+use super::units::{CM, CM2, CM3};
+use super::{DisplayUnit, PiExperiment, Preset, PresetId, Printed, Remark};
+use crate::control::Pairing;
+use crate::plant::{CrossSection, Outlet, Pump, QuadrupleTank, Sensor, Tank};
+
+/// Johansson (2000), minimum-phase setting P−.
+pub(super) fn minimum_phase() -> Preset {
+    let printed = Printed {
+        levels: [12.4, 12.7, 1.8, 1.4].map(|h| h * CM),
+        time_constants_s: [62.0, 90.0, 23.0, 30.0],
+        zeros: [-0.060, -0.018],
+        rga_11: 1.40,
+        dc_gain: None,
+    };
+    let pi = pi([3.0, 2.7], [30.0, 40.0]);
+    rig(PresetId::JohanssonMinimumPhase, "P−", [3.33, 3.35], [0.70, 0.60], [3.00, 3.00], printed, pi)
+}
+
+/// Johansson (2000), non-minimum-phase setting P+.
+#[expect(clippy::approx_constant, reason = "k1 = 3.14 cm³/(V s) has nothing to do with π")]
+pub(super) fn non_minimum_phase() -> Preset {
+    let printed = Printed {
+        levels: [12.6, 13.0, 4.8, 4.9].map(|h| h * CM),
+        time_constants_s: [63.0, 91.0, 39.0, 56.0],
+        zeros: [-0.057, 0.013],
+        rga_11: -0.64,
+        dc_gain: None,
+    };
+    let pi = pi([1.5, -0.12], [110.0, 220.0]);
+    rig(PresetId::JohanssonNonMinimumPhase, "P+", [3.14, 3.29], [0.43, 0.34], [3.15, 3.15], printed, pi)
+}
+
+fn rig(
+    id: PresetId,
+    table: &'static str,
+    pump_gain_cm3: [f64; 2],
+    valves: [f64; 2],
+    pump_voltage: [f64; 2],
+    printed: Printed,
+    pi: PiExperiment,
+) -> Preset {
+    let height = 20.0 * CM;
+    let tank = |section_cm2, outlet_cm2| Tank {
+        section: CrossSection::prismatic(section_cm2 * CM2),
+        outlet: Outlet { area: outlet_cm2 * CM2, loss_coefficient: 1.0 },
+        height,
+    };
+    let (odd, even) = (tank(28.0, 0.071), tank(32.0, 0.057));
+    Preset {
+        id,
+        source: "Johansson 2000",
+        table,
+        display_unit: DisplayUnit::Cm,
+        plant: QuadrupleTank {
+            tanks: [odd, even, odd, even],
+            pumps: pump_gain_cm3.map(|k| Pump { gain: k * CM3, voltage_min: 0.0, voltage_max: 10.0 }),
+            valves,
+            power_gain: 1.0,
+            sensor: Sensor { gain: 0.50 / CM, range: height, resolution: 0.0 },
+            gravity: 981.0 * CM,
+        },
+        pump_voltage,
+        pi,
+        remarks: &[Remark::PrintedLevelsNotAtRest],
+        printed: Some(printed),
+    }
+}
+
+/// The printed PI loops, diagonal in both settings. The times of the experiment are ours.
+fn pi(gains: [f64; 2], integral_times_s: [f64; 2]) -> PiExperiment {
+    PiExperiment {
+        pairing: Pairing::Diagonal,
+        gains,
+        integral_times_s,
+        step_times_s: [100.0, 1500.0],
+        duration_s: 3000.0,
+    }
+}

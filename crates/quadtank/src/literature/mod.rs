@@ -1,0 +1,12 @@
+//! What is printed: one module per source, with its rigs, cases, printed numbers and what is to be known about the print.
+//!
+//! [`PresetId`] names the published rigs of all sources.
+
+pub mod campestrini;
+mod cocota;
+mod johansson;
+pub mod junqueira;
+mod rig;
+mod units;
+
+pub use rig::{DisplayUnit, PiExperiment, Preset, PresetId, Printed, Remark};

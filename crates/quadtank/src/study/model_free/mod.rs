@@ -1,0 +1,11 @@
+//! The study of the model-free bench: the law of Junqueira, Neves and Angelico on a tank with still or moving valves.
+
+mod answer;
+mod claims;
+mod setup;
+mod verdict;
+
+pub use answer::{ModelFreeAnalysis, ModelFreeAnswer, Moment, PredictedLoss, analyse_model_free, run_model_free};
+pub use claims::{CheckedClaim, Claim, LONG_RUN_S, Standing, check_claims};
+pub use setup::{ModelFreeSetup, StartSpec};
+pub use verdict::{LossBy, ModelFreeVerdict};

@@ -1,0 +1,15 @@
+//! The study of the home bench: a quadruple tank with two PI loops, from two valves to the step response.
+
+mod analysis;
+mod guaranteed_margins;
+mod published;
+mod run;
+mod setup;
+mod valve_map;
+
+pub use analysis::{Analysis, analyse};
+pub use guaranteed_margins::GuaranteedMargins;
+pub use published::setup_of;
+pub use run::{Run, run};
+pub use setup::{OperatingPointSpec, PlantSpec, Setup};
+pub use valve_map::ValveMap;

@@ -1,0 +1,91 @@
+use serde::{Deserialize, Serialize};
+
+use crate::control::DecentralisedPi;
+use crate::literature::{DisplayUnit, PresetId};
+use crate::plant::{OperatingPoint, QuadrupleTank};
+use crate::sim::Experiment;
+use crate::study::StudyError;
+
+/// The plant of a setup: a published rig by name, or all its parameters.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+#[expect(clippy::large_enum_variant, reason = "one per scenario, and plain data is easier to share than a box")]
+pub enum PlantSpec {
+    /// A published rig; its valves are overridden by those of the setup.
+    Preset(PresetId),
+    /// A rig of one's own.
+    Parameters {
+        /// All parameters, in SI; the valves are overridden by those of the setup.
+        rig: QuadrupleTank,
+        /// The unit to show levels in.
+        display_unit: DisplayUnit,
+    },
+}
+
+impl PlantSpec {
+    /// The rig, with valves of its own.
+    pub fn rig(&self) -> QuadrupleTank {
+        match *self {
+            Self::Preset(id) => id.preset().plant,
+            Self::Parameters { rig, .. } => rig,
+        }
+    }
+
+    /// The unit to show levels in.
+    pub fn display_unit(&self) -> DisplayUnit {
+        match *self {
+            Self::Preset(id) => id.preset().display_unit,
+            Self::Parameters { display_unit, .. } => display_unit,
+        }
+    }
+}
+
+/// How the operating point is given.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum OperatingPointSpec {
+    /// The pump voltages (V); the levels follow, for any valves.
+    PumpVoltage([f64; 2]),
+    /// The levels of tanks 1 and 2 (m); the voltages follow, unless γ1 + γ2 = 1.
+    Levels([f64; 2]),
+}
+
+/// Everything that one run depends on.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Setup {
+    /// The plant.
+    pub plant: PlantSpec,
+    /// Valve fractions γ1, γ2, each in [0, 1].
+    pub valves: [f64; 2],
+    /// Where it rests before the experiment.
+    pub operating_point: OperatingPointSpec,
+    /// The controller.
+    pub controller: DecentralisedPi,
+    /// What is done to it.
+    pub experiment: Experiment,
+}
+
+impl Setup {
+    /// The rig, with the valves of this setup.
+    pub fn plant(&self) -> QuadrupleTank {
+        self.plant.rig().with_valves(self.valves)
+    }
+
+    /// The equilibrium that the experiment starts from, whether or not walls and pumps allow it.
+    ///
+    /// # Errors
+    /// [`StudyError`] at `operating_point` when levels are given and no input holds them.
+    pub fn operating_point(&self) -> Result<OperatingPoint, StudyError> {
+        let plant = self.plant();
+        match self.operating_point {
+            OperatingPointSpec::PumpVoltage(voltage) => Ok(plant.free_equilibrium(voltage)),
+            OperatingPointSpec::Levels(levels) => {
+                plant.inputs_for_levels(levels).map_err(StudyError::at("operating_point"))
+            }
+        }
+    }
+}

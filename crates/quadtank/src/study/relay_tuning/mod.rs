@@ -1,0 +1,23 @@
+//! The study of the relay-tuning bench: relay test, critical curve, placement of the critical point, response (Campestrini 2006).
+
+mod design;
+mod details;
+mod element;
+mod plant;
+mod plant_study;
+mod printed;
+mod rig;
+mod setup;
+mod start;
+mod steady_state;
+
+pub use design::{Comparison, DesignRoot, Designed, StepResponse};
+pub use details::Recovered;
+pub use element::{Element, ElementFault};
+pub use plant::TuningPlant;
+pub use plant_study::{FoundPoint, PlantStudy, Tested, Tuning, tune};
+pub use printed::{PrintedFigure, printed_figures, rule_targets};
+pub use setup::{
+    Behind, CompareSpec, CriticalSpec, DecouplerSpec, DesignSpec, ResponseSpec, TestKind, TestSpec, TuningSetup,
+};
+pub use steady_state::SteadyState;

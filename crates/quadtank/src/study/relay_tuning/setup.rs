@@ -1,0 +1,195 @@
+use serde::{Deserialize, Serialize};
+
+use crate::tuning::{Action, PlacementMethod, TuningError, TuningRule, importance};
+
+use super::TuningPlant;
+
+/// Which relay test is run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum TestKind {
+    /// One element of the diagonal alone, perhaps with something behind the relay.
+    Single,
+    /// One loop after the other, each alone.
+    Independent,
+    /// One loop after the other, those before closed by the rule.
+    Sequential,
+    /// Both at once.
+    Simultaneous,
+}
+
+/// What stands behind the relay of a single test, and which point of the frequency response it finds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum Behind {
+    /// Nothing: the point with −180°, if the relay has no hysteresis.
+    #[default]
+    Nothing,
+    /// An integrator: the point with −90°.
+    Integrator,
+    /// The estimator of the point with this modulus r.
+    Modulus(f64),
+}
+
+/// A relay test.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct TestSpec {
+    /// Which one.
+    pub kind: TestKind,
+    /// Number of the loop of a single test, 1 or 2.
+    #[serde(default = "one")]
+    pub number: usize,
+    /// What stands behind the relay of a single test.
+    #[serde(default)]
+    pub behind: Behind,
+    /// Amplitudes d1, d2.
+    pub amplitudes: [f64; 2],
+    /// Half widths ε of the hysteresis.
+    #[serde(default)]
+    pub hysteresis: [f64; 2],
+    /// Means of the relay outputs.
+    #[serde(default)]
+    pub bias: [f64; 2],
+    /// The rule of independent and sequential tests.
+    pub rule: TuningRule,
+    /// Factors f by which independent tests are made weaker.
+    #[serde(default = "not_weaker")]
+    pub detuning: [f64; 2],
+    /// Passes of a sequential test.
+    #[serde(default = "one")]
+    pub passes: usize,
+    /// How long.
+    pub duration: f64,
+    /// When the relays begin to switch.
+    pub release: f64,
+    /// Time between rows.
+    pub step: f64,
+}
+
+/// What a document without the field has: the first loop, a single pass.
+fn one() -> usize {
+    1
+}
+
+/// What a document without detuning has.
+fn not_weaker() -> [f64; 2] {
+    [1.0; 2]
+}
+
+/// The critical point that a design starts from.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum CriticalSpec {
+    /// The point of the curve where loop 2 has this importance r2.
+    Importance(f64),
+    /// A point as printed or measured.
+    Point {
+        /// Gains kc1, kc2.
+        gains: [f64; 2],
+        /// Period Tc.
+        period: f64,
+    },
+}
+
+/// What stands between controllers and plant.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case")]
+pub enum DecouplerSpec {
+    /// Nothing.
+    #[default]
+    None,
+    /// Constant gains.
+    Static,
+    /// Both cross paths removed.
+    Dynamic,
+    /// Only the way from loop 2 to output 1.
+    FirstOutput,
+    /// Only the way from loop 1 to output 2.
+    SecondOutput,
+}
+
+/// A placement of the critical point.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct DesignSpec {
+    /// From where.
+    pub critical: CriticalSpec,
+    /// Which loci.
+    pub method: PlacementMethod,
+    /// With which controllers.
+    pub action: Action,
+    /// Target λ: real and imaginary part.
+    pub target: [f64; 2],
+    /// Root 1 or 2; root 1 has the larger controller in loop 1.
+    pub root: usize,
+    /// Decoupler of the response.
+    #[serde(default)]
+    pub decoupler: DecouplerSpec,
+}
+
+/// What the response is compared with.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case")]
+pub enum CompareSpec {
+    /// Nothing.
+    #[default]
+    Nothing,
+    /// Each loop by Ziegler and Nichols from the critical point.
+    ZieglerNichols,
+    /// Each loop by Tyreus and Luyben from the critical point.
+    TyreusLuyben,
+    /// The full controller of the column of Wood and Berry (Campestrini 2006, eq. 88); nothing on other plants.
+    Full,
+}
+
+/// Steps of the references.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct ResponseSpec {
+    /// References of both loops, from the start on.
+    pub references: [f64; 2],
+    /// How long.
+    pub duration: f64,
+    /// Sampling time of the controllers.
+    pub step: f64,
+    /// What it is compared with.
+    #[serde(default)]
+    pub compare: CompareSpec,
+}
+
+/// Everything that a tuning session depends on.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct TuningSetup {
+    /// The plant.
+    pub plant: TuningPlant,
+    /// The relay test.
+    pub test: TestSpec,
+    /// The controllers.
+    pub design: DesignSpec,
+    /// The response.
+    pub response: ResponseSpec,
+}
+
+impl TuningSetup {
+    /// Importance r2 of the critical point that the design starts from.
+    ///
+    /// # Errors
+    /// What is wrong with the plant.
+    pub fn importance(&self) -> Result<f64, TuningError> {
+        match self.design.critical {
+            CriticalSpec::Importance(r) => Ok(r),
+            CriticalSpec::Point { gains, .. } => Ok(importance(&self.plant.transfer_matrix()?.dc_gain(), gains)),
+        }
+    }
+}
