@@ -8,6 +8,7 @@
 import { existsSync } from 'node:fs';
 import { parseArgs } from 'node:util';
 import { frames } from './bench/frames.mjs';
+import { load } from './bench/load.mjs';
 import { memory } from './bench/memory.mjs';
 import { native } from './bench/native.mjs';
 import { machine, write } from './bench/report.mjs';
@@ -15,7 +16,7 @@ import { lines, sizes } from './bench/sizes.mjs';
 import { serve } from './serve.mjs';
 
 /** Each part makes a table of its own, in this order. */
-const PARTS = { frames, memory, native, sizes, lines };
+const PARTS = { frames, load, memory, native, sizes, lines };
 const OPTIONAL = {};
 
 /** The clock of an isolated page ticks in 5 µs, that of others in 100. */
