@@ -4,20 +4,22 @@
 //   --site <folder>  measures another build than dist/
 //   --only <parts>   some parts alone, separated by commas; --without <parts> all but some
 //
-// `make bench` builds the site before; `tools/run.sh node tools/bench.mjs` measures one that is there.
+// PEER=1 measures this part too; the first time it fetches what it needs into target/. `make bench` builds the site
+// before; `tools/run.sh node tools/bench.mjs` measures one that is there.
 import { existsSync } from 'node:fs';
 import { parseArgs } from 'node:util';
 import { frames } from './bench/frames.mjs';
 import { load } from './bench/load.mjs';
 import { memory } from './bench/memory.mjs';
 import { native } from './bench/native.mjs';
+import { peer } from './bench/peer.mjs';
 import { machine, write } from './bench/report.mjs';
 import { lines, sizes } from './bench/sizes.mjs';
 import { serve } from './serve.mjs';
 
 /** Each part makes a table of its own, in this order. */
-const PARTS = { frames, load, memory, native, sizes, lines };
-const OPTIONAL = {};
+const PARTS = { frames, peer, load, memory, native, sizes, lines };
+const OPTIONAL = { peer: 'PEER' };
 
 /** The clock of an isolated page ticks in 5 µs, that of others in 100. */
 const ISOLATED = { 'cross-origin-opener-policy': 'same-origin', 'cross-origin-embedder-policy': 'require-corp' };
