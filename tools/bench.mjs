@@ -4,11 +4,12 @@
 //   --site <folder>  measures another build than dist/
 //   --only <parts>   some parts alone, separated by commas; --without <parts> all but some
 //
-// PEER=1 measures this part too; the first time it fetches what it needs into target/. `make bench` builds the site
+// PEER=1 and LIGHTHOUSE=1 measure these parts too; the first time they fetch what they need into target/. `make bench` builds the site
 // before; `tools/run.sh node tools/bench.mjs` measures one that is there.
 import { existsSync } from 'node:fs';
 import { parseArgs } from 'node:util';
 import { frames } from './bench/frames.mjs';
+import { lighthouse } from './bench/lighthouse.mjs';
 import { load } from './bench/load.mjs';
 import { memory } from './bench/memory.mjs';
 import { native } from './bench/native.mjs';
@@ -18,8 +19,8 @@ import { lines, sizes } from './bench/sizes.mjs';
 import { serve } from './serve.mjs';
 
 /** Each part makes a table of its own, in this order. */
-const PARTS = { frames, peer, load, memory, native, sizes, lines };
-const OPTIONAL = { peer: 'PEER' };
+const PARTS = { frames, peer, load, lighthouse, memory, native, sizes, lines };
+const OPTIONAL = { peer: 'PEER', lighthouse: 'LIGHTHOUSE' };
 
 /** The clock of an isolated page ticks in 5 µs, that of others in 100. */
 const ISOLATED = { 'cross-origin-opener-policy': 'same-origin', 'cross-origin-embedder-policy': 'require-corp' };
