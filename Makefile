@@ -33,7 +33,7 @@ test: ## run everything: format, lints, native, browser and end-to-end tests
 	@tools/setup.sh 2>&1 || { echo '0 passed, 1 failed'; exit 1; }
 	@tools/run.sh node tools/test.mjs 2>&1
 
-bench: ## measure speed and size, check margins of 1000 loops (BENCH=--write puts the table into docs/benchmarks.md)
+bench: ## measure speed and size, check margins of 1000 loops (BENCH=--write puts the tables into docs/benchmarks.md; PEER=1, LIGHTHOUSE=1 add comparisons)
 	@tools/setup.sh >&2
 	@tools/run.sh cargo test --locked -p quadtank-scenario --test margins -- --ignored >&2
 	@tools/build.sh >&2

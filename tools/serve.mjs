@@ -1,8 +1,9 @@
 // A static server for the site: `node tools/serve.mjs` on 127.0.0.1, port 8080 or $PORT.
-import { createReadStream, statSync } from 'node:fs';
+import { createReadStream, readFileSync, statSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { extname, join, normalize } from 'node:path';
 import { fileURLToPath } from 'node:url';
+import { gzipSync } from 'node:zlib';
 
 const SITE = fileURLToPath(new URL('../dist', import.meta.url));
 const HOST = '127.0.0.1';
@@ -14,10 +15,10 @@ const TYPES = {
   '.wasm': 'application/wasm',
 };
 
-/** The file of the site that a path of the URL means; nothing outside the site. */
-function fileOf(path) {
+/** The file of a site that a path of the URL means; nothing outside the site. */
+function fileOf(site, path) {
   try {
-    const file = join(SITE, normalize(`/${decodeURIComponent(path)}`));
+    const file = join(site, normalize(`/${decodeURIComponent(path)}`));
     const found = statSync(file);
     return found.isDirectory() ? join(file, 'index.html') : file;
   } catch {
@@ -25,14 +26,25 @@ function fileOf(path) {
   }
 }
 
-/** Serves `dist/` and resolves with the server once it listens; port 0 takes a free one. */
-export function serve(port) {
+/**
+ * Serves a folder and resolves with the server once it listens; port 0 takes a free one. `compress` sends gzip 6, as plain static hosts
+ * do; `headers` are sent with every file.
+ */
+export function serve(port, { site = SITE, compress = false, headers = {} } = {}) {
+  // A host compresses a file once; doing it for every load would be measured as network.
+  const packed = new Map();
+  const pack = (file) => {
+    if (!packed.has(file)) packed.set(file, gzipSync(readFileSync(file), { level: 6 }));
+    return packed.get(file);
+  };
   const server = createServer((request, response) => {
-    const file = fileOf(request.url.split('?')[0]);
+    const file = fileOf(site, request.url.split('?')[0]);
     const type = file && TYPES[extname(file)];
     if (!type) return response.writeHead(404).end();
     // Without caching, a reload shows the newest build.
-    response.writeHead(200, { 'content-type': type, 'cache-control': 'no-store' });
+    const all = { 'content-type': type, 'cache-control': 'no-store', ...headers };
+    if (compress) return response.writeHead(200, { ...all, 'content-encoding': 'gzip' }).end(pack(file));
+    response.writeHead(200, all);
     createReadStream(file).on('error', () => response.destroy()).pipe(response);
   });
   return new Promise((resolve, reject) => server.once('error', reject).listen(port, HOST, () => resolve(server)));
