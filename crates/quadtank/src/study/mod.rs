@@ -7,7 +7,50 @@ pub mod relay_tuning;
 
 pub use error::{StudyError, StudyFault};
 
+use std::sync::Arc;
+
 use crate::sim::Trajectory;
+
+/// What a bench computes from the setup of its document.
+///
+/// [`update`](Self::update) decides what a change invalidates: a part of the results that cannot have changed is taken over from
+/// the last ones, as the same [`Arc`], so that what shows it can leave it alone.
+pub trait Study {
+    /// What the results follow from.
+    type Setup: Clone + PartialEq;
+    /// All results, in parts that are shared.
+    type Results: Clone;
+
+    /// The results of a setup and of those pinned to compare with, given the last results.
+    fn update(setup: &Self::Setup, pinned: &[Self::Setup], last: Option<&Self::Results>) -> Self::Results;
+}
+
+/// A setup that is pinned, with its result.
+#[derive(Clone, Debug)]
+pub struct Pinned<S, R> {
+    /// The setup.
+    pub setup: S,
+    /// What it gives.
+    pub result: Arc<R>,
+}
+
+/// Pinned setups with their results, in the same order.
+pub type PinnedResults<S, R> = Arc<Vec<Pinned<S, R>>>;
+
+/// The results of pinned setups; those known already are taken over, and if all are, their list is.
+fn update_pinned<S: Clone + PartialEq, R>(
+    setups: &[S],
+    last: Option<&PinnedResults<S, R>>,
+    compute: impl Fn(&S) -> R,
+) -> PinnedResults<S, R> {
+    if let Some(last) = last.filter(|last| last.iter().map(|pinned| &pinned.setup).eq(setups)) {
+        return Arc::clone(last);
+    }
+    let known = |setup: &S| last?.iter().find(|pinned| pinned.setup == *setup).map(|pinned| Arc::clone(&pinned.result));
+    let pin =
+        |setup: &S| Pinned { setup: setup.clone(), result: known(setup).unwrap_or_else(|| Arc::new(compute(setup))) };
+    Arc::new(setups.iter().map(pin).collect())
+}
 
 /// A run that went to its end.
 fn whole(run: Trajectory) -> Result<Trajectory, StudyError> {

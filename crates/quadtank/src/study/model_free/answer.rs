@@ -140,6 +140,14 @@ const HELD_FOR_S: f64 = 10.0;
 /// [`StudyError`] at `start` when no input holds the levels that it begins with, at `experiment.duration_s` when the run takes too
 /// much work.
 pub fn run_model_free(setup: &ModelFreeSetup) -> Result<ModelFreeAnswer, StudyError> {
+    run_analysed(setup, &analyse_model_free(setup))
+}
+
+/// The same for a setup that is analysed already.
+///
+/// # Errors
+/// As [`run_model_free`].
+pub fn run_analysed(setup: &ModelFreeSetup, analysis: &ModelFreeAnalysis) -> Result<ModelFreeAnswer, StudyError> {
     let (plant, start) = (setup.plant_at(0.0), setup.start()?);
     let ModelFreeSetup { valves, controller, experiment, .. } = setup;
     let run =
@@ -154,17 +162,22 @@ pub fn run_model_free(setup: &ModelFreeSetup) -> Result<ModelFreeAnswer, StudyEr
     };
     let comparison = setup.compare.map(compared).transpose()?;
     let figures = figures_of(&run.trajectory, run.rows_per_sample, controller.pairing);
-    let predicted = predicted_loss(setup, &plant, &run.trajectory);
+    let predicted = predicted_loss(setup, &plant, &run.trajectory, analysis);
     Ok(ModelFreeAnswer { run, figures, comparison, predicted })
 }
 
-fn predicted_loss(setup: &ModelFreeSetup, plant: &QuadrupleTank, run: &Trajectory) -> Option<PredictedLoss> {
+fn predicted_loss(
+    setup: &ModelFreeSetup,
+    plant: &QuadrupleTank,
+    run: &Trajectory,
+    analysis: &ModelFreeAnalysis,
+) -> Option<PredictedLoss> {
     if !setup.valves.iter().all(ValveSchedule::is_constant) {
         return None;
     }
     let references = last_references(setup);
-    let jacobian = plant.linearise(&plant.rest_at(references).ok()?);
-    let poles = model_free_poles(&jacobian, &setup.controller, plant.power_gain).ok()?;
+    // With still valves the plant of the analysis is that of the run.
+    let poles = analysis.poles.as_ref()?.as_ref().ok()?;
     if poles.stability != Stability::Unstable {
         return None;
     }

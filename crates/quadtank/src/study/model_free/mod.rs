@@ -2,10 +2,14 @@
 
 mod answer;
 mod claims;
+mod results;
 mod setup;
 mod verdict;
 
-pub use answer::{ModelFreeAnalysis, ModelFreeAnswer, Moment, PredictedLoss, analyse_model_free, run_model_free};
+pub use answer::{
+    ModelFreeAnalysis, ModelFreeAnswer, Moment, PredictedLoss, analyse_model_free, run_analysed, run_model_free,
+};
 pub use claims::{CheckedClaim, Claim, LONG_RUN_S, Standing, check_claims};
+pub use results::{ModelFreeStudy, Results};
 pub use setup::{ModelFreeSetup, StartSpec};
 pub use verdict::{LossBy, ModelFreeVerdict};

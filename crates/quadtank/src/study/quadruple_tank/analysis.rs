@@ -5,7 +5,7 @@ use crate::linear::{Complex, LinearError, StateSpace, TransmissionZero, place_ne
 use crate::plant::{OperatingPoint, PlantError};
 use crate::sim::{ClosedLoop, Experiment, closed_loop};
 
-use super::Setup;
+use super::{Prepared, Setup};
 use crate::study::StudyError;
 
 /// All that linear theory says about a setup, at the exact equilibrium of its inputs.
@@ -54,34 +54,40 @@ pub struct Analysis {
 /// # Ok::<(), quadtank::study::StudyError>(())
 /// ```
 pub fn analyse(setup: &Setup) -> Result<Analysis, StudyError> {
-    let plant = setup.plant();
-    let operating_point = setup.operating_point()?;
-    let jacobian = plant.linearise(&operating_point);
-    let (a, b, c) = jacobian.reduced();
-    let model = StateSpace::strictly_proper(a, b, c)?;
-    let gain = model.dc_gain()?;
-    let rga_11 = relative_gain_array(&gain).map(|array| array[(0, 0)]);
-    let poles = model.poles()?;
-    let mut zeros = transmission_zeros(&model);
-    if let (Ok(zeros), Err(LinearError::SingularGain { .. })) = (&mut zeros, &rga_11) {
-        place_nearest_at_origin(zeros);
-    }
-    Ok(Analysis {
-        operating_point,
-        out_of_range: plant.violations(&operating_point),
-        time_constants_s: plant.time_constants_s(&operating_point),
-        poles,
-        zeros,
-        dc_gain: [[gain[(0, 0)], gain[(0, 1)]], [gain[(1, 0)], gain[(1, 1)]]],
-        niederlinski: if rga_11.is_ok() { niederlinski(&gain) } else { [None; 2] },
-        rga_11,
-        verdict: recommend_pairing(&gain),
-        closed_loop: closed_loop(&jacobian, &setup.controller, plant.power_gain)?,
-        model,
-    })
+    Analysis::of(&Prepared::of(setup)?, setup)
 }
 
 impl Analysis {
+    /// The analysis of a setup that is prepared.
+    ///
+    /// # Errors
+    /// As [`analyse`], but for the operating point.
+    pub fn of(prepared: &Prepared, setup: &Setup) -> Result<Self, StudyError> {
+        let Prepared { plant, operating_point, jacobian } = prepared;
+        let (a, b, c) = jacobian.reduced();
+        let model = StateSpace::strictly_proper(a, b, c)?;
+        let gain = model.dc_gain()?;
+        let rga_11 = relative_gain_array(&gain).map(|array| array[(0, 0)]);
+        let poles = model.poles()?;
+        let mut zeros = transmission_zeros(&model);
+        if let (Ok(zeros), Err(LinearError::SingularGain { .. })) = (&mut zeros, &rga_11) {
+            place_nearest_at_origin(zeros);
+        }
+        Ok(Self {
+            operating_point: *operating_point,
+            out_of_range: plant.violations(operating_point),
+            time_constants_s: plant.time_constants_s(operating_point),
+            poles,
+            zeros,
+            dc_gain: [[gain[(0, 0)], gain[(0, 1)]], [gain[(1, 0)], gain[(1, 1)]]],
+            niederlinski: if rga_11.is_ok() { niederlinski(&gain) } else { [None; 2] },
+            rga_11,
+            verdict: recommend_pairing(&gain),
+            closed_loop: closed_loop(jacobian, &setup.controller, plant.power_gain)?,
+            model,
+        })
+    }
+
     /// The relative gain array by rows; its rows and columns sum to 1. `None` where G(0) is singular.
     pub fn rga(&self) -> Option<[[f64; 2]; 2]> {
         let lambda = *self.rga_11.as_ref().ok()?;

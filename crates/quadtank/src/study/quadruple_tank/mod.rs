@@ -2,14 +2,18 @@
 
 mod analysis;
 mod guaranteed_margins;
+mod prepared;
 mod published;
+mod results;
 mod run;
 mod setup;
 mod valve_map;
 
 pub use analysis::{Analysis, analyse};
 pub use guaranteed_margins::GuaranteedMargins;
+pub use prepared::Prepared;
 pub use published::setup_of;
+pub use results::{QuadrupleTankStudy, Results};
 pub use run::{Run, run};
 pub use setup::{OperatingPointSpec, PlantSpec, Setup};
 pub use valve_map::ValveMap;

@@ -4,7 +4,7 @@ use crate::sim::{
     LoopMetrics, NoResponse, Stability, Trajectory, closed_loop, loop_metrics, simulate, simulate_linear,
 };
 
-use super::Setup;
+use super::{Prepared, Setup};
 use crate::study::{StudyError, whole};
 
 /// What happens in the experiment of a setup: the nonlinear plant, its linear model, and how the loops did.
@@ -28,22 +28,33 @@ pub struct Run {
 /// [`StudyError`] at `operating_point` when levels are given and no input holds them, at `experiment.duration_s` when the run takes
 /// too much work.
 pub fn run(setup: &Setup) -> Result<Run, StudyError> {
-    let plant = setup.plant();
-    let start = setup.operating_point()?;
-    let Setup { controller, experiment, .. } = setup;
-    let nonlinear = whole(simulate(&plant, &start, controller, experiment))?;
-    let jacobian = plant.linearise(&start);
-    let linear = simulate_linear(&plant, &start, &jacobian, controller, experiment);
-    let is_unstable =
-        closed_loop(&jacobian, controller, plant.power_gain).is_ok_and(|l| l.stability == Stability::Unstable);
-    let overflows = (0..4).any(|tank| start.levels[tank] > plant.tanks[tank].height);
-    let reason =
-        if overflows { Some(NoResponse::StartOverflows) } else { is_unstable.then_some(NoResponse::UnstableLoop) };
-    let metrics = |run: &Trajectory| {
-        let metrics = loop_metrics(run, &plant, controller, experiment);
-        reason.map_or(metrics, |reason| metrics.map(|metrics| metrics.without_response(reason)))
-    };
-    Ok(Run { metrics: metrics(&nonlinear), linear_metrics: metrics(&linear), nonlinear, linear })
+    let prepared = Prepared::of(setup)?;
+    let closed = closed_loop(&prepared.jacobian, &setup.controller, prepared.plant.power_gain);
+    Run::of(&prepared, setup, closed.is_ok_and(|closed| closed.stability == Stability::Unstable))
+}
+
+impl Run {
+    /// The run of a setup that is prepared; `is_unstable` says whether its sampled linear loop is.
+    ///
+    /// # Errors
+    /// As [`run`], but for the operating point.
+    pub fn of(prepared: &Prepared, setup: &Setup, is_unstable: bool) -> Result<Self, StudyError> {
+        let Prepared { plant, operating_point: start, jacobian } = prepared;
+        let Setup { controller, experiment, .. } = setup;
+        let nonlinear = whole(simulate(plant, start, controller, experiment))?;
+        let linear = simulate_linear(plant, start, jacobian, controller, experiment);
+        let overflows = (0..4).any(|tank| start.levels[tank] > plant.tanks[tank].height);
+        let reason = match (overflows, is_unstable) {
+            (true, _) => Some(NoResponse::StartOverflows),
+            (false, true) => Some(NoResponse::UnstableLoop),
+            (false, false) => None,
+        };
+        let metrics = |run: &Trajectory| {
+            let metrics = loop_metrics(run, plant, controller, experiment);
+            reason.map_or(metrics, |reason| metrics.map(|metrics| metrics.without_response(reason)))
+        };
+        Ok(Self { metrics: metrics(&nonlinear), linear_metrics: metrics(&linear), nonlinear, linear })
+    }
 }
 
 #[cfg(test)]

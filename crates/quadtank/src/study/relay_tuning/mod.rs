@@ -6,6 +6,7 @@ mod element;
 mod plant;
 mod plant_study;
 mod printed;
+mod results;
 mod rig;
 mod setup;
 mod start;
@@ -17,6 +18,7 @@ pub use element::{Element, ElementFault};
 pub use plant::TuningPlant;
 pub use plant_study::{FoundPoint, PlantStudy, Tested, Tuning, tune};
 pub use printed::{PrintedFigure, printed_figures, rule_targets};
+pub use results::{DesignOutcome, RelayTuningStudy, Results};
 pub use setup::{
     Behind, CompareSpec, CriticalSpec, DecouplerSpec, DesignSpec, ResponseSpec, TestKind, TestSpec, TuningSetup,
 };
