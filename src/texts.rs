@@ -70,6 +70,16 @@ mod tests {
     }
 
     #[test]
+    fn a_count_chooses_the_plural_form_of_the_language() {
+        use generated::experiment::further;
+        let steps = |language, count| further(language, further { count });
+        assert_eq!(steps(Language::En, 0), "0 further steps come from the file or link.");
+        assert_eq!(steps(Language::En, 1), "1 further step comes from the file or link.");
+        assert_eq!(steps(Language::PtBr, 0), "Mais 0 degrau vem do arquivo ou link.");
+        assert_eq!(steps(Language::PtBr, 2), "Mais 2 degraus vêm do arquivo ou link.");
+    }
+
+    #[test]
     fn a_language_is_found_by_its_tag() {
         assert!(Language::ALL.into_iter().all(|language| Language::of_tag(language.tag()) == language));
         assert_eq!(Language::of_tag("pt"), Language::PtBr);
