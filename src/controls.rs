@@ -48,7 +48,7 @@ pub struct Knob<S> {
     /// Names for tests: of the slider, and of the number field beside it or alone.
     pub ids: [(&'static str, &'static str); 2],
     /// Symbol or short text.
-    pub label: fn(Lab, usize) -> &'static str,
+    pub label: fn(Lab, usize) -> String,
     /// What it is, for screen readers.
     pub name: fn(Lab, usize) -> String,
     /// Reads it, in the shown unit.
@@ -81,7 +81,7 @@ impl<S> Knob<S> {
     /// What most controls have in common.
     pub const PLAIN: Self = Self {
         ids: [("", ""); 2],
-        label: |_, _| "",
+        label: |_, _| String::new(),
         name: |_, _| String::new(),
         read: |_, _| 0.0,
         write: |_, _, _| (),
@@ -111,7 +111,7 @@ pub fn KnobRow<D: Document>(
 ) -> impl IntoView {
     let &Knob { ids, scale, digits, smallest, class, .. } = knob;
     let (id, class, lab) = (ids[index], class[index], document.lab());
-    let label = Signal::derive(move || (knob.label)(lab, index).to_owned());
+    let label = Signal::derive(move || (knob.label)(lab, index));
     let unit = lab.told(Signal::derive(move || document.read(knob.unit).to_owned()));
     let Wires { name, value, on_change, limits, disabled } = wires(document, knob, index);
     let Some(travel) = knob.travel else {

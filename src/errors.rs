@@ -14,30 +14,47 @@ use quadtank_scenario::ScenarioError;
 pub fn of_error(lab: Lab, unit: DisplayUnit, error: &ScenarioError) -> String {
     match error {
         ScenarioError::Malformed { path, reason } => {
-            tr!(lab, refused.malformed, path = path.clone(), reason = reason.clone())
+            tr!(lab, refused.malformed, path = path, reason = reason)
         }
-        ScenarioError::DecimalComma { path, number, line, column } => tr!(
-            lab,
-            refused.decimal_comma,
-            path = path.clone(),
-            number = number.clone(),
-            line = *line,
-            column = *column
-        ),
-        ScenarioError::NotText => tr!(lab, refused.not_text).to_owned(),
+        ScenarioError::DecimalComma { path, number, line, column } => {
+            tr!(lab, refused.decimal_comma, path = path, number = number, line = line, column = column)
+        }
+        ScenarioError::NotText => tr!(lab, refused.not_text),
         ScenarioError::OutOfRange { field, value, min, max } => out_of_range(lab, field, *value, *min, *max),
         ScenarioError::TooMany { field, count, max } => {
-            tr!(lab, refused.many, field = field.clone(), count = *count, max = *max)
+            tr!(lab, refused.many, field = field, count = count, max = max)
         }
         ScenarioError::UnknownVersion { found, newest } => {
-            tr!(lab, refused.version, found = *found, newest = *newest)
+            tr!(lab, refused.version, found = found, newest = newest)
         }
+<<<<<<< HEAD
         ScenarioError::TooLong { length, max } => tr!(lab, refused.long, length = *length, max = *max),
         ScenarioError::DamagedLink => tr!(lab, refused.damaged).to_owned(),
         ScenarioError::Study { error, .. } => of_study_error(lab, unit, error),
         ScenarioError::Law { field, error } => of_law(lab, field, *error),
+=======
+        ScenarioError::TooLong { length, max } => tr!(lab, refused.long, length = length, max = max),
+        ScenarioError::DamagedLink => tr!(lab, refused.damaged),
+        ScenarioError::TooMuchWork { time_s, .. } => {
+            tr!(lab, refused.too_much_work, time = lab.number_style().significant(*time_s, 3))
+        }
+        ScenarioError::Plant(error) | ScenarioError::Start(error) => of_plant_error(lab, unit, error),
+        ScenarioError::Law { field, error } => match *error {
+            EstimatorError::WindowTooShort { window_s, sampling_time_s }
+            | EstimatorError::WindowTooLong { window_s, sampling_time_s }
+            | EstimatorError::WindowNotWhole { window_s, sampling_time_s } => tr!(
+                lab,
+                refused.window,
+                field = field,
+                window = number(window_s),
+                sampling = number(sampling_time_s),
+                most = MAX_WINDOW_SAMPLES
+            ),
+            EstimatorError::ModelGain { .. } => format!("{field}: {error}"),
+        },
+>>>>>>> texts
         ScenarioError::Element { field, fault } => {
-            tr!(lab, refused.element, field = field.clone(), reason = of_fault(lab, *fault))
+            tr!(lab, refused.element, field = field, reason = of_fault(lab, *fault))
         }
     }
 }
@@ -75,10 +92,10 @@ fn of_law(lab: Lab, field: &str, error: EstimatorError) -> String {
 /// Why relay tuning does not work with an element.
 fn of_fault(lab: Lab, fault: ElementFault) -> String {
     match fault {
-        ElementFault::NoDenominator => tr!(lab, refused.no_denominator).to_owned(),
-        ElementFault::Biproper { .. } => tr!(lab, refused.biproper).to_owned(),
-        ElementFault::Improper { .. } => tr!(lab, refused.improper).to_owned(),
-        ElementFault::Integrating => tr!(lab, refused.integrating).to_owned(),
+        ElementFault::NoDenominator => tr!(lab, refused.no_denominator),
+        ElementFault::Biproper { .. } => tr!(lab, refused.biproper),
+        ElementFault::Improper { .. } => tr!(lab, refused.improper),
+        ElementFault::Integrating => tr!(lab, refused.integrating),
         ElementFault::Unstable { real_part } => {
             tr!(lab, refused.unstable, real = lab.number_style().significant(real_part, 3))
         }
@@ -90,7 +107,7 @@ pub fn of_plant_error(lab: Lab, unit: DisplayUnit, error: &PlantError) -> String
     let style = lab.number_style();
     let length = |m: f64| style.fixed(to_shown(m, unit), length_digits(unit) - 1);
     match *error {
-        PlantError::SingularPlant { .. } => tr!(lab, process.no_equilibrium).to_owned(),
+        PlantError::SingularPlant { .. } => tr!(lab, process.no_equilibrium),
         PlantError::LevelOutOfRange { tank, value, max } => tr!(
             lab,
             process.too_high,

@@ -20,7 +20,6 @@ pub fn name_of(lab: Lab, id: PresetId) -> String {
         PresetId::JunqueiraA => tr!(lab, preset.junqueira_a),
         PresetId::JunqueiraB => tr!(lab, preset.junqueira_b),
     }
-    .to_owned()
 }
 
 fn changed(lab: Lab, id: PresetId) -> String {
@@ -37,7 +36,6 @@ pub fn remark_of(lab: Lab, id: Option<PresetId>) -> String {
         Some(PresetId::JunqueiraA | PresetId::JunqueiraB) => tr!(lab, preset.remark_junqueira),
         None => tr!(lab, preset.remark_own),
     }
-    .to_owned()
 }
 
 /// Loads a published rig with its published controller and experiment; pinned runs stay.
@@ -81,7 +79,7 @@ pub fn PresetSelect() -> impl IntoView {
     let choices = Signal::derive(move || {
         let published =
             PresetId::ALL.into_iter().map(|choice| Choice::new(Some(choice), choice.name(), name_of(lab, choice)));
-        let own = || id.get().map_or_else(|| tr!(lab, preset.own).to_owned(), |id| changed(lab, id));
+        let own = || id.get().map_or_else(|| tr!(lab, preset.own), |id| changed(lab, id));
         let other = intact.get().is_none().then(|| Choice::new(None, "", own()));
         other.into_iter().chain(published).collect::<Vec<_>>()
     });

@@ -38,7 +38,7 @@ pub fn Laboratory() -> impl IntoView {
     provide_context(lab);
     Effect::new(move || show_on_root("data-theme", if lab.dark.get() { "dark" } else { "light" }));
     Effect::new(move || show_on_root("lang", lab.language.get().tag()));
-    Effect::new(move || document().set_title(tr!(lab, app.page_title)));
+    Effect::new(move || document().set_title(&tr!(lab, app.page_title)));
     let on_hash = window_event_listener(ev::hashchange, move |_| {
         if let Some(outcome) = share::from_address() {
             lab.open(outcome);
@@ -116,7 +116,8 @@ fn close_menus(pressed: Option<web_sys::EventTarget>) {
 fn start() -> Lab {
     let query = window().location().search().unwrap_or_default();
     let flags = StartFlags::parse(&query);
-    let language = flags.language.clone().or_else(|| LANGUAGE.read()).or_else(|| window().navigator().language());
+    let usual_tag = || LANGUAGE.read().or_else(|| window().navigator().language()).unwrap_or_default();
+    let language = flags.language.unwrap_or_else(|| Language::of_tag(&usual_tag()));
     let prefers_dark =
         || window().match_media("(prefers-color-scheme: dark)").ok().flatten().is_some_and(|query| query.matches());
     let dark = flags.theme.clone().or_else(|| THEME.read()).map_or_else(prefers_dark, |theme| theme == "dark");
@@ -132,7 +133,7 @@ fn start() -> Lab {
         }
         other => other,
     };
-    let lab = Lab::new(scenario, language.as_deref().map_or(Language::English, Language::of_tag), dark, flags);
+    let lab = Lab::new(scenario, language, dark, flags);
     if let Some(outcome) = from_address {
         lab.open(outcome);
     }
@@ -242,14 +243,13 @@ fn LanguageChoice() -> impl IntoView {
         lab.language.set(language);
         LANGUAGE.write(language.tag());
     };
-    let option = move |language: Language, name: &'static str| {
-        let tag = language.tag();
+    let option = move |language: Language| {
+        let (tag, name) = (language.tag(), language.name());
         view! { <option value=tag lang=tag prop:selected=move || lab.language.get() == language>{name}</option> }
     };
     view! {
         <select data-testid="language" aria-label=say!(lab, app.language) on:change=choose>
-            {option(Language::English, "English")}
-            {option(Language::Portuguese, "Português")}
+            {Language::ALL.map(option)}
         </select>
     }
 }
@@ -257,9 +257,8 @@ fn LanguageChoice() -> impl IntoView {
 #[component]
 fn ThemeSwitch() -> impl IntoView {
     let lab = use_lab();
-    let name = Signal::derive(move || {
-        if lab.dark.get() { tr!(lab, app.theme_light) } else { tr!(lab, app.theme_dark) }.to_owned()
-    });
+    let name =
+        Signal::derive(move || if lab.dark.get() { tr!(lab, app.theme_light) } else { tr!(lab, app.theme_dark) });
     let switch = move |_| {
         lab.dark.update(|d| *d = !*d);
         THEME.write(if lab.dark.get_untracked() { "dark" } else { "light" });

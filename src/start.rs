@@ -1,10 +1,11 @@
 //! Start flags: how an instructor presets a bench in the query of its address.
 //!
 //! `embed=1` hides the header and packs the bench; `panels=valves,zeros` shows only these; `lock=valves,gains` disables
-//! these controls; `lang=en|pt-BR` and `theme=light|dark` choose without being remembered; `preset=NAME` loads a
+//! these controls; `lang=TAG` and `theme=light|dark` choose without being remembered; `preset=NAME` loads a
 //! published rig; `bench=relay-tuning` or `bench=model-free` shows that bench. A flag that is not understood is ignored.
 
 use quadtank::literature::PresetId;
+use super::texts::Language;
 
 /// A bench.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -131,8 +132,8 @@ pub struct StartFlags {
     pub panels: Vec<Panel>,
     /// The controls to disable.
     pub locked: Vec<Control>,
-    /// Language tag.
-    pub language: Option<String>,
+    /// Language to begin with.
+    pub language: Option<Language>,
     /// `light` or `dark`.
     pub theme: Option<String>,
     /// Rig to begin with.
@@ -151,7 +152,7 @@ impl StartFlags {
                 "embed" => flags.embed = value == "1",
                 "panels" => flags.panels = chosen(&value, &PANELS),
                 "lock" => flags.locked = chosen(&value, &CONTROLS),
-                "lang" => flags.language = Some(value).filter(|l| l == "en" || l == "pt-BR"),
+                "lang" => flags.language = Language::ALL.into_iter().find(|language| language.tag() == value),
                 "theme" => flags.theme = Some(value).filter(|t| t == "light" || t == "dark"),
                 "preset" => flags.preset = PresetId::ALL.into_iter().find(|id| id.name() == value),
                 _ => {}

@@ -8,7 +8,7 @@ pub struct Preference(&'static str);
 
 /// The theme that was chosen: `light` or `dark`.
 pub const THEME: Preference = Preference("quadtank-theme");
-/// The language that was chosen: `en` or `pt-BR`.
+/// The language that was chosen, by its tag.
 pub const LANGUAGE: Preference = Preference("quadtank-language");
 
 impl Preference {

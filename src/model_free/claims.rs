@@ -33,7 +33,7 @@ fn Item(claim: CheckedClaim, id: &'static str) -> impl IntoView {
     let content = move || {
         let (said, found) = texts(session, &claim);
         view! {
-            <b>{marked(said)}</b>
+            <b>{marked(&said)}</b>
             " "
             <span class=if claim.standing == Standing::Reproduced { "badge good" } else { "badge warm" }>
                 {standing(session, &claim)}
@@ -65,7 +65,7 @@ fn Item(claim: CheckedClaim, id: &'static str) -> impl IntoView {
     }
 }
 
-fn standing(session: Session, claim: &CheckedClaim) -> &'static str {
+fn standing(session: Session, claim: &CheckedClaim) -> String {
     let lab = session.lab;
     match (claim.claim, claim.standing) {
         (Claim::ModelGain, Standing::Reproduced) => tr!(lab, free.enough),
@@ -77,7 +77,7 @@ fn standing(session: Session, claim: &CheckedClaim) -> &'static str {
 }
 
 /// The claim, and what was found.
-fn texts(session: Session, claim: &CheckedClaim) -> (&'static str, String) {
+fn texts(session: Session, claim: &CheckedClaim) -> (String, String) {
     let lab = session.lab;
     let style = lab.number_style();
     let number = |value: f64, digits| style.fixed(value, digits);

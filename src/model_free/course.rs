@@ -103,14 +103,14 @@ fn table(session: Session) -> impl IntoView {
     let lab = session.lab;
     let unit = "cm";
     let columns = vec![
-        tr!(lab, responses.run).to_owned(),
+        tr!(lab, responses.run),
         tr!(lab, responses.iae, unit = unit),
         tr!(lab, responses.ise, unit = unit),
-        tr!(lab, responses.overshoot).to_owned(),
-        tr!(lab, responses.settling_2).to_owned(),
-        tr!(lab, responses.variation).to_owned(),
-        tr!(lab, responses.saturated).to_owned(),
-        tr!(lab, free.lost).to_owned(),
+        tr!(lab, responses.overshoot),
+        tr!(lab, responses.settling_2),
+        tr!(lab, responses.variation),
+        tr!(lab, responses.saturated),
+        tr!(lab, free.lost),
     ];
     let row = |name: String, k: usize, figures: &TrackingFigures| {
         view! { <Row class=["loop1", "loop2"][k] name figures=figures_of(session, figures) /> }.into_any()

@@ -14,7 +14,7 @@ use quadtank_scenario::limits;
 
 const VALVE: Knob<ModelFreeSetup> = Knob {
     ids: [("", "free-gamma1"), ("", "free-gamma2")],
-    label: |_, k| ["γ₁", "γ₂"][k],
+    label: |_, k| ["γ₁", "γ₂"][k].to_owned(),
     name: |lab, k| tr!(lab, free.gamma, valve = k + 1),
     read: |s, k| s.valves[k].middle(),
     write: |s, k, middle| s.valves[k] = s.valves[k].around(middle),
@@ -26,7 +26,7 @@ const VALVE: Knob<ModelFreeSetup> = Knob {
 };
 const STEP: Knob<ModelFreeSetup> = Knob {
     ids: [("", "free-step1"), ("", "free-step2")],
-    label: |_, k| ["Δr₁", "Δr₂"][k],
+    label: |_, k| ["Δr₁", "Δr₂"][k].to_owned(),
     name: |lab, k| tr!(lab, free.step, level = k + 1),
     read: |s, k| in_cm(s.set_point_step(k)),
     write: |s, k, size| s.set_set_point_step(k, in_m(size)),
@@ -42,8 +42,8 @@ const STEP: Knob<ModelFreeSetup> = Knob {
 };
 const NOISE: Knob<ModelFreeSetup> = Knob {
     ids: [("", "free-noise"); 2],
-    label: |_, _| "σ",
-    name: |lab, _| tr!(lab, experiment.noise_name).to_owned(),
+    label: |_, _| "σ".to_owned(),
+    name: |lab, _| tr!(lab, experiment.noise_name),
     read: |s, _| in_cm(s.experiment.measurement.noise_std),
     write: |s, _, noise| s.experiment.measurement.noise_std = in_m(noise),
     limits: |_, _| (0.0, 5.0),
@@ -51,8 +51,8 @@ const NOISE: Knob<ModelFreeSetup> = Knob {
 };
 const DURATION: Knob<ModelFreeSetup> = Knob {
     ids: [("", "free-end"); 2],
-    label: |_, _| "t",
-    name: |lab, _| tr!(lab, experiment.duration_name).to_owned(),
+    label: |_, _| "t".to_owned(),
+    name: |lab, _| tr!(lab, experiment.duration_name),
     read: |s, _| s.experiment.duration_s,
     write: |s, _, duration_s| s.experiment.duration_s = duration_s,
     limits: |s, _| {

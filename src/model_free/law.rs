@@ -21,8 +21,8 @@ const MOST_SAMPLES: f64 = 100.0;
 
 const MODEL_GAIN: Knob<ModelFreeSetup> = Knob {
     ids: [("free-alpha", "free-alpha-number"); 2],
-    label: |_, _| "α̂",
-    name: |lab, _| tr!(lab, free.alpha).to_owned(),
+    label: |_, _| "α̂".to_owned(),
+    name: |lab, _| tr!(lab, free.alpha),
     read: |s, _| in_cm(s.controller.loops[0].model_gain),
     write: |s, _, gain| in_both(s, &|l| l.model_gain = in_m(gain)),
     limits: |_, _| (1e-4, 100.0),
@@ -32,8 +32,8 @@ const MODEL_GAIN: Knob<ModelFreeSetup> = Knob {
 };
 const PROPORTIONAL: Knob<ModelFreeSetup> = Knob {
     ids: [("free-kp", "free-kp-number"); 2],
-    label: |_, _| "Kp",
-    name: |lab, _| tr!(lab, free.kp).to_owned(),
+    label: |_, _| "Kp".to_owned(),
+    name: |lab, _| tr!(lab, free.kp),
     read: |s, _| s.controller.loops[0].proportional,
     write: |s, _, gain| in_both(s, &|l| l.proportional = gain),
     travel: Some(|_| (0.05, 20.0)),
@@ -42,8 +42,8 @@ const PROPORTIONAL: Knob<ModelFreeSetup> = Knob {
 };
 const INTEGRAL: Knob<ModelFreeSetup> = Knob {
     ids: [("free-ki", "free-ki-number"); 2],
-    label: |_, _| "Ki",
-    name: |lab, _| tr!(lab, free.ki).to_owned(),
+    label: |_, _| "Ki".to_owned(),
+    name: |lab, _| tr!(lab, free.ki),
     read: |s, _| s.controller.loops[0].integral,
     write: |s, _, gain| in_both(s, &|l| l.integral = gain),
     travel: Some(|_| (0.001, 2.0)),
@@ -54,8 +54,8 @@ const FEEDBACK: Knob<ModelFreeSetup> =
     Knob { limits: |_, _| (0.0, 1000.0), scale: Scale::Logarithmic, lock: Control::Gains, ..Knob::PLAIN };
 const WINDOW: Knob<ModelFreeSetup> = Knob {
     ids: [("", "free-window"); 2],
-    label: |_, _| "T",
-    name: |lab, _| tr!(lab, free.window).to_owned(),
+    label: |_, _| "T".to_owned(),
+    name: |lab, _| tr!(lab, free.window),
     read: |s, _| estimator(s).map_or(USUAL_SAMPLES * s.controller.sampling_time_s, |e| e.window_s),
     write: |s, _, window_s| with_estimator(s, |e| e.window_s = window_s),
     limits: |s, _| (2.0 * s.controller.sampling_time_s, MOST_SAMPLES * s.controller.sampling_time_s),
@@ -67,8 +67,8 @@ const WINDOW: Knob<ModelFreeSetup> = Knob {
 };
 const SAMPLING: Knob<ModelFreeSetup> = Knob {
     ids: [("", "free-sampling"); 2],
-    label: |_, _| "Ts",
-    name: |lab, _| tr!(lab, pi.sampling).to_owned(),
+    label: |_, _| "Ts".to_owned(),
+    name: |lab, _| tr!(lab, pi.sampling),
     read: |s, _| s.controller.sampling_time_s,
     write: |s, _, time_s| s.controller = s.controller.with_sampling_time(time_s),
     limits: |s, _| (limits::sampling_time_s(s.experiment.duration_s).min, 10.0),

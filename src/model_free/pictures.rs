@@ -43,16 +43,16 @@ pub fn course(session: Session, window: Signal<(f64, f64)>) -> Picture {
             window_s: window.get(),
             texts: ModelFreeTexts {
                 axes: [
-                    tr!(lab, chart.time),
-                    tr!(lab, free.axis_lower),
-                    tr!(lab, free.axis_upper),
-                    tr!(lab, responses.pump_axis),
-                    tr!(lab, free.axis_phi),
+                    &tr!(lab, chart.time),
+                    &tr!(lab, free.axis_lower),
+                    &tr!(lab, free.axis_upper),
+                    &tr!(lab, responses.pump_axis),
+                    &tr!(lab, free.axis_phi),
                 ],
-                reference: tr!(lab, responses.reference),
-                comparison: tr!(lab, free.with_pi),
-                estimate: tr!(lab, free.estimate),
-                true_value: tr!(lab, free.true_value),
+                reference: &tr!(lab, responses.reference),
+                comparison: &tr!(lab, free.with_pi),
+                estimate: &tr!(lab, free.estimate),
+                true_value: &tr!(lab, free.true_value),
             },
         }));
     };
@@ -87,8 +87,8 @@ pub fn plane(session: Session, whole: bool) -> Picture {
                 gamma_1: "γ₁",
                 gamma_2: "γ₂",
                 boundary: "γ₁ + γ₂ = 1",
-                minimum_phase: tr!(lab, valves.minimum),
-                right_half_plane: tr!(lab, valves.right),
+                minimum_phase: &tr!(lab, valves.minimum),
+                right_half_plane: &tr!(lab, valves.right),
             },
         });
         show(&[if whole { with_way(plane, &way(session)) } else { plane }]);
@@ -121,12 +121,12 @@ pub fn zeros(session: Session) -> Picture {
             closed_loop: &[],
             decimal: lab.number_style().decimal,
             texts: PoleZeroTexts {
-                real: tr!(lab, zeros.real),
-                imaginary: tr!(lab, zeros.imaginary),
-                poles: tr!(lab, zeros.pole),
-                zeros: tr!(lab, zeros.zero),
+                real: &tr!(lab, zeros.real),
+                imaginary: &tr!(lab, zeros.imaginary),
+                poles: &tr!(lab, zeros.pole),
+                zeros: &tr!(lab, zeros.zero),
                 closed_loop: "",
-                beyond: tr!(lab, zeros.beyond),
+                beyond: &tr!(lab, zeros.beyond),
             },
         })]);
     };

@@ -77,7 +77,7 @@ pub fn of_run(session: Session) -> (bool, String) {
                 let level = if one.is_some() { 1 } else { 2 };
                 tr!(lab, free.one_settled, level = level, time = seconds(time))
             }
-            None => tr!(lab, free.still).to_owned(),
+            None => tr!(lab, free.still),
         },
         ModelFreeVerdict::Unsettled { error: [one, two], by } => {
             tr!(lab, free.is_unsettled, one = cm(one), two = cm(two)) + &cause(by)
@@ -111,8 +111,8 @@ pub fn of_moment(session: Session) -> String {
     let zero = match theory.rightmost_zero() {
         Some(zero) if zero > 0.0 => tr!(lab, free.zero_right, zero = style.significant(zero, 3)),
         Some(zero) if zero < 0.0 => tr!(lab, free.zero_left, zero = style.significant(zero, 3)),
-        Some(_) => tr!(lab, free.zero_origin).to_owned(),
-        None => tr!(lab, free.no_zero).to_owned(),
+        Some(_) => tr!(lab, free.zero_origin),
+        None => tr!(lab, free.no_zero),
     };
     tr!(
         lab,
@@ -131,7 +131,7 @@ pub fn of_loop(session: Session) -> (bool, String) {
     let lab = session.lab;
     let style = lab.number_style();
     if session.words.setup.with(|s| s.valves.iter().any(|valve| !valve.is_constant())) {
-        return (true, tr!(lab, free.loop_moves).to_owned());
+        return (true, tr!(lab, free.loop_moves));
     }
     let looks_good =
         session.words.with_answer(|answer| answer.figures.iter().all(TrackingFigures::looks_settled)) == Some(true);
@@ -148,11 +148,11 @@ pub fn of_loop(session: Session) -> (bool, String) {
                 let how = match first {
                     Some(pole) if pole.im != 0.0 => tr!(lab, free.it_swings),
                     _ if looks_good => tr!(lab, free.however_good),
-                    _ => "",
+                    _ => String::new(),
                 };
                 (false, tr!(lab, free.loop_unstable, pole = slowest, how = how))
             }
-            Stability::Marginal => (false, tr!(lab, free.loop_marginal).to_owned()),
+            Stability::Marginal => (false, tr!(lab, free.loop_marginal)),
             Stability::Stable => {
                 let smallest = analysis.smallest_model_gain.map(|gain| style.significant(in_cm(gain), 3));
                 let smallest = smallest.unwrap_or_else(|| "–".to_owned());

@@ -23,7 +23,7 @@ const MANUAL_IDS: [&str; 2] = ["manual1", "manual2"];
 
 const GAIN: Knob<Setup> = Knob {
     ids: [("gain1", "gain1-number"), ("gain2", "gain2-number")],
-    label: |_, k| ["K₁", "K₂"][k],
+    label: |_, k| ["K₁", "K₂"][k].to_owned(),
     name: |lab, k| tr!(lab, pi.gain, level = k + 1),
     read: |s, k| s.controller.loops[k].gain,
     write: |s, k, gain| s.controller.loops[k].gain = gain,
@@ -35,7 +35,7 @@ const GAIN: Knob<Setup> = Knob {
 };
 const INTEGRAL_TIME: Knob<Setup> = Knob {
     ids: [("integral1", "integral1-number"), ("integral2", "integral2-number")],
-    label: |_, k| ["Ti₁", "Ti₂"][k],
+    label: |_, k| ["Ti₁", "Ti₂"][k].to_owned(),
     name: |lab, k| tr!(lab, pi.integral, level = k + 1),
     read: |s, k| s.controller.loops[k].integral_time_s,
     write: |s, k, time_s| s.controller.loops[k].integral_time_s = time_s,
@@ -50,7 +50,7 @@ const OF_LOOP: Knob<Setup> =
 const WEIGHT: Knob<Setup> = Knob {
     ids: [("weight", "weight-number"); 2],
     label: |lab, _| tr!(lab, pi.weight_label),
-    name: |lab, _| tr!(lab, pi.weight).to_owned(),
+    name: |lab, _| tr!(lab, pi.weight),
     read: |s, _| s.controller.loops[0].set_point_weight,
     write: |s, _, weight| both(s, |l| l.set_point_weight = weight),
     limits: |_, _| (limits::SET_POINT_WEIGHT.min, limits::SET_POINT_WEIGHT.max),
@@ -62,7 +62,7 @@ const WEIGHT: Knob<Setup> = Knob {
 const SAMPLING: Knob<Setup> = Knob {
     ids: [("sampling", "sampling-number"); 2],
     label: |lab, _| tr!(lab, pi.sampling_label),
-    name: |lab, _| tr!(lab, pi.sampling).to_owned(),
+    name: |lab, _| tr!(lab, pi.sampling),
     read: |s, _| s.controller.sampling_time_s,
     write: |s, _, time_s| s.controller.sampling_time_s = time_s,
     limits: |s, _| sampling_times(s),
@@ -73,7 +73,7 @@ const SAMPLING: Knob<Setup> = Knob {
 const TRACKING: Knob<Setup> = Knob {
     ids: [("tracking", "tracking-number"); 2],
     label: |lab, _| tr!(lab, pi.tracking_label),
-    name: |lab, _| tr!(lab, pi.tracking).to_owned(),
+    name: |lab, _| tr!(lab, pi.tracking),
     read: |s, _| match s.controller.loops[0].anti_windup {
         AntiWindup::BackCalculation { tracking_ratio } => tracking_ratio,
         AntiWindup::Off => TRACKING_RATIO,
@@ -177,7 +177,7 @@ fn PairingSwitch() -> impl IntoView {
                 Pairing::Diagonal => tr!(lab, pi.diagonal),
                 Pairing::Swapped => tr!(lab, pi.swapped),
             };
-            if suggested() == Some(pairing) { format!("{name} ✓") } else { name.to_owned() }
+            if suggested() == Some(pairing) { format!("{name} ✓") } else { name }
         });
         (pairing, id, text)
     };

@@ -26,7 +26,7 @@ const REFERENCE_TRAVEL: f64 = 0.25;
 
 const REFERENCE: Knob<Setup> = Knob {
     ids: [("step1", "step1-number"), ("step2", "step2-number")],
-    label: |_, k| ["r₁", "r₂"][k],
+    label: |_, k| ["r₁", "r₂"][k].to_owned(),
     name: |lab, k| tr!(lab, experiment.reference, level = k + 1),
     read: |s, k| to_shown(first_step(&s.experiment, k).size, s.plant.display_unit()),
     write: |s, k, size| {
@@ -48,7 +48,7 @@ const REFERENCE_TIME: Knob<Setup> = Knob {
 };
 const LOAD: Knob<Setup> = Knob {
     ids: [("load-size", "load-size-number"); 2],
-    name: |lab, _| tr!(lab, experiment.load_size).to_owned(),
+    name: |lab, _| tr!(lab, experiment.load_size),
     read: |s, _| match first_load(&s.experiment) {
         Some(Load::PumpFlow { flow, .. }) => flow * CM3_PER_M3,
         Some(Load::Leak { area, .. }) => area * MM2_PER_M2,
@@ -74,7 +74,7 @@ const LOAD: Knob<Setup> = Knob {
 };
 const LOAD_TIME: Knob<Setup> = Knob {
     ids: [("", "load-time"); 2],
-    name: |lab, _| tr!(lab, experiment.load_time).to_owned(),
+    name: |lab, _| tr!(lab, experiment.load_time),
     read: |s, _| s.experiment.load_steps.first().map_or(0.0, |step| step.time_s),
     write: |s, _, time_s| s.experiment.load_steps.iter_mut().take(1).for_each(|step| step.time_s = time_s),
     ..TIME
@@ -82,9 +82,15 @@ const LOAD_TIME: Knob<Setup> = Knob {
 const NOISE: Knob<Setup> = Knob {
     ids: [("noise", "noise-number"); 2],
     label: |lab, _| tr!(lab, experiment.noise),
+<<<<<<< HEAD
     name: |lab, _| tr!(lab, experiment.noise_name).to_owned(),
     read: |s, _| to_shown(s.experiment.measurement.noise_std, s.plant.display_unit()),
     write: |s, _, noise| s.experiment.measurement.noise_std = to_metres(noise, s.plant.display_unit()),
+=======
+    name: |lab, _| tr!(lab, experiment.noise_name),
+    read: |s, _| to_shown(s.experiment.measurement.noise_std, s.display_unit()),
+    write: |s, _, noise| s.experiment.measurement.noise_std = to_metres(noise, s.display_unit()),
+>>>>>>> texts
     limits: |s, _| noises(s),
     travel: Some(noises),
     unit: |s| unit_name(s.plant.display_unit()),
@@ -93,7 +99,7 @@ const NOISE: Knob<Setup> = Knob {
 const DURATION: Knob<Setup> = Knob {
     ids: [("duration", "duration-number"); 2],
     label: |lab, _| tr!(lab, experiment.duration),
-    name: |lab, _| tr!(lab, experiment.duration_name).to_owned(),
+    name: |lab, _| tr!(lab, experiment.duration_name),
     read: |s, _| s.experiment.duration_s,
     write: |s, _, duration_s| s.experiment.duration_s = duration_s,
     limits: |s, _| {

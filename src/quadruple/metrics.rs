@@ -21,18 +21,18 @@ pub fn MetricsTable() -> impl IntoView {
 fn content(lab: Lab) -> impl IntoView {
     let unit = unit_name(lab.unit.get());
     let columns = vec![
-        tr!(lab, responses.run).to_owned(),
-        tr!(lab, responses.rise).to_owned(),
-        tr!(lab, responses.settling_2).to_owned(),
-        tr!(lab, responses.settling_5).to_owned(),
-        tr!(lab, responses.overshoot).to_owned(),
-        tr!(lab, responses.undershoot).to_owned(),
+        tr!(lab, responses.run),
+        tr!(lab, responses.rise),
+        tr!(lab, responses.settling_2),
+        tr!(lab, responses.settling_5),
+        tr!(lab, responses.overshoot),
+        tr!(lab, responses.undershoot),
         tr!(lab, responses.other, unit = unit),
         tr!(lab, responses.iae, unit = unit),
         tr!(lab, responses.ise, unit = unit),
         tr!(lab, responses.itae, unit = unit),
-        tr!(lab, responses.variation).to_owned(),
-        tr!(lab, responses.saturated).to_owned(),
+        tr!(lab, responses.variation),
+        tr!(lab, responses.saturated),
     ];
     view! { <TableContent caption=tr!(lab, responses.metrics) columns rows=rows(lab) /> }
 }
@@ -69,7 +69,7 @@ fn figures(lab: Lab, m: &LoopMetrics) -> [String; 11] {
     let time = |t: Option<f64>| t.map_or_else(none, |t| style.significant(t, 3));
     let settling = |s: Option<Settling>| match s {
         None => none(),
-        Some(Settling::Never) => tr!(lab, responses.never).to_owned(),
+        Some(Settling::Never) => tr!(lab, responses.never),
         Some(Settling::After { time_s }) => style.significant(time_s, 3),
     };
     let percent = |share: Option<f64>| share.map_or_else(none, |s| format!("{}\u{a0}%", style.fixed(100.0 * s, 1)));

@@ -31,8 +31,8 @@ pub fn valve_plane(lab: Lab) -> Picture {
             gamma_1: "γ₁",
             gamma_2: "γ₂",
             boundary: "γ₁ + γ₂ = 1",
-            minimum_phase: tr!(lab, valves.minimum),
-            right_half_plane: tr!(lab, valves.right),
+            minimum_phase: &tr!(lab, valves.minimum),
+            right_half_plane: &tr!(lab, valves.right),
         };
         visit(&[quadtank_figure::valve_plane(&ValvePlane {
             right_most_zero: &|valves| map.rightmost_zero(valves),
@@ -60,12 +60,12 @@ pub fn pole_zero(lab: Lab) -> Picture {
                 closed_loop: &a.closed_loop.poles_s,
                 decimal: lab.number_style().decimal,
                 texts: PoleZeroTexts {
-                    real: tr!(lab, zeros.real),
-                    imaginary: tr!(lab, zeros.imaginary),
-                    poles: tr!(lab, zeros.pole),
-                    zeros: tr!(lab, zeros.zero),
-                    closed_loop: tr!(lab, zeros.closed),
-                    beyond: tr!(lab, zeros.beyond),
+                    real: &tr!(lab, zeros.real),
+                    imaginary: &tr!(lab, zeros.imaginary),
+                    poles: &tr!(lab, zeros.pole),
+                    zeros: &tr!(lab, zeros.zero),
+                    closed_loop: &tr!(lab, zeros.closed),
+                    beyond: &tr!(lab, zeros.beyond),
                 },
             })]);
         });
@@ -102,15 +102,15 @@ pub fn responses(lab: Lab, held: RwSignal<Option<(f64, f64)>>) -> Picture {
             window_s: window.get(),
             held_levels: held.get(),
             texts: ResponseTexts {
-                time: tr!(lab, chart.time),
+                time: &tr!(lab, chart.time),
                 level: &level,
-                voltage: tr!(lab, responses.pump_axis),
+                voltage: &tr!(lab, responses.pump_axis),
                 levels: [&levels[0], &levels[1]],
                 references: [&references[0], &references[1]],
                 voltages: [&pumps[0], &pumps[1]],
-                reference: tr!(lab, responses.reference),
-                linear: tr!(lab, responses.linear),
-                pinned: tr!(lab, responses.pinned),
+                reference: &tr!(lab, responses.reference),
+                linear: &tr!(lab, responses.linear),
+                pinned: &tr!(lab, responses.pinned),
             },
         }));
     };

@@ -16,7 +16,7 @@ use quadtank::study::quadruple_tank::{OperatingPointSpec, Setup};
 
 const GAMMA: Knob<Setup> = Knob {
     ids: [("gamma1", "gamma1-number"), ("gamma2", "gamma2-number")],
-    label: |_, k| ["γ₁", "γ₂"][k],
+    label: |_, k| ["γ₁", "γ₂"][k].to_owned(),
     name: |lab, k| tr!(lab, process.gamma, pump = k + 1),
     read: |s, k| s.valves[k],
     write: |s, k, gamma| s.valves[k] = gamma,
@@ -35,8 +35,8 @@ pub fn ProcessCard() -> impl IntoView {
     let moment = use_moment();
     let remark = move || match moment.get().and_then(|m| m.time_s) {
         Some(time) => tr!(lab, process.at_time, time = lab.number_style().fixed(time, 0)),
-        None if lab.locks(Control::Valves) => tr!(lab, process.at_rest).to_owned(),
-        None => tr!(lab, process.drag_valves).to_owned(),
+        None if lab.locks(Control::Valves) => tr!(lab, process.at_rest),
+        None => tr!(lab, process.drag_valves),
     };
     let open = RwSignal::new(false);
     let sentence = Memo::new(move |_| sentences::of_zero(lab));

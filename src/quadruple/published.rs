@@ -21,7 +21,7 @@ pub fn PublishedFigures() -> impl IntoView {
     let table = move || {
         let columns = [tr!(lab, process.quantity), tr!(lab, process.exact), tr!(lab, process.printed)];
         view! {
-            <thead><Headings texts=columns.map(str::to_owned).to_vec() /></thead>
+            <thead><Headings texts=columns.to_vec() /></thead>
             <tbody>{rows(lab, preset().as_ref()).into_iter().map(row_view).collect_view()}</tbody>
         }
     };

@@ -159,16 +159,21 @@ fn sentence(lab: Lab) -> String {
     lab.words.run.with(|outcome| {
         let run = match outcome.as_ref() {
             Ok(run) => run,
+<<<<<<< HEAD
             Err(error @ StudyError { fault: StudyFault::TooMuchWork { .. }, .. }) => {
                 return of_study_error(lab, lab.unit.get(), error);
             }
             Err(_) => return tr!(lab, responses.none).to_owned(),
+=======
+            Err(error @ ScenarioError::TooMuchWork { .. }) => return of_error(lab, lab.unit.get(), error),
+            Err(_) => return tr!(lab, responses.none),
+>>>>>>> texts
         };
         let mut parts: Vec<String> =
             run.metrics.iter().enumerate().filter_map(|(k, m)| of_metrics(lab, k, m)).collect();
         let unstable = lab.words.with_analysis(|a| a.closed_loop.stability == Stability::Unstable);
         if unstable == Some(true) {
-            parts = vec![tr!(lab, responses.unstable).to_owned()];
+            parts = vec![tr!(lab, responses.unstable)];
         } else if parts.is_empty() {
             let has_step = run.metrics.iter().any(|m| m.step_time_s.is_some());
             let has_load = lab.words.setup.with(|s| !s.experiment.load_steps.is_empty());
@@ -177,9 +182,9 @@ fn sentence(lab: Lab) -> String {
                 (false, true) => tr!(lab, responses.load_alone),
                 (false, false) => tr!(lab, responses.sentence_still),
             };
-            parts.push(text.to_owned());
+            parts.push(text);
         } else if lab.words.setup.with(|s| s.experiment.is_disturbed()) {
-            parts.push(tr!(lab, responses.disturbed).to_owned());
+            parts.push(tr!(lab, responses.disturbed));
         }
         parts.extend(run.nonlinear.events.iter().take(MOST_EVENTS).map(|event| {
             let time = lab.number_style().fixed(event.time_s, 0);
@@ -212,7 +217,7 @@ fn of_metrics(lab: Lab, index: usize, metrics: &LoopMetrics) -> Option<String> {
             // As many digits as in the table below.
             let percent = 100.0 * metrics.overshoot.unwrap_or(0.0);
             let overshoot = if percent < 0.05 {
-                tr!(lab, responses.without_overshoot).to_owned()
+                tr!(lab, responses.without_overshoot)
             } else {
                 let share = format!("{}\u{a0}%", style.fixed(percent, 1));
                 tr!(lab, responses.with_overshoot, share = share)

@@ -16,7 +16,7 @@ const LARGE: f64 = 5.0;
 pub fn RelativeGainCard() -> impl IntoView {
     let lab = use_lab();
     let found = move || lab.words.with_analysis(|a| a.verdict);
-    let text = move || found().map_or_else(|| tr!(lab, process.no_equilibrium).to_owned(), |v| of_verdict(lab, v));
+    let text = move || found().map_or_else(|| tr!(lab, process.no_equilibrium), |v| of_verdict(lab, v));
     let warm = Signal::derive(move || matches!(found(), Some(PairingVerdict::None(_)) | None));
     let about = move || view! { <span class="remark">{say!(lab, rga.remark)}</span> };
     view! {
@@ -103,7 +103,7 @@ fn formula(lab: Lab) -> impl IntoView {
 fn of_verdict(lab: Lab, verdict: PairingVerdict) -> String {
     let style = lab.number_style();
     if let PairingVerdict::None(PairingReason::EqualRelativeGains) = verdict {
-        return tr!(lab, rga.equal).to_owned();
+        return tr!(lab, rga.equal);
     }
     let (lead, reason) = match verdict {
         PairingVerdict::Diagonal(reason) => (tr!(lab, rga.diagonal), reason),
@@ -118,10 +118,10 @@ fn of_verdict(lab: Lab, verdict: PairingVerdict) -> String {
             tr!(lab, rga.closer, gain = style.fixed(relative_gain, 2))
         }
         PairingReason::EqualRelativeGains => String::new(),
-        PairingReason::SingularGain => tr!(lab, rga.singular).to_owned(),
+        PairingReason::SingularGain => tr!(lab, rga.singular),
     };
     let is_large = lab.words.with_analysis(|a| a.rga_11.is_ok_and(|gain| gain.abs() > LARGE)) == Some(true);
-    format!("{lead}{rest}{}", if is_large { tr!(lab, rga.large) } else { "" })
+    format!("{lead}{rest}{}", if is_large { tr!(lab, rga.large) } else { String::new() })
 }
 
 fn of_niederlinski(lab: Lab) -> String {

@@ -94,7 +94,7 @@ fn tank(lab: Lab, index: usize, tank: &Tank, level: f64, unit: DisplayUnit) -> i
     } else if level <= 0.0 {
         tr!(lab, process.dry)
     } else {
-        ""
+        String::new()
     };
     let colour = if index == 0 || index == 3 { "water1" } else { "water2" };
     view! {

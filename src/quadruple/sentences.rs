@@ -65,7 +65,7 @@ pub fn of_zero(lab: Lab) -> (String, bool) {
     // Enough digits to see on which side of 1.
     let sum = style.fixed(sum, if off < 0.005 { 5 } else { 2 });
     let Some(situation) = situation(lab) else {
-        return (tr!(lab, process.no_equilibrium).to_owned(), true);
+        return (tr!(lab, process.no_equilibrium), true);
     };
     let text = match &situation {
         ZeroSituation::Left(_) => tr!(lab, process.minimum, sum = sum),
@@ -73,9 +73,9 @@ pub fn of_zero(lab: Lab) -> (String, bool) {
             let zero = format!("+{}", style.significant(*z, 3));
             tr!(lab, process.right, sum = sum, zero = zero)
         }
-        ZeroSituation::Origin => tr!(lab, process.origin).to_owned(),
-        ZeroSituation::NoFinite => tr!(lab, process.few_zeros).to_owned(),
-        ZeroSituation::Uncoupled => tr!(lab, process.none_coupled).to_owned(),
+        ZeroSituation::Origin => tr!(lab, process.origin),
+        ZeroSituation::NoFinite => tr!(lab, process.few_zeros),
+        ZeroSituation::Uncoupled => tr!(lab, process.none_coupled),
         ZeroSituation::Degenerate => {
             let (tank, other) = if valves[0] > valves[1] { (1, 2) } else { (2, 1) };
             tr!(lab, process.degenerate, tank = tank, other = other)
@@ -96,7 +96,7 @@ pub fn of_equilibrium(lab: Lab) -> Vec<String> {
 
 fn of_limit(lab: Lab, error: &PlantError) -> String {
     let sentence = of_plant_error(lab, lab.unit.get(), error);
-    if matches!(error, PlantError::LevelOutOfRange { .. }) { sentence + tr!(lab, process.overflow) } else { sentence }
+    if matches!(error, PlantError::LevelOutOfRange { .. }) { sentence + &tr!(lab, process.overflow) } else { sentence }
 }
 
 /// How long the right-most zero takes, for the valve plane.
@@ -112,8 +112,8 @@ pub fn of_rightmost(lab: Lab) -> String {
     };
     match situation(lab) {
         Some(ZeroSituation::Left(z) | ZeroSituation::Right(z)) => from_zero(z),
-        Some(ZeroSituation::Origin) => tr!(lab, valves.at_origin).to_owned(),
-        _ => tr!(lab, valves.none).to_owned(),
+        Some(ZeroSituation::Origin) => tr!(lab, valves.at_origin),
+        _ => tr!(lab, valves.none),
     }
 }
 
@@ -125,28 +125,28 @@ pub fn of_direction(lab: Lab) -> String {
     let style = lab.number_style();
     lab.words
         .with_analysis(|analysis| match &analysis.zeros {
-            Err(_) => tr!(lab, zeros.degenerate).to_owned(),
+            Err(_) => tr!(lab, zeros.degenerate),
             Ok(_) => match analysis.rightmost_zero() {
-                None => tr!(lab, zeros.none).to_owned(),
+                None => tr!(lab, zeros.none),
                 Some(zero) => {
                     let y: [f64; 2] = [zero.output_direction[0].re, zero.output_direction[1].re];
                     let lead = tr!(lab, zeros.direction, y1 = style.fixed(y[0], 2), y2 = style.fixed(y[1], 2));
                     let rest = if zero.value.re < 0.0 {
-                        tr!(lab, zeros.easy).to_owned()
+                        tr!(lab, zeros.easy)
                     } else if y[1].abs() < NO_PART {
                         tr!(lab, zeros.single, level = 1)
                     } else if y[0].abs() < NO_PART {
                         tr!(lab, zeros.single, level = 2)
                     } else if y[0] * y[1] < 0.0 {
-                        tr!(lab, zeros.opposed).to_owned()
+                        tr!(lab, zeros.opposed)
                     } else {
-                        tr!(lab, zeros.together).to_owned()
+                        tr!(lab, zeros.together)
                     };
                     lead + &rest
                 }
             },
         })
-        .unwrap_or_else(|| tr!(lab, process.no_equilibrium).to_owned())
+        .unwrap_or_else(|| tr!(lab, process.no_equilibrium))
 }
 
 /// What the closed-loop poles say, and whether it is bad news.
@@ -173,9 +173,9 @@ pub fn of_stability(lab: Lab) -> (String, bool) {
                     let pole = format!("+{}", number(pole));
                     (tr!(lab, pi.unstable, pole = pole, time = time), true)
                 }
-                (Stability::Marginal, _) => (tr!(lab, pi.marginal).to_owned(), true),
-                _ => (tr!(lab, pi.unstable_fast).to_owned(), true),
+                (Stability::Marginal, _) => (tr!(lab, pi.marginal), true),
+                _ => (tr!(lab, pi.unstable_fast), true),
             }
         })
-        .unwrap_or_else(|| (tr!(lab, process.no_equilibrium).to_owned(), true))
+        .unwrap_or_else(|| (tr!(lab, process.no_equilibrium), true))
 }

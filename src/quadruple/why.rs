@@ -14,10 +14,10 @@ pub fn WhyCard() -> impl IntoView {
     let lab = use_lab();
     let text = Signal::derive(move || match situation(lab) {
         Some(ZeroSituation::Right(z)) => tr!(lab, why.right, zero = lab.number_style().significant(z, 3)),
-        Some(ZeroSituation::Left(_) | ZeroSituation::Uncoupled) => tr!(lab, why.left).to_owned(),
-        Some(ZeroSituation::Origin) => tr!(lab, why.origin).to_owned(),
-        Some(ZeroSituation::Degenerate) => tr!(lab, why.degenerate).to_owned(),
-        Some(ZeroSituation::NoFinite) | None => tr!(lab, why.none).to_owned(),
+        Some(ZeroSituation::Left(_) | ZeroSituation::Uncoupled) => tr!(lab, why.left),
+        Some(ZeroSituation::Origin) => tr!(lab, why.origin),
+        Some(ZeroSituation::Degenerate) => tr!(lab, why.degenerate),
+        Some(ZeroSituation::NoFinite) | None => tr!(lab, why.none),
     });
     let integral = Memo::new(move |_| integral(lab));
     view! {

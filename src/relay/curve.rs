@@ -23,8 +23,8 @@ const STEP: f64 = 1.05;
 
 const IMPORTANCE: Knob<TuningSetup> = Knob {
     ids: [("importance", "importance-number"); 2],
-    label: |_, _| "r₂",
-    name: |lab, _| tr!(lab, relay.importance).to_owned(),
+    label: |_, _| "r₂".to_owned(),
+    name: |lab, _| tr!(lab, relay.importance),
     read: |s, _| importance(s),
     write: |s, _, r| s.design.critical = CriticalSpec::Importance(r),
     limits: |_, _| IMPORTANCES,
@@ -105,7 +105,7 @@ fn CriticalHandle(frames: RwSignal<Vec<Frame>>, chosen: Signal<Option<(f64, f64)
     let spoken = move || match known.get() {
         Some(r) if r.is_infinite() => "r₂ ∞".to_owned(),
         Some(r) => format!("r₂ {}", lab.number_style().significant(r, 3)),
-        None => tr!(lab, relay.no_importance).to_owned(),
+        None => tr!(lab, relay.no_importance),
     };
     let at = Signal::derive(move || chosen.get().unwrap_or((0.0, 0.0)));
     view! {
@@ -142,8 +142,8 @@ fn sentence(session: Session) -> (bool, String) {
         GainLimit::Oscillation(point) => {
             (true, tr!(lab, relay.ultimate, period = style.significant(point.period(), 4), unit = unit))
         }
-        GainLimit::RealPole { .. } => (false, tr!(lab, relay.real_pole).to_owned()),
-        GainLimit::None => (false, tr!(lab, relay.no_ultimate).to_owned()),
+        GainLimit::RealPole { .. } => (false, tr!(lab, relay.real_pole)),
+        GainLimit::None => (false, tr!(lab, relay.no_ultimate)),
     };
     if let Some(corner) = study.curve.corners.first() {
         let [slow, quick] = corner.points.map(|point| style.significant(point.period(), 4));
@@ -174,11 +174,7 @@ fn table(session: Session) -> Option<impl IntoView> {
         row(format!("Tc ({unit})"), period, on_curve.map(|p| p.period())),
         row(format!("ωc (rad/{unit})"), frequency, on_curve.map(|p| p.frequency)),
     ];
-    let columns = vec![
-        tr!(lab, process.quantity).to_owned(),
-        tr!(lab, relay.col_chosen).to_owned(),
-        tr!(lab, relay.col_curve).to_owned(),
-    ];
+    let columns = vec![tr!(lab, process.quantity), tr!(lab, relay.col_chosen), tr!(lab, relay.col_curve)];
     Some(view! { <TableContent caption=tr!(lab, relay.curve_caption) columns rows /> })
 }
 

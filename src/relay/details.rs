@@ -40,11 +40,7 @@ fn responses(session: Session, found: &Recovered) -> impl IntoView + use<> {
         let sign = if value.im < 0.0 { "−" } else { "+" };
         format!("{} {sign} {}j", style.significant(value.re, 4), style.significant(value.im.abs(), 4))
     };
-    let columns = vec![
-        tr!(lab, relay.details_response).to_owned(),
-        tr!(lab, relay.details_found).to_owned(),
-        tr!(lab, relay.details_exact).to_owned(),
-    ];
+    let columns = vec![tr!(lab, relay.details_response), tr!(lab, relay.details_found), tr!(lab, relay.details_exact)];
     let row = |(row, column): (usize, usize)| {
         let name = format!("g{}{}", ["₁", "₂"][row], ["₁", "₂"][column]);
         let figures = [complex(found.measured[(row, column)]), complex(found.exact[(row, column)])];
@@ -64,7 +60,7 @@ pub fn ControllerForms() -> impl IntoView {
 
 fn forms(session: Session) -> impl IntoView {
     let lab = session.lab;
-    let columns = [tr!(lab, relay.col_root), "K", "Ti", "Td", "K′", "Ti′", "Td′"].map(str::to_owned).to_vec();
+    let columns = [&*tr!(lab, relay.col_root), "K", "Ti", "Td", "K′", "Ti′", "Td′"].map(str::to_owned).to_vec();
     let rows = session.words.with_design(|design| {
         let mut rows = Vec::new();
         for (k, root) in (1..).zip(&design.roots) {

@@ -9,8 +9,8 @@ use quadtank::tuning::TuningError;
 pub fn sentence(lab: Lab, error: &TuningError) -> String {
     let number = |v: f64| lab.number_style().significant(v, 3);
     match *error {
-        TuningError::OutOfRange { field: "target", .. } => tr!(lab, relay.error_target).to_owned(),
-        TuningError::OutOfRange { field: "amplitude", .. } => tr!(lab, relay.error_amplitude).to_owned(),
+        TuningError::OutOfRange { field: "target", .. } => tr!(lab, relay.error_target),
+        TuningError::OutOfRange { field: "amplitude", .. } => tr!(lab, relay.error_amplitude),
         TuningError::OutOfRange { field: "dead_time", value } => {
             tr!(lab, relay.error_dead_time, value = number(value))
         }
@@ -20,7 +20,7 @@ pub fn sentence(lab: Lab, error: &TuningError) -> String {
         TuningError::UnstablePlant { real_part } => {
             tr!(lab, relay.error_unstable, real = number(real_part))
         }
-        TuningError::Linear(LinearError::SingularGain { .. }) => tr!(lab, relay.error_singular).to_owned(),
+        TuningError::Linear(LinearError::SingularGain { .. }) => tr!(lab, relay.error_singular),
         TuningError::Linear(error) => tr!(lab, relay.error_plant, reason = error),
     }
 }

@@ -48,6 +48,7 @@ pub fn response(session: Session, window: Signal<(f64, f64)>) -> Picture {
     let build = move |show: &mut dyn FnMut(&[quadtank_figure::Chart])| {
         let pinned = session.charts.pinned.get();
         let names: Vec<String> = (1..=pinned.len()).map(|number| tr!(lab, relay.row_pinned, number = number)).collect();
+        let rival = tr!(lab, relay.row_rival);
         session.charts.design.with(|outcome| {
             let mut records: Vec<LoopsRecord> = pinned
                 .iter()
@@ -56,9 +57,8 @@ pub fn response(session: Session, window: Signal<(f64, f64)>) -> Picture {
                 .map(|(design, name)| drawn(&design.response.trace, name, Pen::Faded, false))
                 .collect();
             if let Ok(Some(Designed { response, comparison, .. })) = outcome.as_ref() {
-                records.extend(comparison.iter().map(|comparison| {
-                    drawn(&comparison.response.trace, tr!(lab, relay.row_rival), Pen::Dotted, false)
-                }));
+                let rivals = comparison.iter();
+                records.extend(rivals.map(|it| drawn(&it.response.trace, &rival, Pen::Dotted, false)));
                 records.push(drawn(&response.trace, "", Pen::Solid, false));
             }
             let references = session.charts.setup.with_untracked(|s| s.response.references);
@@ -144,10 +144,10 @@ pub fn curve(session: Session, chosen: Signal<Option<(f64, f64)>>) -> Picture {
             chosen,
             axes: ["k₁ g₁₁(0)", "k₂ g₂₂(0)"],
             texts: [
-                tr!(lab, relay.curve),
-                tr!(lab, relay.by_harmonic),
-                tr!(lab, relay.by_peak),
-                tr!(lab, relay.corner),
+                &tr!(lab, relay.curve),
+                &tr!(lab, relay.by_harmonic),
+                &tr!(lab, relay.by_peak),
+                &tr!(lab, relay.corner),
             ],
         })]);
     };
@@ -178,7 +178,7 @@ pub fn loci(session: Session) -> Picture {
                 target: (re, im),
                 rules: &rules,
                 axes: ["Re λ", "Im λ"],
-                texts: [&names[0], &names[1], tr!(lab, relay.before)],
+                texts: [&names[0], &names[1], &tr!(lab, relay.before)],
             })]);
         });
     };

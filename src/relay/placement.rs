@@ -25,8 +25,8 @@ const TARGETS: (f64, f64) = (-10.0, 10.0);
 
 const TARGET: Knob<TuningSetup> = Knob {
     ids: [("", "target-re"), ("", "target-im")],
-    label: |_, k| ["Re λ", "Im λ"][k],
-    name: |lab, k| if k == 0 { tr!(lab, relay.target_re) } else { tr!(lab, relay.target_im) }.to_owned(),
+    label: |_, k| ["Re λ", "Im λ"][k].to_owned(),
+    name: |lab, k| if k == 0 { tr!(lab, relay.target_re) } else { tr!(lab, relay.target_im) },
     read: |s, k| s.design.target[k],
     write: |s, k, part| s.design.target[k] = part,
     limits: |_, _| TARGETS,
@@ -179,7 +179,7 @@ fn sentence(session: Session) -> (bool, String) {
     let found = session.words.design.get();
     let design = match found.as_ref() {
         Ok(Some(design)) => design,
-        Ok(None) => return (false, tr!(lab, relay.no_point).to_owned()),
+        Ok(None) => return (false, tr!(lab, relay.no_point)),
         Err(error) => return (false, errors::sentence(lab, error)),
     };
     let chosen = &design.roots[(root - 1).min(1)];
@@ -189,18 +189,18 @@ fn sentence(session: Session) -> (bool, String) {
             let Ok(margins) = study.as_ref().as_ref().map_err(|&e| e).and_then(|study| study.margins(chosen)) else {
                 return String::new();
             };
-            let Some(margins) = margins else { return tr!(lab, relay.margins_not_computed).to_owned() };
+            let Some(margins) = margins else { return tr!(lab, relay.margins_not_computed) };
             let distance = style.significant(margins.distance, 3);
             let degrees = margins.phase.map_or_else(|| "–".to_owned(), |p| style.fixed(p.to_degrees(), 0));
             let gain = margins.gain_up.map_or_else(|| "∞".to_owned(), |g| style.significant(g, 3));
             tr!(lab, relay.stable, distance = distance, degrees = degrees, gain = gain)
         }),
         LoopStability::Unstable { poles } => tr!(lab, relay.unstable, poles = poles),
-        LoopStability::Marginal { .. } => tr!(lab, relay.marginal).to_owned(),
-        LoopStability::NotComputed { .. } => tr!(lab, relay.not_computed).to_owned(),
+        LoopStability::Marginal { .. } => tr!(lab, relay.marginal),
+        LoopStability::NotComputed { .. } => tr!(lab, relay.not_computed),
     };
     if chosen.closure == Closure::Joint {
-        text = text + " " + tr!(lab, relay.joint);
+        text = text + " " + &tr!(lab, relay.joint);
     }
     for &warning in &chosen.warnings {
         text = text + " " + &of_warning(lab, warning);
@@ -219,11 +219,11 @@ fn of_warning(lab: Lab, warning: PlacementWarning) -> String {
         PlacementWarning::WrongIntegralSign { number } => {
             tr!(lab, relay.warn_integral_sign, number = number)
         }
-        PlacementWarning::IntegralActionUnstable => tr!(lab, relay.warn_integral).to_owned(),
-        PlacementWarning::AmbiguousRoot => tr!(lab, relay.warn_ambiguous).to_owned(),
-        PlacementWarning::DoubleEigenvalue => tr!(lab, relay.warn_double).to_owned(),
+        PlacementWarning::IntegralActionUnstable => tr!(lab, relay.warn_integral),
+        PlacementWarning::AmbiguousRoot => tr!(lab, relay.warn_ambiguous),
+        PlacementWarning::DoubleEigenvalue => tr!(lab, relay.warn_double),
         PlacementWarning::BeyondPi { number } => tr!(lab, relay.warn_beyond_pi, number = number),
-        PlacementWarning::OnMinusOne => tr!(lab, relay.warn_minus_one).to_owned(),
+        PlacementWarning::OnMinusOne => tr!(lab, relay.warn_minus_one),
     }
 }
 
@@ -231,7 +231,7 @@ fn of_warning(lab: Lab, warning: PlacementWarning) -> String {
 fn table(session: Session) -> impl IntoView {
     let lab = session.lab;
     let chosen = session.words.setup.with(|s| s.design.root);
-    let columns = [tr!(lab, relay.col_root), "kp", "ki", "kd"].map(str::to_owned).to_vec();
+    let columns = [&*tr!(lab, relay.col_root), "kp", "ki", "kd"].map(str::to_owned).to_vec();
     let rows = session.words.with_design(|design| {
         let roots = (1..).zip(&design.roots);
         roots.flat_map(|(number, root)| rows_of_root(lab, number, root, chosen == number)).collect::<Vec<_>>()

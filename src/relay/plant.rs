@@ -20,7 +20,7 @@ use quadtank_scenario::tuning::{TuningWarning, warnings};
 
 const VALVE: Knob<TuningSetup> = Knob {
     ids: [("", "rig-gamma1"), ("", "rig-gamma2")],
-    label: |_, k| ["γ₁", "γ₂"][k],
+    label: |_, k| ["γ₁", "γ₂"][k].to_owned(),
     name: |lab, k| tr!(lab, process.gamma, pump = k + 1),
     read: |s, k| valves(s)[k],
     write: set_valve,
@@ -28,8 +28,8 @@ const VALVE: Knob<TuningSetup> = Knob {
 };
 const BEHIND: Knob<TuningSetup> = Knob {
     ids: [("", "rig-dead-time"), ("", "rig-lag")],
-    label: |_, k| ["θ", "T"][k],
-    name: |lab, k| if k == 0 { tr!(lab, relay.dead_time) } else { tr!(lab, relay.lag) }.to_owned(),
+    label: |_, k| ["θ", "T"][k].to_owned(),
+    name: |lab, k| if k == 0 { tr!(lab, relay.dead_time) } else { tr!(lab, relay.lag) },
     read: |s, k| behind(s)[k],
     write: set_behind,
     limits: |_, _| (0.0, 1000.0),
@@ -263,17 +263,17 @@ fn remark(session: Session) -> String {
     };
     let rga = gain.map_or_else(|| "∞".to_owned(), |gain| lab.number_style().fixed(gain, 3));
     let source = session.words.setup.with(|s| match &s.plant {
-        TuningPlant::Published(PublishedPlant::WoodBerry) => tr!(lab, relay.remark_wood_berry).to_owned(),
-        TuningPlant::Published(PublishedPlant::ProcessTwo) => tr!(lab, relay.remark_process_two).to_owned(),
+        TuningPlant::Published(PublishedPlant::WoodBerry) => tr!(lab, relay.remark_wood_berry),
+        TuningPlant::Published(PublishedPlant::ProcessTwo) => tr!(lab, relay.remark_process_two),
         TuningPlant::QuadrupleTank { preset, .. } => preset.preset().source.to_owned(),
-        TuningPlant::Elements(_) => tr!(lab, relay.own_plant).to_owned(),
+        TuningPlant::Elements(_) => tr!(lab, relay.own_plant),
     });
     let mut text = tr!(lab, relay.plant_remark, source = source, rga = rga);
     if gain.is_some_and(|gain| gain < 0.0) {
-        text = text + " " + tr!(lab, relay.negative_pairing);
+        text = text + " " + &tr!(lab, relay.negative_pairing);
     }
     if session.words.setup.with(|s| rig(s).is_some_and(|(_, nonlinear)| nonlinear)) {
-        text = text + " " + tr!(lab, relay.nonlinear_remark);
+        text = text + " " + &tr!(lab, relay.nonlinear_remark);
     }
     for warning in session.words.setup.with(|s| warnings(s)) {
         if let TuningWarning::CoefficientOrder { field, read_as, reversed } = warning {

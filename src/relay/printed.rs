@@ -58,8 +58,8 @@ fn computed(style: NumberStyle, figure: &PrintedFigure) -> impl IntoView + use<>
 pub fn name_of_case(lab: Lab, case: PublishedCase) -> String {
     let PublishedCase { table, row } = case;
     match (table, row) {
-        (0, _) => tr!(lab, relay.case_usol).to_owned(),
-        (88, _) => tr!(lab, relay.case_full).to_owned(),
+        (0, _) => tr!(lab, relay.case_usol),
+        (88, _) => tr!(lab, relay.case_full),
         (3, _) => tr!(lab, relay.case_locus, table = table, row = row),
         (4, row) => {
             let rule = ["ZN PI", "ZN PID", "TL PI", "TL PID"][(row - 1).min(3)];
@@ -88,5 +88,4 @@ fn of_remark(lab: Lab, remark: PrintedRemark) -> String {
         PrintedRemark::Unstable => tr!(lab, relay.print_unstable),
         PrintedRemark::Usol => tr!(lab, relay.print_usol),
     }
-    .to_owned()
 }

@@ -151,7 +151,7 @@ fn sentence(session: Session) -> (bool, String) {
     let setup = session.words.setup.get();
     let design = match found.as_ref() {
         Ok(Some(design)) => design,
-        Ok(None) => return (false, tr!(lab, relay.no_point).to_owned()),
+        Ok(None) => return (false, tr!(lab, relay.no_point)),
         Err(error) => return (false, errors::sentence(lab, error)),
     };
     let decoupled = setup.design.decoupler != DecouplerSpec::None;
@@ -185,13 +185,13 @@ fn sentence(session: Session) -> (bool, String) {
         let time = style.significant(time, 3);
         (false, tr!(lab, relay.response_unfinished, time = time, unit = time_unit(&setup.plant)))
     } else {
-        (false, tr!(lab, relay.response_unstable).to_owned())
+        (false, tr!(lab, relay.response_unstable))
     };
     if decoupled {
-        text = text + " " + tr!(lab, relay.decoupled);
+        text = text + " " + &tr!(lab, relay.decoupled);
     }
     if design.response.trace.limited.contains(&true) {
-        text = text + " " + tr!(lab, relay.pump_limit);
+        text = text + " " + &tr!(lab, relay.pump_limit);
     }
     if let Some(comparison) = &design.comparison {
         let sentence = match comparison.stability {
@@ -199,7 +199,7 @@ fn sentence(session: Session) -> (bool, String) {
             LoopStability::NotComputed { .. } => tr!(lab, relay.rival_not_computed),
             LoopStability::Unstable { .. } | LoopStability::Marginal { .. } => tr!(lab, relay.rival_unstable),
         };
-        text = text + " " + sentence;
+        text = text + " " + &sentence;
     }
     (good, text)
 }
@@ -209,17 +209,17 @@ fn table(session: Session) -> impl IntoView {
     let lab = session.lab;
     let unit = session.words.setup.with(|s| time_unit(&s.plant));
     let columns = vec![
-        tr!(lab, relay.col_output).to_owned(),
-        tr!(lab, relay.col_overshoot).to_owned(),
+        tr!(lab, relay.col_output),
+        tr!(lab, relay.col_overshoot),
         tr!(lab, relay.col_settling, unit = unit),
-        tr!(lab, relay.col_cross).to_owned(),
+        tr!(lab, relay.col_cross),
         "IAE".to_owned(),
     ];
     let mut rows = Vec::new();
     session.words.with_design(|design| {
         rows.extend(rows_of(session, &design.response));
         if let Some(comparison) = &design.comparison {
-            rows.push(group(tr!(lab, relay.row_rival).to_owned()));
+            rows.push(group(tr!(lab, relay.row_rival)));
             rows.extend(rows_of(session, &comparison.response));
         }
     });

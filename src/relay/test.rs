@@ -28,8 +28,8 @@ const SIZES: (f64, f64) = (1e-6, 1e6);
 
 const RATIO: Knob<TuningSetup> = Knob {
     ids: [("ratio", "ratio-number"); 2],
-    label: |_, _| "d₂/d₁",
-    name: |lab, _| tr!(lab, relay.ratio).to_owned(),
+    label: |_, _| "d₂/d₁".to_owned(),
+    name: |lab, _| tr!(lab, relay.ratio),
     read: |s, _| ratio_of(s),
     write: |s, _, ratio| s.test.amplitudes[1] = ratio * s.test.amplitudes[0],
     limits: |_, _| RATIOS,
@@ -40,7 +40,7 @@ const RATIO: Knob<TuningSetup> = Knob {
 /// Of relay 1, with the ratio kept; of relay 2 where that one is alone.
 const AMPLITUDE: Knob<TuningSetup> = Knob {
     ids: [("", "test-amplitude"), ("", "test-amplitude2")],
-    label: |_, k| ["d₁", "d₂"][k],
+    label: |_, k| ["d₁", "d₂"][k].to_owned(),
     name: |lab, k| tr!(lab, relay.amplitude, number = k + 1),
     read: |s, k| s.test.amplitudes[k],
     write: |s, k, d| s.test.amplitudes = if k == 0 { [d, d * ratio_of(s)] } else { [s.test.amplitudes[0], d] },
@@ -49,8 +49,8 @@ const AMPLITUDE: Knob<TuningSetup> = Knob {
 };
 const DURATION: Knob<TuningSetup> = Knob {
     ids: [("", "test-duration"); 2],
-    label: |_, _| "t",
-    name: |lab, _| tr!(lab, relay.duration).to_owned(),
+    label: |_, _| "t".to_owned(),
+    name: |lab, _| tr!(lab, relay.duration),
     read: |s, _| s.test.duration,
     write: |s, _, duration| set_duration(s, duration),
     limits: |_, _| (1.0, 1e5),
@@ -59,8 +59,8 @@ const DURATION: Knob<TuningSetup> = Knob {
 };
 const MODULUS: Knob<TuningSetup> = Knob {
     ids: [("", "test-modulus"); 2],
-    label: |_, _| "r",
-    name: |lab, _| tr!(lab, relay.modulus).to_owned(),
+    label: |_, _| "r".to_owned(),
+    name: |lab, _| tr!(lab, relay.modulus),
     read: |s, _| if let Behind::Modulus(r) = s.test.behind { r } else { FIRST_MODULUS },
     write: |s, _, r| s.test.behind = Behind::Modulus(r),
     limits: |_, _| SIZES,
@@ -68,7 +68,7 @@ const MODULUS: Knob<TuningSetup> = Knob {
 };
 const HYSTERESIS: Knob<TuningSetup> = Knob {
     ids: [("", "test-hysteresis1"), ("", "test-hysteresis2")],
-    label: |_, k| ["ε₁", "ε₂"][k],
+    label: |_, k| ["ε₁", "ε₂"][k].to_owned(),
     name: |lab, k| tr!(lab, relay.hysteresis, number = k + 1),
     read: |s, k| s.test.hysteresis[k],
     write: |s, k, hysteresis| s.test.hysteresis[k] = hysteresis,
@@ -77,7 +77,7 @@ const HYSTERESIS: Knob<TuningSetup> = Knob {
 };
 const BIAS: Knob<TuningSetup> = Knob {
     ids: [("", "test-bias1"), ("", "test-bias2")],
-    label: |_, k| ["b₁", "b₂"][k],
+    label: |_, k| ["b₁", "b₂"][k].to_owned(),
     name: |lab, k| tr!(lab, relay.bias, number = k + 1),
     read: |s, k| s.test.bias[k],
     write: |s, k, bias| s.test.bias[k] = bias,
@@ -87,7 +87,7 @@ const BIAS: Knob<TuningSetup> = Knob {
 /// The factors by which independent tests are made weaker.
 const DETUNING: Knob<TuningSetup> = Knob {
     ids: [("", "test-detuning1"), ("", "test-detuning2")],
-    label: |_, k| ["f₁", "f₂"][k],
+    label: |_, k| ["f₁", "f₂"][k].to_owned(),
     name: |lab, k| tr!(lab, relay.detuning, number = k + 1),
     read: |s, k| s.test.detuning[k],
     write: |s, k, factor| s.test.detuning[k] = factor,
@@ -96,8 +96,8 @@ const DETUNING: Knob<TuningSetup> = Knob {
 };
 const PASSES: Knob<TuningSetup> = Knob {
     ids: [("", "test-passes"); 2],
-    label: |_, _| "n",
-    name: |lab, _| tr!(lab, relay.passes).to_owned(),
+    label: |_, _| "n".to_owned(),
+    name: |lab, _| tr!(lab, relay.passes),
     read: |s, _| s.test.passes as f64,
     write: |s, _, passes| set_passes(s, passes),
     limits: |_, _| (1.0, 8.0),

@@ -48,10 +48,10 @@ pub fn sentence(session: Session) -> (bool, String) {
             RelayVerdict::Multimodal { switches: [one, two] } => {
                 (false, tr!(lab, relay.multimodal, period = period, unit = unit, one = one, two = two))
             }
-            RelayVerdict::NotPeriodic => (false, tr!(lab, relay.not_periodic).to_owned()),
+            RelayVerdict::NotPeriodic => (false, tr!(lab, relay.not_periodic)),
             RelayVerdict::Chattering { relay } => (false, tr!(lab, relay.chattering, number = relay + 1)),
-            RelayVerdict::NoOscillation => (false, tr!(lab, relay.no_oscillation).to_owned()),
-            RelayVerdict::Diverged => (false, tr!(lab, relay.diverged).to_owned()),
+            RelayVerdict::NoOscillation => (false, tr!(lab, relay.no_oscillation)),
+            RelayVerdict::Diverged => (false, tr!(lab, relay.diverged)),
             RelayVerdict::Unfinished { time } => {
                 (false, tr!(lab, relay.unfinished, time = style.significant(time, 3), unit = unit))
             }
@@ -63,11 +63,11 @@ pub fn sentence(session: Session) -> (bool, String) {
                     let same = by_harmonic.is_none_or(|distance| distance.same_branch);
                     let limited = test.trace.limited.contains(&true);
                     if limited {
-                        text = text + " " + tr!(lab, relay.pump_limit);
+                        text = text + " " + &tr!(lab, relay.pump_limit);
                     } else if !same {
-                        text = text + " " + tr!(lab, relay.other_branch);
+                        text = text + " " + &tr!(lab, relay.other_branch);
                     } else if !proportional {
-                        text = text + " " + tr!(lab, relay.not_proportional);
+                        text = text + " " + &tr!(lab, relay.not_proportional);
                     }
                     same && proportional && !limited
                 }
@@ -91,11 +91,11 @@ pub fn table(session: Session) -> Option<impl IntoView> {
     let test = outcome.as_ref().as_ref().ok()?;
     let unit = session.words.setup.with(|s| time_unit(&s.plant));
     let columns = vec![
-        tr!(lab, relay.col_loop).to_owned(),
+        tr!(lab, relay.col_loop),
         tr!(lab, relay.col_period, unit = unit),
         "a".to_owned(),
-        tr!(lab, relay.col_peak).to_owned(),
-        tr!(lab, relay.col_harmonic).to_owned(),
+        tr!(lab, relay.col_peak),
+        tr!(lab, relay.col_harmonic),
     ];
     let (mut rows, rules) = rows(session, test);
     if let Tested::Simultaneous(_, distances) = test
@@ -104,7 +104,7 @@ pub fn table(session: Session) -> Option<impl IntoView> {
         rows.push(distance_row(session, distances));
     }
     if !rules.is_empty() {
-        let heads = [tr!(lab, relay.col_loop), "K", "Ti", "Td"].map(str::to_owned).to_vec();
+        let heads = [&*tr!(lab, relay.col_loop), "K", "Ti", "Td"].map(str::to_owned).to_vec();
         rows.push(view! { <Headings texts=heads /> }.into_any());
         rows.extend(rules);
     }
