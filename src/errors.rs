@@ -27,32 +27,10 @@ pub fn of_error(lab: Lab, unit: DisplayUnit, error: &ScenarioError) -> String {
         ScenarioError::UnknownVersion { found, newest } => {
             tr!(lab, refused.version, found = found, newest = newest)
         }
-<<<<<<< HEAD
-        ScenarioError::TooLong { length, max } => tr!(lab, refused.long, length = *length, max = *max),
-        ScenarioError::DamagedLink => tr!(lab, refused.damaged).to_owned(),
-        ScenarioError::Study { error, .. } => of_study_error(lab, unit, error),
-        ScenarioError::Law { field, error } => of_law(lab, field, *error),
-=======
         ScenarioError::TooLong { length, max } => tr!(lab, refused.long, length = length, max = max),
         ScenarioError::DamagedLink => tr!(lab, refused.damaged),
-        ScenarioError::TooMuchWork { time_s, .. } => {
-            tr!(lab, refused.too_much_work, time = lab.number_style().significant(*time_s, 3))
-        }
-        ScenarioError::Plant(error) | ScenarioError::Start(error) => of_plant_error(lab, unit, error),
-        ScenarioError::Law { field, error } => match *error {
-            EstimatorError::WindowTooShort { window_s, sampling_time_s }
-            | EstimatorError::WindowTooLong { window_s, sampling_time_s }
-            | EstimatorError::WindowNotWhole { window_s, sampling_time_s } => tr!(
-                lab,
-                refused.window,
-                field = field,
-                window = number(window_s),
-                sampling = number(sampling_time_s),
-                most = MAX_WINDOW_SAMPLES
-            ),
-            EstimatorError::ModelGain { .. } => format!("{field}: {error}"),
-        },
->>>>>>> texts
+        ScenarioError::Study { error, .. } => of_study_error(lab, unit, error),
+        ScenarioError::Law { field, error } => of_law(lab, field, *error),
         ScenarioError::Element { field, fault } => {
             tr!(lab, refused.element, field = field, reason = of_fault(lab, *fault))
         }

@@ -6,8 +6,7 @@ use super::download::{copy, download_text};
 use super::lab::{Lab, Notice};
 use super::start::Bench;
 use quadtank_scenario::{
-    Document, ScenarioError, check_length, document_from_bytes, document_from_link, model_free_to_json,
-    model_free_to_link, to_json, to_link, tuning_to_json, tuning_to_link,
+    Document, ScenarioError, check_length, document_from_bytes, document_from_link, to_json, to_link,
 };
 
 /// What stands before the link text in the fragment of an address.
@@ -25,8 +24,8 @@ pub fn from_address() -> Option<Result<Document, ScenarioError>> {
 fn link_of(lab: Lab) -> Result<String, ScenarioError> {
     match lab.bench.get_untracked() {
         Bench::QuadrupleTank => lab.scenario.with_untracked(to_link),
-        Bench::RelayTuning => lab.tuning.with_untracked(tuning_to_link),
-        Bench::ModelFree => lab.model_free.with_untracked(model_free_to_link),
+        Bench::RelayTuning => lab.tuning.with_untracked(to_link),
+        Bench::ModelFree => lab.model_free.with_untracked(to_link),
     }
 }
 
@@ -83,8 +82,8 @@ pub const FILE: &str = "quadtank-experiment.json";
 pub fn json_of(lab: Lab) -> Result<String, ScenarioError> {
     match lab.bench.get_untracked() {
         Bench::QuadrupleTank => lab.scenario.with_untracked(to_json),
-        Bench::RelayTuning => lab.tuning.with_untracked(tuning_to_json),
-        Bench::ModelFree => lab.model_free.with_untracked(model_free_to_json),
+        Bench::RelayTuning => lab.tuning.with_untracked(to_json),
+        Bench::ModelFree => lab.model_free.with_untracked(to_json),
     }
 }
 

@@ -4,8 +4,8 @@
 //! these controls; `lang=TAG` and `theme=light|dark` choose without being remembered; `preset=NAME` loads a
 //! published rig; `bench=relay-tuning` or `bench=model-free` shows that bench. A flag that is not understood is ignored.
 
-use quadtank::literature::PresetId;
 use super::texts::Language;
+use quadtank::literature::PresetId;
 
 /// A bench.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

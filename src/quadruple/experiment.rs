@@ -82,15 +82,9 @@ const LOAD_TIME: Knob<Setup> = Knob {
 const NOISE: Knob<Setup> = Knob {
     ids: [("noise", "noise-number"); 2],
     label: |lab, _| tr!(lab, experiment.noise),
-<<<<<<< HEAD
-    name: |lab, _| tr!(lab, experiment.noise_name).to_owned(),
+    name: |lab, _| tr!(lab, experiment.noise_name),
     read: |s, _| to_shown(s.experiment.measurement.noise_std, s.plant.display_unit()),
     write: |s, _, noise| s.experiment.measurement.noise_std = to_metres(noise, s.plant.display_unit()),
-=======
-    name: |lab, _| tr!(lab, experiment.noise_name),
-    read: |s, _| to_shown(s.experiment.measurement.noise_std, s.display_unit()),
-    write: |s, _, noise| s.experiment.measurement.noise_std = to_metres(noise, s.display_unit()),
->>>>>>> texts
     limits: |s, _| noises(s),
     travel: Some(noises),
     unit: |s| unit_name(s.plant.display_unit()),

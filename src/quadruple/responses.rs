@@ -159,15 +159,10 @@ fn sentence(lab: Lab) -> String {
     lab.words.run.with(|outcome| {
         let run = match outcome.as_ref() {
             Ok(run) => run,
-<<<<<<< HEAD
             Err(error @ StudyError { fault: StudyFault::TooMuchWork { .. }, .. }) => {
                 return of_study_error(lab, lab.unit.get(), error);
             }
-            Err(_) => return tr!(lab, responses.none).to_owned(),
-=======
-            Err(error @ ScenarioError::TooMuchWork { .. }) => return of_error(lab, lab.unit.get(), error),
             Err(_) => return tr!(lab, responses.none),
->>>>>>> texts
         };
         let mut parts: Vec<String> =
             run.metrics.iter().enumerate().filter_map(|(k, m)| of_metrics(lab, k, m)).collect();

@@ -17,8 +17,8 @@ use quadtank::tuning::TuningError;
 use quadtank_scenario::model_free::ModelFreeScenario;
 use quadtank_scenario::tuning::{TuningScenario, warnings};
 use quadtank_scenario::{
-    AnalysisReport, DOCUMENT_LIMIT, Document, Scenario, ScenarioError, check_length, document_from_bytes,
-    model_free_to_json, run_to_csv, schema_of, to_json, tuning_to_json,
+    AnalysisReport, BenchDocument, DOCUMENT_LIMIT, Document, Scenario, ScenarioError, check_length,
+    document_from_bytes, run_to_csv, schema_of, to_json,
 };
 use serde::Serialize;
 use serde_json::Value;
@@ -254,10 +254,10 @@ fn execute(command: Command) -> Result<(), Failure> {
         ),
         Command::Cases { name: None } => print(&list_of_cases()),
         Command::Cases { name: Some(Case::Tuning(case)) } => {
-            print_document(&case.name(), tuning_to_json(&TuningScenario::from(TuningSetup::published(case))))
+            print_document(&case.name(), to_json(&TuningScenario::from(TuningSetup::published(case))))
         }
         Command::Cases { name: Some(Case::ModelFree(setup)) } => {
-            print_document("this case", model_free_to_json(&ModelFreeScenario::from(*setup)))
+            print_document("this case", to_json(&ModelFreeScenario::from(*setup)))
         }
         Command::Presets { name: None } => print(&list_of_presets()),
         Command::Presets { name: Some(id) } => print_document(id.name(), to_json(&Scenario::from(setup_of(id)))),

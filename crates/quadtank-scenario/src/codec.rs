@@ -1,4 +1,4 @@
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 use super::error::{malformed, quoted};
 use super::model_free::ModelFreeScenario;
@@ -6,7 +6,7 @@ use super::path::{byte_at, decimal_comma, path_before};
 use super::text::text_of;
 use super::tree::Tree;
 use super::tuning::TuningScenario;
-use super::{Scenario, ScenarioError, reader};
+use super::{BenchDocument, Scenario, ScenarioError, reader};
 
 /// Longest document that is read (bytes): far more than any scenario needs.
 pub const DOCUMENT_LIMIT: usize = 64 * 1024;
@@ -26,11 +26,11 @@ pub enum Document {
 ///
 /// # Errors
 /// [`ScenarioError::TooLong`], [`ScenarioError::UnknownVersion`], [`ScenarioError::Malformed`] (which names the field),
-/// or what [`Scenario::validate`] finds.
+/// or what [`BenchDocument::validate`] finds.
 pub fn from_json(text: &str) -> Result<Scenario, ScenarioError> {
     let tree = tree_of(text)?;
     match version_of(&tree)? {
-        1 => read(&tree, Scenario::validate),
+        1 => read(&tree),
         found => Err(ScenarioError::UnknownVersion { found, newest: Scenario::VERSION }),
     }
 }
@@ -57,9 +57,9 @@ pub fn document_from_bytes(bytes: &[u8]) -> Result<Document, ScenarioError> {
 /// A later version of a document is read here too: into its own types, then brought up to date.
 fn document_from_tree(tree: &Tree) -> Result<Document, ScenarioError> {
     match version_of(tree)? {
-        1 => read(tree, Scenario::validate).map(Document::Quadruple),
-        2 => read(tree, TuningScenario::validate).map(Document::Tuning),
-        3 => read(tree, ModelFreeScenario::validate).map(Document::ModelFree),
+        1 => read::<Scenario>(tree).map(Document::from),
+        2 => read::<TuningScenario>(tree).map(Document::from),
+        3 => read::<ModelFreeScenario>(tree).map(Document::from),
         found => Err(ScenarioError::UnknownVersion { found, newest: ModelFreeScenario::VERSION }),
     }
 }
@@ -109,54 +109,29 @@ fn version_of(tree: &Tree) -> Result<u64, ScenarioError> {
 }
 
 /// Reads a document into its type, shape first, then every number.
-fn read<'t, T: Deserialize<'t>>(
-    tree: &'t Tree,
-    validate: fn(&T) -> Result<(), ScenarioError>,
-) -> Result<T, ScenarioError> {
-    let document = reader::read(tree)?;
-    validate(&document)?;
+fn read<'t, T: BenchDocument + Deserialize<'t>>(tree: &'t Tree) -> Result<T, ScenarioError> {
+    let document: T = reader::read(tree)?;
+    document.validate()?;
     Ok(document)
 }
 
-fn written(document: &impl Serialize) -> Result<String, ScenarioError> {
+/// Writes the document of a bench as JSON, indented; all digits of all numbers are kept.
+///
+/// # Errors
+/// What [`BenchDocument::validate`] finds: a document that could not be read again is not written.
+pub fn to_json(document: &impl BenchDocument) -> Result<String, ScenarioError> {
+    document.validate()?;
     serde_json::to_string_pretty(document).map_err(|error| malformed(String::new(), error.to_string()))
 }
 
-/// Writes a scenario as JSON, indented; all digits of all numbers are kept.
+/// Writes a document of any kind as JSON.
 ///
 /// # Errors
-/// What [`Scenario::validate`] finds: a document that could not be read again is not written.
-pub fn to_json(scenario: &Scenario) -> Result<String, ScenarioError> {
-    scenario.validate()?;
-    written(scenario)
-}
-
-/// Writes a relay-tuning session as JSON, as [`to_json`] writes a scenario.
-///
-/// # Errors
-/// What [`TuningScenario::validate`] finds.
-pub fn tuning_to_json(scenario: &TuningScenario) -> Result<String, ScenarioError> {
-    scenario.validate()?;
-    written(scenario)
-}
-
-/// Writes a run under the model-free law as JSON, as [`to_json`] writes a scenario.
-///
-/// # Errors
-/// What [`ModelFreeScenario::validate`] finds.
-pub fn model_free_to_json(scenario: &ModelFreeScenario) -> Result<String, ScenarioError> {
-    scenario.validate()?;
-    written(scenario)
-}
-
-/// Writes a document of any kind as JSON, as [`to_json`] writes a scenario.
-///
-/// # Errors
-/// What its validation finds.
+/// As [`to_json`].
 pub(super) fn document_to_json(document: &Document) -> Result<String, ScenarioError> {
     match document {
         Document::Quadruple(scenario) => to_json(scenario),
-        Document::Tuning(scenario) => tuning_to_json(scenario),
-        Document::ModelFree(scenario) => model_free_to_json(scenario),
+        Document::Tuning(scenario) => to_json(scenario),
+        Document::ModelFree(scenario) => to_json(scenario),
     }
 }

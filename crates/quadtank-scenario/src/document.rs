@@ -2,7 +2,30 @@ use quadtank::literature::PresetId;
 use quadtank::study::quadruple_tank::{Setup, setup_of};
 use serde::{Deserialize, Serialize};
 
-use super::{ScenarioError, params, validate};
+use super::{Document, ScenarioError, params, validate};
+
+/// The document of a bench: a setup, setups pinned to compare with, and what the screen shows of them.
+pub trait BenchDocument: Clone + Default + PartialEq + Serialize + Into<Document> + TryFrom<Document> {
+    /// What results follow from.
+    type Setup: Clone + PartialEq;
+    /// The version that this program writes, which is the bench's own.
+    const VERSION: u32;
+
+    /// The setup that is worked on.
+    fn setup(&self) -> &Self::Setup;
+
+    /// The same, to change it.
+    fn setup_mut(&mut self) -> &mut Self::Setup;
+
+    /// Setups pinned to compare with.
+    fn pinned(&self) -> &[Self::Setup];
+
+    /// Checks every number against its [row](super::params), the lengths of all lists, and what has to hold between numbers.
+    ///
+    /// # Errors
+    /// [`ScenarioError`] for the first field that is not allowed.
+    fn validate(&self) -> Result<(), ScenarioError>;
+}
 
 /// What the screen shows beside the run itself. Nothing here changes a number.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -39,21 +62,49 @@ pub struct Scenario {
 }
 
 impl Scenario {
-    /// The version that this program writes.
-    pub const VERSION: u32 = 1;
     /// How many pinned runs a scenario holds.
     pub const MAX_PINNED: usize = 3;
+}
 
-    /// Checks every number against its [row](super::params), the lengths of all lists, and what has to hold between numbers.
-    ///
-    /// # Errors
-    /// [`ScenarioError::OutOfRange`] or [`ScenarioError::TooMany`] for the first field that is not allowed.
-    pub fn validate(&self) -> Result<(), ScenarioError> {
+impl BenchDocument for Scenario {
+    type Setup = Setup;
+    const VERSION: u32 = 1;
+
+    fn setup(&self) -> &Setup {
+        &self.setup
+    }
+
+    fn setup_mut(&mut self) -> &mut Setup {
+        &mut self.setup
+    }
+
+    fn pinned(&self) -> &[Setup] {
+        &self.pinned
+    }
+
+    fn validate(&self) -> Result<(), ScenarioError> {
         params::check(self)?;
         validate::version(self.version, Self::VERSION)?;
         validate::setup(&self.setup, "setup")?;
         validate::each(&self.pinned, "pinned", validate::setup)?;
         validate::view(&self.view, "view")
+    }
+}
+
+impl From<Scenario> for Document {
+    fn from(document: Scenario) -> Self {
+        Self::Quadruple(document)
+    }
+}
+
+impl TryFrom<Document> for Scenario {
+    type Error = Document;
+
+    fn try_from(document: Document) -> Result<Self, Document> {
+        match document {
+            Document::Quadruple(document) => Ok(document),
+            other => Err(other),
+        }
     }
 }
 

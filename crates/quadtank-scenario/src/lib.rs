@@ -25,15 +25,12 @@ mod tree;
 pub mod tuning;
 mod validate;
 
-pub use codec::{
-    DOCUMENT_LIMIT, Document, check_length, document_from_bytes, document_from_json, from_json, model_free_to_json,
-    to_json, tuning_to_json,
-};
+pub use codec::{DOCUMENT_LIMIT, Document, check_length, document_from_bytes, document_from_json, from_json, to_json};
 pub use csv::{roots_to_csv, run_to_csv, valve_map_to_csv};
-pub use document::{Scenario, View};
+pub use document::{BenchDocument, Scenario, View};
 pub use error::ScenarioError;
 pub use limits::Limits;
-pub use link::{LINK_LIMIT, document_from_link, model_free_to_link, to_link, tuning_to_link};
+pub use link::{LINK_LIMIT, document_from_link, to_link};
 pub use report::AnalysisReport;
 #[cfg(feature = "schema")]
 pub use schema::schema_of;

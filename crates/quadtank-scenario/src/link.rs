@@ -9,11 +9,9 @@
 use base64::Engine;
 use base64::engine::general_purpose::URL_SAFE_NO_PAD;
 
-use super::codec::{DOCUMENT_LIMIT, Document, document_from_json, model_free_to_json, to_json, tuning_to_json};
-use super::model_free::ModelFreeScenario;
+use super::codec::{DOCUMENT_LIMIT, Document, document_from_json, to_json};
 use super::pack::{pack, unpack};
-use super::tuning::TuningScenario;
-use super::{Scenario, ScenarioError};
+use super::{BenchDocument, ScenarioError};
 
 /// Longest link that is written or read (characters), the prefix included.
 pub const LINK_LIMIT: usize = 2000;
@@ -22,14 +20,14 @@ pub const LINK_LIMIT: usize = 2000;
 const MARK: char = 'q';
 /// Number of the newest format.
 const NEWEST: u32 = 3;
-/// What links of each format, from 1, are packed against.
+/// What links of each format, which is the version of their document, are packed against.
 const DICTIONARIES: [&[u8]; 3] =
     [include_bytes!("dictionary-1.jsonl"), include_bytes!("dictionary-2.jsonl"), include_bytes!("dictionary-3.jsonl")];
 
-/// Writes a scenario as text for the fragment of a URL: only letters, digits, `.`, `-` and `_`.
+/// Writes the document of a bench as text for the fragment of a URL: only letters, digits, `.`, `-` and `_`.
 ///
 /// # Errors
-/// [`ScenarioError::TooLong`] beyond [`LINK_LIMIT`], or what [`Scenario::validate`] finds.
+/// [`ScenarioError::TooLong`] beyond [`LINK_LIMIT`], or what [`BenchDocument::validate`] finds.
 ///
 /// # Examples
 /// ```
@@ -40,37 +38,18 @@ const DICTIONARIES: [&[u8]; 3] =
 /// assert_eq!(document_from_link(&link)?, Document::Quadruple(scenario));
 /// # Ok::<(), quadtank_scenario::ScenarioError>(())
 /// ```
-pub fn to_link(scenario: &Scenario) -> Result<String, ScenarioError> {
-    write(1, &to_json(scenario)?)
-}
-
-/// Writes a tuning session as [`to_link`] writes a scenario.
-///
-/// # Errors
-/// [`ScenarioError::TooLong`] beyond [`LINK_LIMIT`], or what [`TuningScenario::validate`] finds.
-pub fn tuning_to_link(scenario: &TuningScenario) -> Result<String, ScenarioError> {
-    write(2, &tuning_to_json(scenario)?)
-}
-
-/// Writes a run under the model-free law as [`to_link`] writes a scenario.
-///
-/// # Errors
-/// [`ScenarioError::TooLong`] beyond [`LINK_LIMIT`], or what [`ModelFreeScenario::validate`] finds.
-pub fn model_free_to_link(scenario: &ModelFreeScenario) -> Result<String, ScenarioError> {
-    write(3, &model_free_to_json(scenario)?)
-}
-
-fn write(format: usize, json: &str) -> Result<String, ScenarioError> {
+pub fn to_link<D: BenchDocument>(document: &D) -> Result<String, ScenarioError> {
     // Without the indentation: a string of a document has no line breaks, so every line starts with it.
-    let line: String = json.lines().map(str::trim_start).collect();
-    let link = format!("{MARK}{format}.{}", URL_SAFE_NO_PAD.encode(pack(DICTIONARIES[format - 1], line.as_bytes())));
+    let line: String = to_json(document)?.lines().map(str::trim_start).collect();
+    let (format, dictionary) = (D::VERSION, DICTIONARIES[D::VERSION as usize - 1]);
+    let link = format!("{MARK}{format}.{}", URL_SAFE_NO_PAD.encode(pack(dictionary, line.as_bytes())));
     if link.len() > LINK_LIMIT {
         return Err(ScenarioError::TooLong { length: link.len(), max: LINK_LIMIT });
     }
     Ok(link)
 }
 
-/// Reads a document from the text that [`to_link`] and its like write.
+/// Reads a document from the text that [`to_link`] writes.
 ///
 /// # Errors
 /// [`ScenarioError::DamagedLink`], and those of [`document_from_json`].
@@ -78,7 +57,7 @@ pub fn document_from_link(link: &str) -> Result<Document, ScenarioError> {
     document_from_json(&json_of_link(link)?)
 }
 
-/// The JSON in the text that [`to_link`] and its like write.
+/// The JSON in the text that [`to_link`] writes.
 ///
 /// # Errors
 /// [`ScenarioError::TooLong`] beyond [`LINK_LIMIT`]; [`ScenarioError::UnknownVersion`] for a format of a later program;

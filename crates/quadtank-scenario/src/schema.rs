@@ -8,6 +8,7 @@ use super::Scenario;
 use super::model_free::ModelFreeScenario;
 use super::params::{List, Param, field_of};
 use super::tuning::TuningScenario;
+use crate::BenchDocument;
 
 type Object = Map<String, Value>;
 

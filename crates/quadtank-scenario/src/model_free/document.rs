@@ -1,7 +1,7 @@
 use quadtank::study::model_free::ModelFreeSetup;
 use serde::{Deserialize, Serialize};
 
-use crate::{ScenarioError, params, validate};
+use crate::{BenchDocument, Document, ScenarioError, params, validate};
 
 /// A run under the model-free law.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -17,19 +17,43 @@ pub struct ModelFreeScenario {
     pub cursor_s: Option<f64>,
 }
 
-impl ModelFreeScenario {
-    /// The version of these documents.
-    pub const VERSION: u32 = 3;
+impl BenchDocument for ModelFreeScenario {
+    type Setup = ModelFreeSetup;
+    const VERSION: u32 = 3;
 
-    /// Checks every number, the lengths of all lists, and what has to hold between numbers.
-    ///
-    /// # Errors
-    /// [`ScenarioError::OutOfRange`], [`ScenarioError::Law`] or [`ScenarioError::TooMany`] for the first field that is
-    /// not allowed.
-    pub fn validate(&self) -> Result<(), ScenarioError> {
+    fn setup(&self) -> &ModelFreeSetup {
+        &self.model_free
+    }
+
+    fn setup_mut(&mut self) -> &mut ModelFreeSetup {
+        &mut self.model_free
+    }
+
+    fn pinned(&self) -> &[ModelFreeSetup] {
+        &[]
+    }
+
+    fn validate(&self) -> Result<(), ScenarioError> {
         params::check(self)?;
         validate::version(self.version, Self::VERSION)?;
         super::validate::setup(&self.model_free, "model_free")
+    }
+}
+
+impl From<ModelFreeScenario> for Document {
+    fn from(document: ModelFreeScenario) -> Self {
+        Self::ModelFree(document)
+    }
+}
+
+impl TryFrom<Document> for ModelFreeScenario {
+    type Error = Document;
+
+    fn try_from(document: Document) -> Result<Self, Document> {
+        match document {
+            Document::ModelFree(document) => Ok(document),
+            other => Err(other),
+        }
     }
 }
 

@@ -1,5 +1,6 @@
 use super::Scale::{Linear, Logarithmic};
 use super::{List, Param, Scale};
+use crate::BenchDocument;
 use crate::Scenario;
 use crate::limits::{self, Limits};
 use crate::model_free::ModelFreeScenario;

@@ -1,7 +1,7 @@
 use quadtank::study::relay_tuning::TuningSetup;
 use serde::{Deserialize, Serialize};
 
-use crate::{ScenarioError, params, validate};
+use crate::{BenchDocument, Document, ScenarioError, params, validate};
 
 /// A relay-tuning session.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -18,20 +18,48 @@ pub struct TuningScenario {
 }
 
 impl TuningScenario {
-    /// The version of these documents.
-    pub const VERSION: u32 = 2;
     /// Most pinned sessions.
     pub const MAX_PINNED: usize = 3;
+}
 
-    /// Checks every number, the lengths of all lists, and what has to hold between numbers.
-    ///
-    /// # Errors
-    /// [`ScenarioError::OutOfRange`] or [`ScenarioError::TooMany`] for the first field that is not allowed.
-    pub fn validate(&self) -> Result<(), ScenarioError> {
+impl BenchDocument for TuningScenario {
+    type Setup = TuningSetup;
+    const VERSION: u32 = 2;
+
+    fn setup(&self) -> &TuningSetup {
+        &self.tuning
+    }
+
+    fn setup_mut(&mut self) -> &mut TuningSetup {
+        &mut self.tuning
+    }
+
+    fn pinned(&self) -> &[TuningSetup] {
+        &self.pinned
+    }
+
+    fn validate(&self) -> Result<(), ScenarioError> {
         params::check(self)?;
         validate::version(self.version, Self::VERSION)?;
         super::validate::setup(&self.tuning, "tuning")?;
         validate::each(&self.pinned, "pinned", super::validate::setup)
+    }
+}
+
+impl From<TuningScenario> for Document {
+    fn from(document: TuningScenario) -> Self {
+        Self::Tuning(document)
+    }
+}
+
+impl TryFrom<Document> for TuningScenario {
+    type Error = Document;
+
+    fn try_from(document: Document) -> Result<Self, Document> {
+        match document {
+            Document::Tuning(document) => Ok(document),
+            other => Err(other),
+        }
     }
 }
 

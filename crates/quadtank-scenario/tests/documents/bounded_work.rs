@@ -14,7 +14,7 @@ use quadtank::study::relay_tuning::{PlantStudy, StepResponse, TestKind, Tested, 
 use quadtank::tuning::RelayVerdict;
 use quadtank_scenario::model_free::ModelFreeScenario;
 use quadtank_scenario::tuning::TuningScenario;
-use quadtank_scenario::{Document, document_from_json};
+use quadtank_scenario::{BenchDocument, Document, document_from_json};
 
 /// Documents of each version.
 const DOCUMENTS: usize = 2000;

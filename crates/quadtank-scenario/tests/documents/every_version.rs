@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use proptest::sample::Index;
 use quadtank_scenario::tuning::TuningScenario;
-use quadtank_scenario::{Document, ScenarioError, document_from_json, model_free_to_json, to_json, tuning_to_json};
+use quadtank_scenario::{Document, ScenarioError, document_from_json, to_json};
 use serde_json::Value;
 
 /// Documents of all versions in which most fields occur.
@@ -11,7 +11,7 @@ fn documents() -> Vec<Value> {
     let rich = |line: &str| serde_json::from_str(line).unwrap();
     let own_rig = include_str!("../data/scenario-v1-own-rig.json");
     let [session, model_free] = [
-        tuning_to_json(&TuningScenario::default()).unwrap(),
+        to_json(&TuningScenario::default()).unwrap(),
         include_str!("../../src/dictionary-3.jsonl").lines().next().unwrap().to_owned(),
     ];
     vec![rich(own_rig), rich(&session), rich(&model_free)]
@@ -30,8 +30,8 @@ fn pointers(value: &Value, at: &str) -> Vec<String> {
 fn written(document: &Document) -> Result<String, ScenarioError> {
     match document {
         Document::Quadruple(scenario) => to_json(scenario),
-        Document::Tuning(scenario) => tuning_to_json(scenario),
-        Document::ModelFree(scenario) => model_free_to_json(scenario),
+        Document::Tuning(scenario) => to_json(scenario),
+        Document::ModelFree(scenario) => to_json(scenario),
     }
 }
 

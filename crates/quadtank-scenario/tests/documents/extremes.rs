@@ -13,8 +13,7 @@ use quadtank::study::quadruple_tank::{Setup, ValveMap, analyse, run};
 use quadtank::study::relay_tuning::{TuningSetup, tune};
 use quadtank_scenario::tuning::{TuningScenario, record_to_csv};
 use quadtank_scenario::{
-    Document, ScenarioError, document_from_json, model_free, model_free_to_json, roots_to_csv, run_to_csv, to_json,
-    tuning_to_json, valve_map_to_csv,
+    Document, ScenarioError, document_from_json, model_free, roots_to_csv, run_to_csv, to_json, valve_map_to_csv,
 };
 use serde_json::{Value, json};
 
@@ -169,7 +168,7 @@ fn of_every_field_at_each_of_its_extremes() {
 /// The published sessions, and one with a plant of transfer functions.
 fn sessions() -> Vec<String> {
     let published =
-        PublishedCase::all().map(|case| tuning_to_json(&TuningScenario::from(TuningSetup::published(case))).unwrap());
+        PublishedCase::all().map(|case| to_json(&TuningScenario::from(TuningSetup::published(case))).unwrap());
     published.chain([include_str!("../data/margins-between-grid-points.json").to_owned()]).collect()
 }
 
@@ -195,7 +194,7 @@ proptest! {
 
     #[test]
     fn of_a_run_under_the_model_free_law(scenario in crate::random::model_free(3), extremes in extremes()) {
-        check(&with_extremes(&model_free_to_json(&scenario).unwrap(), &extremes));
+        check(&with_extremes(&to_json(&scenario).unwrap(), &extremes));
     }
 
     #[test]

@@ -4,9 +4,7 @@ use proptest::prelude::*;
 use quadtank::literature::junqueira::{PublishedExperiment, PublishedValves};
 use quadtank::study::model_free::ModelFreeSetup;
 use quadtank_scenario::model_free::ModelFreeScenario;
-use quadtank_scenario::{
-    Document, LINK_LIMIT, document_from_json, document_from_link, limits, model_free_to_json, model_free_to_link,
-};
+use quadtank_scenario::{Document, LINK_LIMIT, document_from_json, document_from_link, limits, to_json, to_link};
 
 fn published() -> impl Iterator<Item = ModelFreeScenario> {
     let cases = PublishedValves::ALL.into_iter().flat_map(|valves| PublishedExperiment::ALL.map(|run| (valves, run)));
@@ -18,13 +16,13 @@ proptest! {
     fn json_brings_back_every_digit(
         scenario in crate::random::model_free(limits::MAX_STEPS),
     ) {
-        let text = model_free_to_json(&scenario).unwrap();
+        let text = to_json(&scenario).unwrap();
         prop_assert_eq!(document_from_json(&text), Ok(Document::ModelFree(scenario)));
     }
 
     #[test]
     fn links_bring_back_every_digit(scenario in crate::random::model_free(2)) {
-        let link = model_free_to_link(&scenario).unwrap();
+        let link = to_link(&scenario).unwrap();
         prop_assert!(link.starts_with("q3.") && link.len() <= LINK_LIMIT);
         prop_assert_eq!(document_from_link(&link), Ok(Document::ModelFree(scenario)));
     }
@@ -33,7 +31,7 @@ proptest! {
 #[test]
 fn a_published_case_takes_a_short_link() {
     for scenario in published() {
-        let link = model_free_to_link(&scenario).unwrap();
+        let link = to_link(&scenario).unwrap();
         assert!(link.len() <= 30, "{}: {link}", link.len());
         assert_eq!(document_from_link(&link), Ok(Document::ModelFree(scenario)));
     }
@@ -44,13 +42,13 @@ fn a_published_case_takes_a_short_link() {
 fn the_dictionary_holds_the_published_cases_as_they_are_written() {
     let dictionary = include_str!("../../src/dictionary-3.jsonl");
     for scenario in published() {
-        let text = model_free_to_json(&scenario).unwrap();
+        let text = to_json(&scenario).unwrap();
         let line: String = text.lines().map(str::trim_start).collect();
         assert!(dictionary.lines().any(|known| known == line), "{line}");
     }
     for line in dictionary.lines() {
         let Ok(Document::ModelFree(scenario)) = document_from_json(line) else { panic!("{line}") };
-        let text = model_free_to_json(&scenario).unwrap();
+        let text = to_json(&scenario).unwrap();
         assert_eq!(text.lines().map(str::trim_start).collect::<String>(), line);
     }
 }
@@ -58,17 +56,17 @@ fn the_dictionary_holds_the_published_cases_as_they_are_written() {
 #[test]
 fn cursor_and_comparison_stand_only_where_there_are_any() {
     let mut scenario = ModelFreeScenario::default();
-    let text = model_free_to_json(&scenario).unwrap();
+    let text = to_json(&scenario).unwrap();
     assert!(!text.contains("cursor_s") && !text.contains("compare"));
     scenario.model_free.compare = Some(scenario.model_free.usual_pi());
     scenario.cursor_s = Some(12.5);
-    let text = model_free_to_json(&scenario).unwrap();
+    let text = to_json(&scenario).unwrap();
     assert_eq!(document_from_json(&text), Ok(Document::ModelFree(scenario.clone())));
-    let link = model_free_to_link(&scenario).unwrap();
+    let link = to_link(&scenario).unwrap();
     assert!(link.len() <= 200, "{}: {link}", link.len());
 
     scenario.model_free.controller.loops[1].model_gain = 0.0;
-    let refused = model_free_to_json(&scenario).unwrap_err();
+    let refused = to_json(&scenario).unwrap_err();
     assert!(refused.to_string().starts_with("model_free.controller.loops[1].model_gain: 0"), "{refused}");
 }
 
@@ -79,6 +77,6 @@ fn an_old_link_still_opens() {
     scenario.model_free.controller.loops[0].proportional = 0.5;
     scenario.cursor_s = Some(123.0);
     let link = include_str!("../data/scenario-v3-junqueira.link").trim();
-    assert_eq!(model_free_to_link(&scenario).as_deref(), Ok(link));
+    assert_eq!(to_link(&scenario).as_deref(), Ok(link));
     assert_eq!(document_from_link(link), Ok(Document::ModelFree(scenario)));
 }

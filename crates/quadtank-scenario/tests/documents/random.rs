@@ -13,7 +13,7 @@ use quadtank::sim::{Experiment, Load, LoadStep, Measurement, SetPointStep};
 use quadtank::study::model_free::{ModelFreeSetup, StartSpec};
 use quadtank::study::quadruple_tank::{OperatingPointSpec, PlantSpec, Setup};
 use quadtank_scenario::model_free::ModelFreeScenario;
-use quadtank_scenario::{Limits, Scenario, View, limits};
+use quadtank_scenario::{BenchDocument, Limits, Scenario, View, limits};
 
 /// One of the published rigs.
 pub fn preset() -> impl Strategy<Value = PresetId> {

@@ -11,9 +11,7 @@ use quadtank::study::relay_tuning::{
 };
 use quadtank::tuning::RelayReading;
 use quadtank_scenario::tuning::TuningScenario;
-use quadtank_scenario::{
-    Document, ScenarioError, document_from_json, document_from_link, from_json, tuning_to_json, tuning_to_link,
-};
+use quadtank_scenario::{Document, ScenarioError, document_from_json, document_from_link, from_json, to_json, to_link};
 use serde_json::{Value, json};
 
 /// What print and computation differ in by more than the digits of the print and of its periods leave open. Where the source is
@@ -81,7 +79,7 @@ fn every_published_placement_is_stable_but_one() {
 fn documents_of_both_versions_come_back() {
     for case in PublishedCase::all() {
         assert_eq!(PublishedCase::from_name(&case.name()), Some(case));
-        let text = tuning_to_json(&TuningScenario::from(TuningSetup::published(case))).unwrap();
+        let text = to_json(&TuningScenario::from(TuningSetup::published(case))).unwrap();
         assert_eq!(document_from_json(&text), Ok(Document::Tuning(TuningScenario::from(TuningSetup::published(case)))));
         // Who reads only the first version says so.
         assert!(matches!(from_json(&text), Err(ScenarioError::UnknownVersion { found: 2, newest: 1 })));
@@ -94,8 +92,7 @@ fn documents_of_both_versions_come_back() {
 
 #[test]
 fn a_wrong_field_is_named() {
-    let text =
-        tuning_to_json(&TuningScenario::from(TuningSetup::published(PublishedCase { table: 5, row: 1 }))).unwrap();
+    let text = to_json(&TuningScenario::from(TuningSetup::published(PublishedCase { table: 5, row: 1 }))).unwrap();
     let refused = |from: &str, to: &str| {
         assert!(text.contains(from), "{from}");
         document_from_json(&text.replacen(from, to, 1)).unwrap_err().to_string()
@@ -108,7 +105,7 @@ fn a_wrong_field_is_named() {
 
 #[test]
 fn what_may_be_absent_is_as_if_it_were_not_used() {
-    let mut document: Value = serde_json::from_str(&tuning_to_json(&TuningScenario::default()).unwrap()).unwrap();
+    let mut document: Value = serde_json::from_str(&to_json(&TuningScenario::default()).unwrap()).unwrap();
     document.as_object_mut().unwrap().remove("pinned");
     let tuning = &mut document["tuning"];
     for (part, names) in [
@@ -139,7 +136,7 @@ fn what_may_be_absent_is_as_if_it_were_not_used() {
     let Ok(Document::Tuning(scenario)) = document_from_json(&document.to_string()) else { panic!("a session") };
     let TuningPlant::Elements(rows) = &scenario.tuning.plant else { panic!("elements") };
     assert_eq!(rows[1][0], Element { numerator: vec![1.0], denominator: vec![1.0, 2.5], dead_time: 0.0 });
-    assert_eq!(document_from_json(&tuning_to_json(&scenario).unwrap()), Ok(Document::Tuning(scenario)));
+    assert_eq!(document_from_json(&to_json(&scenario).unwrap()), Ok(Document::Tuning(scenario)));
 }
 
 #[test]
@@ -148,13 +145,13 @@ fn links_bring_sessions_back_and_are_short() {
     let rigs = PresetId::ALL
         .map(|id| TuningScenario { tuning: TuningSetup::on(TuningPlant::rig(id)), ..TuningScenario::default() });
     for scenario in scenarios.chain(rigs) {
-        let link = tuning_to_link(&scenario).unwrap();
+        let link = to_link(&scenario).unwrap();
         assert_eq!(document_from_link(&link), Ok(Document::Tuning(scenario)), "{link}");
         assert!(link.len() < 250, "{}: {link}", link.len());
     }
     let default = TuningScenario::default();
     let full = TuningScenario { pinned: vec![default.tuning.clone(); TuningScenario::MAX_PINNED], ..default };
-    assert_eq!(document_from_link(&tuning_to_link(&full).unwrap()), Ok(Document::Tuning(full)));
+    assert_eq!(document_from_link(&to_link(&full).unwrap()), Ok(Document::Tuning(full)));
 }
 
 // A link that is out in the world: this one never changes, nor does the dictionary.

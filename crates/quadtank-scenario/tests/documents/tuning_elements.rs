@@ -9,7 +9,7 @@ use quadtank::study::relay_tuning::{
     TuningSetup, tune,
 };
 use quadtank_scenario::tuning::{TuningScenario, TuningWarning, warnings};
-use quadtank_scenario::{ScenarioError, document_from_json, tuning_to_json};
+use quadtank_scenario::{BenchDocument, ScenarioError, document_from_json, to_json};
 
 /// A change of a session.
 type Change = fn(&mut TuningSetup);
@@ -248,5 +248,5 @@ fn nonlinear_rig() -> TuningPlant {
 fn a_session_with_warnings_is_written_and_read_again() {
     let scenario =
         TuningScenario { tuning: session(COLUMNS[0].map(element).map(reversed)), ..TuningScenario::default() };
-    assert!(document_from_json(&tuning_to_json(&scenario).unwrap()).is_ok());
+    assert!(document_from_json(&to_json(&scenario).unwrap()).is_ok());
 }

@@ -18,7 +18,7 @@ use quadtank::study::relay_tuning::{
 use quadtank::tuning::{Action, PlacementMethod, TuningRule};
 use quadtank_scenario::model_free::ModelFreeScenario;
 use quadtank_scenario::tuning::TuningScenario;
-use quadtank_scenario::{Limits, Scenario, View, limits};
+use quadtank_scenario::{BenchDocument, Limits, Scenario, View, limits};
 
 /// Farthest target of a placement, the limit of the document.
 const FARTHEST_TARGET: f64 = 1e6;
