@@ -5,40 +5,9 @@
 use leptos::prelude::*;
 
 use super::lab::Lab;
+use super::session::{Bench, Session, SetupOf};
 use super::start::Control;
 use super::widgets::{NumberField, Scale, Segmented, SliderField};
-use quadtank::study::quadruple_tank::Setup;
-
-/// The document of a bench, as its controls see it. A handle: copying it copies nothing.
-pub trait Document: Copy + Send + Sync + 'static {
-    /// What controls read and write.
-    type Setup: 'static;
-
-    /// What all benches share.
-    fn lab(self) -> Lab;
-
-    /// What `read` makes of the setup.
-    fn read<T>(self, read: impl FnOnce(&Self::Setup) -> T) -> T;
-
-    /// Changes the setup.
-    fn write(self, change: impl FnOnce(&mut Self::Setup));
-}
-
-impl Document for Lab {
-    type Setup = Setup;
-
-    fn lab(self) -> Lab {
-        self
-    }
-
-    fn read<T>(self, read: impl FnOnce(&Setup) -> T) -> T {
-        self.scenario.with(|s| read(&s.setup))
-    }
-
-    fn write(self, change: impl FnOnce(&mut Setup)) {
-        self.edit(change);
-    }
-}
 
 /// A stretch of numbers that depends on a setup.
 type Range<S> = fn(&S) -> (f64, f64);
@@ -100,76 +69,76 @@ impl<S> Knob<S> {
 
 /// A slider with its number field, or a number field in a row of its own.
 #[component]
-pub fn KnobRow<D: Document>(
-    /// The document that it is a number of.
-    document: D,
+pub fn KnobRow<B: Bench>(
+    /// The bench whose setup it is a number of.
+    session: Session<B>,
     /// The number.
-    knob: &'static Knob<D::Setup>,
+    knob: &'static Knob<SetupOf<B>>,
     /// Which one of a pair.
     #[prop(optional)]
     index: usize,
 ) -> impl IntoView {
     let &Knob { ids, scale, digits, smallest, class, .. } = knob;
-    let (id, class, lab) = (ids[index], class[index], document.lab());
+    let (id, class, lab) = (ids[index], class[index], session.lab);
     let label = Signal::derive(move || (knob.label)(lab, index));
-    let unit = lab.told(Signal::derive(move || document.read(knob.unit).to_owned()));
-    let Wires { name, value, on_change, limits, disabled } = wires(document, knob, index);
+    let unit = lab.told(Signal::derive(move || session.read(knob.unit).to_owned()));
+    let Wires { name, value, on_change, limits, disabled } = wires(session, knob, index);
     let Some(travel) = knob.travel else {
         return view! {
             <div class=format!("field-row {class}")>
                 <span title=name>{label}</span>
-                <KnobNumber document knob index />
+                <KnobNumber session knob index />
                 <span class="unit">{unit}</span>
             </div>
         }
         .into_any();
     };
-    let travel = Signal::derive(move || document.read(travel));
+    let travel = Signal::derive(move || session.read(travel));
     view! { <SliderField id label name value on_change travel limits smallest scale digits unit class disabled /> }
         .into_any()
 }
 
 /// The number field alone, for a row of another shape.
 #[component]
-pub fn KnobNumber<D: Document>(
-    /// The document that it is a number of.
-    document: D,
+pub fn KnobNumber<B: Bench>(
+    /// The bench whose setup it is a number of.
+    session: Session<B>,
     /// The number.
-    knob: &'static Knob<D::Setup>,
+    knob: &'static Knob<SetupOf<B>>,
     /// Which one of a pair.
     #[prop(optional)]
     index: usize,
 ) -> impl IntoView {
     let &Knob { ids, scale, digits, smallest, .. } = knob;
-    let Wires { name, value, on_change, limits, disabled } = wires(document, knob, index);
-    let grid = Signal::derive(move || document.read(knob.grid));
+    let Wires { name, value, on_change, limits, disabled } = wires(session, knob, index);
+    let grid = Signal::derive(move || session.read(knob.grid));
     view! { <NumberField id=ids[index].1 name value on_change limits scale digits smallest grid disabled /> }
 }
 
 /// A choice among few in a document.
 #[component]
-pub fn Switch<D, T>(
-    /// The document.
-    document: D,
+pub fn Switch<B, T>(
+    /// The bench.
+    session: Session<B>,
     /// What is chosen between, for screen readers.
     #[prop(into)]
     label: Signal<String>,
     /// The choices with their names for tests, and their texts.
     choices: Vec<(T, &'static str, Signal<String>)>,
     /// The choice in force.
-    read: fn(&D::Setup) -> T,
+    read: fn(&SetupOf<B>) -> T,
     /// Makes another choice.
-    write: fn(&mut D::Setup, T),
+    write: fn(&mut SetupOf<B>, T),
     /// What locks it.
     lock: Control,
 ) -> impl IntoView
 where
-    D: Document,
+    B: Bench,
     T: Copy + PartialEq + Send + Sync + 'static,
 {
-    let on_choose = move |choice| document.write(|s| write(s, choice));
-    let value = document.lab().told(Signal::derive(move || document.read(read)));
-    view! { <Segmented label choices value on_choose disabled=document.lab().locks(lock) /> }
+    let on_choose = move |choice| session.edit(|s| write(s, choice));
+    let value = session.lab.told(Signal::derive(move || session.read(read)));
+    view! { <Segmented label choices value on_choose disabled=session.lab.locks(lock) /> }
 }
 
 /// What connects a field with a document.
@@ -181,16 +150,16 @@ struct Wires {
     disabled: Signal<bool>,
 }
 
-fn wires<D: Document>(document: D, knob: &'static Knob<D::Setup>, index: usize) -> Wires {
-    let (lab, locked) = (document.lab(), document.lab().locks(knob.lock));
+fn wires<B: Bench>(session: Session<B>, knob: &'static Knob<SetupOf<B>>, index: usize) -> Wires {
+    let (lab, locked) = (session.lab, session.lab.locks(knob.lock));
     // No memos: fields read all but the last when the words are told or a key is pressed, and do not follow it.
     Wires {
         name: Signal::derive(move || (knob.name)(lab, index)),
-        value: Signal::derive(move || document.read(|s| (knob.read)(s, index))),
-        on_change: Callback::new(move |value| document.write(|s| (knob.write)(s, index, value))),
-        limits: Signal::derive(move || document.read(|s| (knob.limits)(s, index))),
+        value: Signal::derive(move || session.read(|s| (knob.read)(s, index))),
+        on_change: Callback::new(move |value| session.edit(|s| (knob.write)(s, index, value))),
+        limits: Signal::derive(move || session.read(|s| (knob.limits)(s, index))),
         disabled: match knob.matters {
-            Some(matters) => Memo::new(move |_| locked || !document.read(matters)).into(),
+            Some(matters) => Memo::new(move |_| locked || !session.read(matters)).into(),
             None => locked.into(),
         },
     }

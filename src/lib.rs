@@ -1,21 +1,18 @@
 //! The Leptos user interface: benches, charts on screen, widgets, the drawing of the plant, texts.
 //!
-//! `lab` holds the state, `pace` the way of one change from an event to pixels; `quadruple` is the home bench, `relay` the
-//! one for relay tuning, `model_free` the one for model-free control; `widgets` are the parts that any bench is made of. There
-//! is no control arithmetic here: every number comes from [`quadtank_scenario`].
+//! `benches` is the list of the benches, a folder for each; `session` is the document of a bench with its results, `frames` the way
+//! of one change from an event to pixels, `lab` what all benches share; `widgets` are the parts that any bench is made of. There is
+//! no control theory here: every number comes from [`quadtank::study`].
 
+mod benches;
 mod canvas;
 mod controls;
 mod download;
 mod errors;
 mod format;
+mod frames;
 mod lab;
-mod model_free;
-mod pace;
-mod preset;
-mod quadruple;
-mod relay;
-mod results;
+mod session;
 mod share;
 mod shell;
 mod shown;

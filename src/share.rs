@@ -2,12 +2,10 @@
 
 use leptos::prelude::*;
 
+use super::benches::BenchEntry;
 use super::download::{copy, download_text};
 use super::lab::{Lab, Notice};
-use super::start::Bench;
-use quadtank_scenario::{
-    Document, ScenarioError, check_length, document_from_bytes, document_from_link, to_json, to_link,
-};
+use quadtank_scenario::{Document, ScenarioError, check_length, document_from_bytes, document_from_link};
 
 /// What stands before the link text in the fragment of an address.
 const PREFIX: &str = "lab=";
@@ -22,11 +20,7 @@ pub fn from_address() -> Option<Result<Document, ScenarioError>> {
 
 /// The link of the bench that is shown.
 fn link_of(lab: Lab) -> Result<String, ScenarioError> {
-    match lab.bench.get_untracked() {
-        Bench::QuadrupleTank => lab.scenario.with_untracked(to_link),
-        Bench::RelayTuning => lab.tuning.with_untracked(to_link),
-        Bench::ModelFree => lab.model_free.with_untracked(to_link),
-    }
+    (lab.bench.get_untracked().link)(lab)
 }
 
 /// The address that restores everything. Start flags stay; a page without an address of its own (`srcdoc`) has only the
@@ -66,12 +60,12 @@ fn show_address(address: &str) {
 }
 
 /// Shows another bench, also in the address, so that a reload comes back to it. A link in the address was of the last one.
-pub fn go_to(lab: Lab, bench: Bench) {
+pub fn go_to(lab: Lab, bench: &'static BenchEntry) {
     lab.bench.set(bench);
     let query = window().location().search().unwrap_or_default();
     let others =
         query.trim_start_matches('?').split('&').filter(|pair| !pair.is_empty() && !pair.starts_with("bench="));
-    let query: Vec<String> = others.map(str::to_owned).chain([format!("bench={}", bench.name())]).collect();
+    let query: Vec<String> = others.map(str::to_owned).chain([format!("bench={}", bench.id)]).collect();
     show_address(&format!("?{}", query.join("&")));
 }
 
@@ -80,11 +74,7 @@ pub const FILE: &str = "quadtank-experiment.json";
 
 /// The document of the bench that is shown, as a file and the command line have it.
 pub fn json_of(lab: Lab) -> Result<String, ScenarioError> {
-    match lab.bench.get_untracked() {
-        Bench::QuadrupleTank => lab.scenario.with_untracked(to_json),
-        Bench::RelayTuning => lab.tuning.with_untracked(to_json),
-        Bench::ModelFree => lab.model_free.with_untracked(to_json),
-    }
+    (lab.bench.get_untracked().json)(lab)
 }
 
 /// Hands the experiment over as a file.

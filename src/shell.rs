@@ -5,18 +5,17 @@ use leptos::html::Input;
 use leptos::prelude::*;
 use leptos::wasm_bindgen::JsCast;
 
+use super::benches::{BENCHES, BenchEntry, QuadrupleTank};
 use super::errors::of_error;
 use super::lab::{Lab, Notice, use_lab};
-use super::model_free::ModelFreeBench;
-use super::quadruple::QuadrupleTankBench;
-use super::relay::RelayTuningBench;
 use super::share;
-use super::start::{Bench, StartFlags};
+use super::start::StartFlags;
 use super::stopped::Stopped;
 use super::storage::{LANGUAGE, THEME};
 use super::texts::{Language, say, tr};
+use quadtank::literature::DisplayUnit;
 use quadtank::study::quadruple_tank::setup_of;
-use quadtank_scenario::{Document, Scenario};
+use quadtank_scenario::Scenario;
 
 /// The element of the page that the laboratory fills; it holds the static outline until then.
 const ROOT: &str = "app";
@@ -33,8 +32,12 @@ pub fn mount() {
 
 /// The whole laboratory.
 #[component]
-pub fn Laboratory() -> impl IntoView {
-    let lab = start();
+pub fn Laboratory(
+    /// The benches, the first of which is the home bench.
+    #[prop(default = &BENCHES)]
+    benches: &'static [BenchEntry],
+) -> impl IntoView {
+    let lab = start(benches);
     provide_context(lab);
     Effect::new(move || show_on_root("data-theme", if lab.dark.get() { "dark" } else { "light" }));
     Effect::new(move || show_on_root("lang", lab.language.get().tag()));
@@ -73,7 +76,7 @@ pub fn Laboratory() -> impl IntoView {
             }}
             <Stopped />
             <Notices />
-            {Bench::ALL.map(|bench| view! { <KeptBench bench /> })}
+            {benches.iter().map(|bench| view! { <KeptBench bench /> }).collect_view()}
             {embed.then(|| view! { <EmbedFooter /> })}
         </div>
     }
@@ -82,22 +85,30 @@ pub fn Laboratory() -> impl IntoView {
 /// A bench, made when it is shown first and hidden while another one is. It stays, because signals that outlive a view keep
 /// what is left of its effects until they change: going to and fro would leave kilobytes behind each time.
 #[component]
-fn KeptBench(bench: Bench) -> impl IntoView {
+fn KeptBench(bench: &'static BenchEntry) -> impl IntoView {
     let lab = use_lab();
+    let is_shown = move || lab.bench.get() == bench;
     let seen = RwSignal::new(false);
     Effect::new(move || {
-        if lab.bench.get() == bench && !seen.get_untracked() {
+        if is_shown() && !seen.get_untracked() {
             seen.set(true);
         }
     });
+    let class = if lab.flags.with_value(|f| f.panels.is_empty()) {
+        bench.class.to_owned()
+    } else {
+        format!("{} chosen", bench.class)
+    };
     let content = move || {
-        seen.get().then(|| match bench {
-            Bench::QuadrupleTank => view! { <QuadrupleTankBench /> }.into_any(),
-            Bench::RelayTuning => view! { <RelayTuningBench /> }.into_any(),
-            Bench::ModelFree => view! { <ModelFreeBench /> }.into_any(),
+        let class = class.clone();
+        // The id is that of the bench that is shown.
+        seen.get().then(|| {
+            view! {
+                <main class=class id=move || is_shown().then(|| "bench".to_owned())>{(bench.cards)(lab)}</main>
+            }
         })
     };
-    view! { <div hidden=move || lab.bench.get() != bench>{content}</div> }
+    view! { <div hidden=move || !is_shown()>{content}</div> }
 }
 
 /// Closes the menus that are open, but for the one that was pressed.
@@ -113,7 +124,7 @@ fn close_menus(pressed: Option<web_sys::EventTarget>) {
 }
 
 /// The state that the address and the remembered choices ask for.
-fn start() -> Lab {
+fn start(benches: &'static [BenchEntry]) -> Lab {
     let query = window().location().search().unwrap_or_default();
     let flags = StartFlags::parse(&query);
     let usual_tag = || LANGUAGE.read().or_else(|| window().navigator().language()).unwrap_or_default();
@@ -121,20 +132,13 @@ fn start() -> Lab {
     let prefers_dark =
         || window().match_media("(prefers-color-scheme: dark)").ok().flatten().is_some_and(|query| query.matches());
     let dark = flags.theme.clone().or_else(|| THEME.read()).map_or_else(prefers_dark, |theme| theme == "dark");
-    let mut scenario = Scenario::default();
-    if let Some(id) = flags.preset {
-        scenario.setup = setup_of(id);
+    let preset = flags.preset;
+    let lab = Lab::new(benches, language, dark, flags);
+    // Before any bench is shown, so that each computes its own document at once.
+    if let Some(id) = preset {
+        lab.open_in::<QuadrupleTank>(Scenario::from(setup_of(id)));
     }
-    // A run is computed at once, so the scenario of a link has to be there from the start.
-    let from_address = match share::from_address() {
-        Some(Ok(Document::Quadruple(linked))) => {
-            scenario = linked;
-            None
-        }
-        other => other,
-    };
-    let lab = Lab::new(scenario, language, dark, flags);
-    if let Some(outcome) = from_address {
+    if let Some(outcome) = share::from_address() {
         lab.open(outcome);
     }
     lab
@@ -152,7 +156,7 @@ fn Header() -> impl IntoView {
     view! {
         <header class="top">
             <h1>{say!(lab, app.title)}</h1>
-            <nav aria-label=say!(lab, app.benches)>{Bench::ALL.map(|bench| view! { <BenchLink bench /> })}</nav>
+            <nav aria-label=say!(lab, app.benches)>{lab.benches.iter().map(|bench| view! { <BenchLink bench /> }).collect_view()}</nav>
             <span class="spacer"></span>
             <button type="button" class="button" data-testid="share" on:click=move |_| share::share(lab)>
                 {say!(lab, app.share)}
@@ -173,13 +177,9 @@ fn Header() -> impl IntoView {
 
 /// The way to a bench. It is an address, so it can be opened beside and bookmarked.
 #[component]
-fn BenchLink(bench: Bench) -> impl IntoView {
+fn BenchLink(bench: &'static BenchEntry) -> impl IntoView {
     let lab = use_lab();
-    let text = match bench {
-        Bench::QuadrupleTank => say!(lab, app.quadruple_tank),
-        Bench::RelayTuning => say!(lab, app.relay_tuning),
-        Bench::ModelFree => say!(lab, app.model_free),
-    };
+    let text = move || (bench.title)(lab);
     let go = move |event: ev::MouseEvent| {
         if !(event.ctrl_key() || event.meta_key() || event.shift_key()) {
             event.prevent_default();
@@ -188,8 +188,8 @@ fn BenchLink(bench: Bench) -> impl IntoView {
     };
     view! {
         <a
-            href=format!("?bench={}", bench.name())
-            data-testid=format!("bench-{}", bench.name())
+            href=format!("?bench={}", bench.id)
+            data-testid=format!("bench-{}", bench.id)
             aria-current=move || (lab.bench.get() == bench).then(|| "page".to_owned())
             on:click=go
         >
@@ -276,7 +276,7 @@ fn Notices() -> impl IntoView {
     let lab = use_lab();
     let content = move |notice: Notice| {
         match notice {
-        Notice::Refused(error) => view! { <div>{tr!(lab, refused.lead)} " " {of_error(lab, lab.unit.get(), &error)}</div> }.into_any(),
+        Notice::Refused(error) => view! { <div>{tr!(lab, refused.lead)} " " {of_error(lab, DisplayUnit::Cm, &error)}</div> }.into_any(),
         Notice::NotRead => view! { <div>{tr!(lab, refused.not_read)}</div> }.into_any(),
         Notice::Copied => view! { <div>{tr!(lab, app.copied)}</div> }.into_any(),
         Notice::CopyByHand(link) => view! {

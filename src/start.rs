@@ -7,32 +7,6 @@
 use super::texts::Language;
 use quadtank::literature::PresetId;
 
-/// A bench.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Bench {
-    /// The home bench.
-    #[default]
-    QuadrupleTank,
-    /// Relay tests and ultimate-point placement.
-    RelayTuning,
-    /// Model-free control with moving valves.
-    ModelFree,
-}
-
-impl Bench {
-    /// All benches, in the order of the navigation.
-    pub const ALL: [Self; 3] = [Self::QuadrupleTank, Self::RelayTuning, Self::ModelFree];
-
-    /// Its name in an address.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::QuadrupleTank => "quadruple-tank",
-            Self::RelayTuning => "relay-tuning",
-            Self::ModelFree => "model-free",
-        }
-    }
-}
-
 /// A card of a bench.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Panel {
@@ -124,8 +98,8 @@ const CONTROLS: [(&str, Control); 11] = [
 /// What the query asks for.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StartFlags {
-    /// The bench to show.
-    pub bench: Bench,
+    /// The bench to show, by its name.
+    pub bench: Option<String>,
     /// No header, compact.
     pub embed: bool,
     /// The cards to show; empty for all.
@@ -148,7 +122,7 @@ impl StartFlags {
             let (name, value) = pair.split_once('=').unwrap_or((pair, ""));
             let value = value.replace("%2C", ",").replace("%2c", ",");
             match name {
-                "bench" => flags.bench = Bench::ALL.into_iter().find(|b| b.name() == value).unwrap_or_default(),
+                "bench" => flags.bench = Some(value),
                 "embed" => flags.embed = value == "1",
                 "panels" => flags.panels = chosen(&value, &PANELS),
                 "lock" => flags.locked = chosen(&value, &CONTROLS),
@@ -194,12 +168,6 @@ mod tests {
     fn no_query_shows_everything_and_locks_nothing() {
         let flags = StartFlags::parse("");
         assert!(flags.shows(Panel::Process) && !flags.locks(Control::Preset) && !flags.embed);
-    }
-
-    #[test]
-    fn a_bench_is_found_by_its_name() {
-        assert_eq!(StartFlags::parse("?bench=relay-tuning&lang=en").bench, Bench::RelayTuning);
-        assert_eq!(StartFlags::parse("bench=nonsense").bench, Bench::QuadrupleTank);
     }
 
     #[test]

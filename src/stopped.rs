@@ -63,10 +63,7 @@ fn kept(lab: Lab) -> Signal<Kept> {
     let kept = RwSignal::new(Kept::default());
     let next = StoredValue::new_local(None::<Timeout>);
     Effect::new(move || {
-        lab.bench.track();
-        lab.scenario.track();
-        lab.tuning.track();
-        lab.model_free.track();
+        (lab.bench.get().track)(lab);
         if next.with_value(Option::is_none) {
             let keep = move || {
                 next.set_value(None);

@@ -5,7 +5,9 @@ use serde::{Deserialize, Serialize};
 use super::{Document, ScenarioError, params, validate};
 
 /// The document of a bench: a setup, setups pinned to compare with, and what the screen shows of them.
-pub trait BenchDocument: Clone + Default + PartialEq + Serialize + Into<Document> + TryFrom<Document> {
+pub trait BenchDocument:
+    Clone + Default + PartialEq + Serialize + Into<Document> + TryFrom<Document, Error = Document> + 'static
+{
     /// What results follow from.
     type Setup: Clone + PartialEq;
     /// The version that this program writes, which is the bench's own.

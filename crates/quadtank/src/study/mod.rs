@@ -21,6 +21,9 @@ pub trait Study {
     /// All results, in parts that are shared.
     type Results: Clone;
 
+    /// The setup that results are of.
+    fn setup_of(results: &Self::Results) -> &Arc<Self::Setup>;
+
     /// The results of a setup and of those pinned to compare with, given the last results.
     fn update(setup: &Self::Setup, pinned: &[Self::Setup], last: Option<&Self::Results>) -> Self::Results;
 }

@@ -23,6 +23,10 @@ impl Study for ModelFreeStudy {
     type Setup = ModelFreeSetup;
     type Results = Results;
 
+    fn setup_of(results: &Results) -> &Arc<ModelFreeSetup> {
+        &results.setup
+    }
+
     /// Everything depends on the whole setup; nothing is pinned.
     fn update(setup: &ModelFreeSetup, _: &[ModelFreeSetup], last: Option<&Results>) -> Results {
         if let Some(last) = last.filter(|last| *last.setup == *setup) {

@@ -26,6 +26,10 @@ impl Study for QuadrupleTankStudy {
     type Setup = Setup;
     type Results = Results;
 
+    fn setup_of(results: &Results) -> &Arc<Setup> {
+        &results.setup
+    }
+
     /// The analysis does not depend on the experiment; the run depends on everything.
     fn update(setup: &Setup, pinned: &[Setup], last: Option<&Results>) -> Results {
         let pinned = update_pinned(pinned, last.map(|last| &last.pinned), run);

@@ -31,6 +31,10 @@ impl Study for RelayTuningStudy {
     type Setup = TuningSetup;
     type Results = Results;
 
+    fn setup_of(results: &Results) -> &Arc<TuningSetup> {
+        &results.setup
+    }
+
     /// Everything depends on the plant; test and design do not depend on each other.
     fn update(setup: &TuningSetup, pinned: &[TuningSetup], last: Option<&Results>) -> Results {
         let last = last.map(|last| (last, last.setup.as_ref()));

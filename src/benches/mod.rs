@@ -1,0 +1,67 @@
+//! The benches and their list: all that the rest of the page knows of them.
+
+mod model_free;
+mod quadruple_tank;
+mod relay_tuning;
+
+use leptos::prelude::*;
+use quadtank_scenario::{Document, ScenarioError, to_json, to_link};
+
+use super::lab::Lab;
+use super::session::{Bench, Session};
+pub use model_free::ModelFree;
+pub use quadruple_tank::QuadrupleTank;
+pub use relay_tuning::RelayTuning;
+
+/// All benches in the order of the navigation; the first is the home bench.
+pub static BENCHES: [BenchEntry; 3] =
+    [BenchEntry::of::<QuadrupleTank>(), BenchEntry::of::<RelayTuning>(), BenchEntry::of::<ModelFree>()];
+
+/// A bench in the list: what the page does with any of them.
+pub struct BenchEntry {
+    /// Its name in an address.
+    pub id: &'static str,
+    /// Class of the element that holds its cards.
+    pub class: &'static str,
+    /// What the navigation calls it.
+    pub title: fn(Lab) -> String,
+    /// The cards that the start flags ask for.
+    pub cards: fn(Lab) -> AnyView,
+    /// Opens a document; gives one of another bench back.
+    pub open: fn(Lab, Document) -> Option<Document>,
+    /// Follows the document.
+    pub track: fn(Lab),
+    /// The document as a file has it.
+    pub json: fn(Lab) -> Result<String, ScenarioError>,
+    /// The document as a link has it.
+    pub link: fn(Lab) -> Result<String, ScenarioError>,
+}
+
+impl BenchEntry {
+    /// The entry of a bench.
+    pub const fn of<B: Bench>() -> Self {
+        Self {
+            id: B::ID,
+            class: B::CLASS,
+            title: B::title,
+            cards: |lab| B::cards(lab.session()),
+            open: |lab, document| {
+                let document = B::Document::try_from(document);
+                document.map(|document| lab.open_in::<B>(document)).err()
+            },
+            track: |lab| session::<B>(lab).document.track(),
+            json: |lab| session::<B>(lab).document.with_untracked(to_json),
+            link: |lab| session::<B>(lab).document.with_untracked(to_link),
+        }
+    }
+}
+
+fn session<B: Bench>(lab: Lab) -> Session<B> {
+    lab.session()
+}
+
+impl PartialEq for BenchEntry {
+    fn eq(&self, other: &Self) -> bool {
+        self.id == other.id
+    }
+}

@@ -1,0 +1,140 @@
+//! The run: what is controlled, what that does to the upper tanks, and what the law believes.
+
+use leptos::prelude::*;
+
+use super::pictures;
+use super::sentences::{self, in_cm};
+use super::session::{Session, set_cursor, shown, use_session};
+use crate::texts::{say, tr};
+use crate::widgets::{
+    Card, ChartCanvas, ChartMenu, DataTable, Figures, Readout, Row, Sentence, TableContent, TimeAxis, TimeSurface,
+    Verdict, ZoomButtons, marked, unmarked,
+};
+use quadtank::sim::TrackingFigures;
+use quadtank_figure::Frame;
+
+/// The shortest stretch of time that can be shown (s).
+const SHORTEST_S: f64 = 5.0;
+
+/// The course with its sentence and its figures.
+#[component]
+pub fn CourseCard() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let frames = RwSignal::new(Vec::<Frame>::new());
+    let axis = time_axis(session);
+    let picture = pictures::course(session, axis.window);
+    let (for_menu, for_table) = (picture.clone(), picture.clone());
+    let title = say!(lab, free.course);
+    // Read in three places, worked out once.
+    let found = Memo::new(move |_| sentences::of_run(session));
+    let readout = Signal::derive(move || session.own.cursor.get().and_then(|_| readout(session)));
+    let spoken = Signal::derive(move || readout.get().map_or_else(String::new, |readout| readout.spoken()));
+    let beside = move || {
+        view! {
+            <div class="toolbar">
+                <ZoomButtons axis ids=["free-zoom-in", "free-zoom-out", "free-zoom-reset"] />
+            </div>
+            <ChartMenu picture=for_menu file="model-free" title />
+        }
+    };
+    view! {
+        <Card name="course" title beside>
+            <Verdict id="free-verdict" warm=Signal::derive(move || !found.get().0)>
+                {move || marked(&found.get().1)}
+            </Verdict>
+            <div class="chart">
+                <ChartCanvas
+                    picture
+                    frames
+                    summary=Signal::derive(move || unmarked(&found.get().1))
+                    name="free-course"
+                />
+                <TimeSurface axis frames label=say!(lab, responses.cursor) spoken readout id="free-surface" />
+            </div>
+            <Figures name="free-figures" caption=say!(lab, responses.metrics)>{move || table(session)}</Figures>
+            <Sentence id="free-comparison" text=Signal::derive(move || sentences::of_comparison(session)) />
+            <DataTable picture=for_table id="free-table" />
+        </Card>
+    }
+}
+
+fn time_axis(session: Session) -> TimeAxis {
+    let end = session.part(|s| s.experiment.duration_s);
+    let shown = RwSignal::new(None::<(f64, f64)>);
+    // A stretch of a longer run may lie beyond the end of this one.
+    let window = move || shown.get().filter(|(_, to)| *to <= end.get()).unwrap_or((0.0, end.get()));
+    TimeAxis {
+        whole: Signal::derive(move || (0.0, end.get())),
+        window: Signal::derive(window),
+        cursor: session.own.cursor.into(),
+        on_cursor: Callback::new(move |time| set_cursor(session, time)),
+        on_show: Callback::new(move |stretch| shown.set(stretch)),
+        about: Signal::stored(None),
+        shortest: SHORTEST_S,
+    }
+}
+
+/// The values at the shown moment.
+fn readout(session: Session) -> Option<Readout> {
+    let shown = shown(session)?;
+    let style = session.lab.number_style();
+    let pair = |symbols: [&str; 2], values: [String; 2]| [0, 1].map(|k| format!("{} {}", symbols[k], values[k]));
+    let [h1, h2, h3, h4] = shown.state.levels.map(|level| format!("{} cm", style.fixed(in_cm(level), 2)));
+    let mut pairs = vec![
+        pair(["h₁", "h₂"], [h1, h2]),
+        pair(["h₃", "h₄"], [h3, h4]),
+        pair(["v₁", "v₂"], shown.state.pump_voltage.map(|v| format!("{} V", style.fixed(v, 2)))),
+        pair(["γ₁", "γ₂"], shown.plant.valves.map(|gamma| style.fixed(gamma, 2))),
+    ];
+    if let Some(phi) = session.words.with_answer(|answer| answer.run.phi_at(shown.time_s)).flatten() {
+        // The unit once: the row has to fit on a phone.
+        let in_row = |[first, second]: [f64; 2]| {
+            [style.fixed(in_cm(first), 3), format!("{} cm/s", style.fixed(in_cm(second), 3))]
+        };
+        let [estimates, true_values] = phi.map(in_row);
+        pairs.extend([pair(["φ̂₁", "φ̂₂"], estimates), pair(["φ₁", "φ₂"], true_values)]);
+    }
+    Some(Readout { time: format!("t = {} s", style.fixed(shown.time_s, 0)), pairs })
+}
+
+/// How the loops did, those of the comparison below them.
+fn table(session: Session) -> impl IntoView {
+    let lab = session.lab;
+    let unit = "cm";
+    let columns = vec![
+        tr!(lab, responses.run),
+        tr!(lab, responses.iae, unit = unit),
+        tr!(lab, responses.ise, unit = unit),
+        tr!(lab, responses.overshoot),
+        tr!(lab, responses.settling_2),
+        tr!(lab, responses.variation),
+        tr!(lab, responses.saturated),
+        tr!(lab, free.lost),
+    ];
+    let row = |name: String, k: usize, figures: &TrackingFigures| {
+        view! { <Row class=["loop1", "loop2"][k] name figures=figures_of(session, figures) /> }.into_any()
+    };
+    let rows = session.words.with_answer(|answer| {
+        let law = answer.figures.iter().enumerate();
+        let law = law.map(|(k, figures)| row(tr!(lab, responses.row, number = k + 1), k, figures));
+        let pi = answer.comparison.iter().flat_map(|(_, figures)| figures.iter().enumerate());
+        let pi = pi.map(|(k, figures)| row(tr!(lab, free.row_pi, number = k + 1), k, figures));
+        law.chain(pi).collect::<Vec<_>>()
+    });
+    view! { <TableContent caption=tr!(lab, responses.metrics) columns rows=rows.unwrap_or_default() /> }
+}
+
+fn figures_of(session: Session, figures: &TrackingFigures) -> [String; 7] {
+    let style = session.lab.number_style();
+    let never = || "–".to_owned();
+    [
+        style.fixed(in_cm(figures.iae), 1),
+        style.fixed(in_cm(in_cm(figures.ise)), 1),
+        figures.overshoot.map_or_else(never, |share| format!("{}\u{a0}%", style.fixed(100.0 * share, 1))),
+        figures.settling_s.map_or_else(never, |time| style.fixed(time, 0)),
+        style.fixed(figures.total_variation, 1),
+        style.fixed(figures.saturated_s, 0),
+        figures.lost_at_s.map_or_else(never, |time| style.fixed(time, 0)),
+    ]
+}

@@ -1,0 +1,185 @@
+//! Which case is run, and what is asked of it.
+
+use leptos::prelude::*;
+
+use super::sentences::{in_cm, in_m};
+use super::session::use_session;
+use crate::controls::{Knob, KnobRow, Switch};
+use crate::start::Control;
+use crate::texts::{say, tr};
+use crate::widgets::{Card, Scale};
+use quadtank::literature::junqueira::{PublishedExperiment, PublishedValves};
+use quadtank::study::model_free::{LONG_RUN_S, ModelFreeSetup};
+use quadtank_scenario::limits;
+
+const VALVE: Knob<ModelFreeSetup> = Knob {
+    ids: [("", "free-gamma1"), ("", "free-gamma2")],
+    label: |_, k| ["γ₁", "γ₂"][k].to_owned(),
+    name: |lab, k| tr!(lab, free.gamma, valve = k + 1),
+    read: |s, k| s.valves[k].middle(),
+    write: |s, k, middle| s.valves[k] = s.valves[k].around(middle),
+    // The middle of a valve that moves keeps away from both ends.
+    limits: |s, k| (s.valves[k].swing(), 1.0 - s.valves[k].swing()),
+    digits: Some(2),
+    lock: Control::Valves,
+    ..Knob::PLAIN
+};
+const STEP: Knob<ModelFreeSetup> = Knob {
+    ids: [("", "free-step1"), ("", "free-step2")],
+    label: |_, k| ["Δr₁", "Δr₂"][k].to_owned(),
+    name: |lab, k| tr!(lab, free.step, level = k + 1),
+    read: |s, k| in_cm(s.set_point_step(k)),
+    write: |s, k, size| s.set_set_point_step(k, in_m(size)),
+    limits: |s, k| {
+        let (least, most) = s.set_point_steps(k);
+        (in_cm(least), in_cm(most))
+    },
+    scale: Scale::Linear(0.1),
+    digits: Some(2),
+    unit: |_| "cm",
+    lock: Control::Experiment,
+    ..Knob::PLAIN
+};
+const NOISE: Knob<ModelFreeSetup> = Knob {
+    ids: [("", "free-noise"); 2],
+    label: |_, _| "σ".to_owned(),
+    name: |lab, _| tr!(lab, experiment.noise_name),
+    read: |s, _| in_cm(s.experiment.measurement.noise_std),
+    write: |s, _, noise| s.experiment.measurement.noise_std = in_m(noise),
+    limits: |_, _| (0.0, 5.0),
+    ..STEP
+};
+const DURATION: Knob<ModelFreeSetup> = Knob {
+    ids: [("", "free-end"); 2],
+    label: |_, _| "t".to_owned(),
+    name: |lab, _| tr!(lab, experiment.duration_name),
+    read: |s, _| s.experiment.duration_s,
+    write: |s, _, duration_s| s.experiment.duration_s = duration_s,
+    limits: |s, _| {
+        let limits = limits::model_free_duration_s(s);
+        (limits.min.max(s.shortest_s()), limits.max)
+    },
+    scale: Scale::Linear(10.0),
+    digits: Some(0),
+    unit: |_| "s",
+    ..STEP
+};
+
+/// The case, the experiment, and their numbers.
+#[component]
+pub fn CaseCard() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let cases = vec![
+        (Some(PublishedValves::A), "free-a", say!(lab, free.case_a)),
+        (Some(PublishedValves::B), "free-b", say!(lab, free.case_b)),
+        (Some(PublishedValves::C), "free-c", say!(lab, free.case_c)),
+    ];
+    let experiments = vec![
+        (Some(PublishedExperiment::S1), "free-s1", say!(lab, free.s1)),
+        (Some(PublishedExperiment::S2), "free-s2", say!(lab, free.s2)),
+        (Some(PublishedExperiment::S3), "free-s3", say!(lab, free.s3)),
+    ];
+    let source = move || view! { <span class="remark">{say!(lab, free.source)}</span> };
+    view! {
+        <Card name="case" title=say!(lab, free.case) beside=source>
+            <Switch
+                session
+                label=say!(lab, free.case)
+                choices=cases
+                read=case_of
+                write=set_case
+                lock=Control::Valves
+            />
+            <Switch
+                session
+                label=say!(lab, experiment.title)
+                choices=experiments
+                read=experiment_of
+                write=set_experiment
+                lock=Control::Experiment
+            />
+            <div class="pairs">
+                <KnobRow session knob=&VALVE index=0 />
+                <KnobRow session knob=&VALVE index=1 />
+                <KnobRow session knob=&STEP index=0 />
+                <KnobRow session knob=&STEP index=1 />
+                <KnobRow session knob=&NOISE />
+                <KnobRow session knob=&DURATION />
+            </div>
+            <div class="toolbar">
+                <Pressed
+                    id="free-long"
+                    text=say!(lab, free.long)
+                    value=session.told_part(|s| s.experiment.duration_s == LONG_RUN_S)
+                    press=|s| s.experiment.duration_s = LONG_RUN_S
+                />
+                <Pressed
+                    id="free-pi"
+                    text=say!(lab, free.compare)
+                    value=session.told_part(|s| s.compare.is_some())
+                    press=compare
+                />
+            </div>
+        </Card>
+    }
+}
+
+/// A button that stays pressed while something is so.
+#[component]
+fn Pressed(
+    id: &'static str,
+    text: Signal<String>,
+    value: Signal<bool>,
+    press: fn(&mut ModelFreeSetup),
+) -> impl IntoView {
+    let session = use_session();
+    view! {
+        <button
+            type="button"
+            class="button small"
+            data-testid=id
+            aria-pressed=move || value.get().to_string()
+            disabled=session.lab.locks(Control::Experiment)
+            on:click=move |_| session.edit(press)
+        >
+            {text}
+        </button>
+    }
+}
+
+/// The published case whose valves these are, if it is one.
+fn case_of(setup: &ModelFreeSetup) -> Option<PublishedValves> {
+    PublishedValves::ALL.into_iter().find(|case| case.schedules() == setup.valves)
+}
+
+fn set_case(setup: &mut ModelFreeSetup, case: Option<PublishedValves>) {
+    let Some(case) = case else { return };
+    setup.valves = case.schedules();
+    if setup.compare.is_some() {
+        setup.compare = Some(setup.usual_pi());
+    }
+}
+
+/// The published experiment that this is, whatever its duration; none for others.
+fn experiment_of(setup: &ModelFreeSetup) -> Option<PublishedExperiment> {
+    let is_same = |experiment: &PublishedExperiment| {
+        let published = ModelFreeSetup::published(PublishedValves::A, *experiment);
+        published.start == setup.start && published.experiment.set_point_steps == setup.experiment.set_point_steps
+    };
+    PublishedExperiment::ALL.into_iter().find(is_same)
+}
+
+/// The law, the noise and the valves stay.
+fn set_experiment(setup: &mut ModelFreeSetup, experiment: Option<PublishedExperiment>) {
+    let Some(experiment) = experiment else { return };
+    let published = ModelFreeSetup::published(PublishedValves::A, experiment);
+    let measurement = setup.experiment.measurement;
+    setup.start = published.start;
+    setup.experiment = published.experiment;
+    setup.experiment.measurement = measurement;
+}
+
+fn compare(setup: &mut ModelFreeSetup) {
+    setup.compare = if setup.compare.is_some() { None } else { Some(setup.usual_pi()) };
+}

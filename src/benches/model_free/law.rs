@@ -1,0 +1,237 @@
+//! The law: ultra-local model, feedback, estimator.
+
+use leptos::prelude::*;
+
+use super::sentences::{self, in_cm, in_m};
+use super::session::use_session;
+use crate::controls::{Knob, KnobRow, Switch};
+use crate::start::Control;
+use crate::texts::{say, tr};
+use crate::widgets::{Card, Scale, Sentence};
+use quadtank::control::{EstimatorSettings, FedWith, ModelFreeSettings, ModelFreeWindup, Pairing, Quadrature, Window};
+use quadtank::study::model_free::ModelFreeSetup;
+use quadtank_scenario::limits;
+
+/// Back-calculation when it is chosen.
+const BACK_CALCULATION: ModelFreeWindup = ModelFreeWindup::BackCalculation { tracking_time_s: 10.0 };
+/// Samples of a window when the estimator is switched on.
+const USUAL_SAMPLES: f64 = 10.0;
+/// Most samples of a window: more than a page computes in a frame.
+const MOST_SAMPLES: f64 = 100.0;
+
+const MODEL_GAIN: Knob<ModelFreeSetup> = Knob {
+    ids: [("free-alpha", "free-alpha-number"); 2],
+    label: |_, _| "α̂".to_owned(),
+    name: |lab, _| tr!(lab, free.alpha),
+    read: |s, _| in_cm(s.controller.loops[0].model_gain),
+    write: |s, _, gain| in_both(s, &|l| l.model_gain = in_m(gain)),
+    limits: |_, _| (1e-4, 100.0),
+    travel: Some(|_| (0.02, 1.0)),
+    unit: |_| "cm/(s V)",
+    ..FEEDBACK
+};
+const PROPORTIONAL: Knob<ModelFreeSetup> = Knob {
+    ids: [("free-kp", "free-kp-number"); 2],
+    label: |_, _| "Kp".to_owned(),
+    name: |lab, _| tr!(lab, free.kp),
+    read: |s, _| s.controller.loops[0].proportional,
+    write: |s, _, gain| in_both(s, &|l| l.proportional = gain),
+    travel: Some(|_| (0.05, 20.0)),
+    unit: |_| "1/s",
+    ..FEEDBACK
+};
+const INTEGRAL: Knob<ModelFreeSetup> = Knob {
+    ids: [("free-ki", "free-ki-number"); 2],
+    label: |_, _| "Ki".to_owned(),
+    name: |lab, _| tr!(lab, free.ki),
+    read: |s, _| s.controller.loops[0].integral,
+    write: |s, _, gain| in_both(s, &|l| l.integral = gain),
+    travel: Some(|_| (0.001, 2.0)),
+    unit: |_| "1/s²",
+    ..FEEDBACK
+};
+const FEEDBACK: Knob<ModelFreeSetup> =
+    Knob { limits: |_, _| (0.0, 1000.0), scale: Scale::Logarithmic, lock: Control::Gains, ..Knob::PLAIN };
+const WINDOW: Knob<ModelFreeSetup> = Knob {
+    ids: [("", "free-window"); 2],
+    label: |_, _| "T".to_owned(),
+    name: |lab, _| tr!(lab, free.window),
+    read: |s, _| estimator(s).map_or(USUAL_SAMPLES * s.controller.sampling_time_s, |e| e.window_s),
+    write: |s, _, window_s| with_estimator(s, |e| e.window_s = window_s),
+    limits: |s, _| (2.0 * s.controller.sampling_time_s, MOST_SAMPLES * s.controller.sampling_time_s),
+    grid: |s| s.controller.sampling_time_s,
+    unit: |_| "s",
+    lock: Control::Gains,
+    matters: Some(|s| s.controller.estimator.is_some()),
+    ..Knob::PLAIN
+};
+const SAMPLING: Knob<ModelFreeSetup> = Knob {
+    ids: [("", "free-sampling"); 2],
+    label: |_, _| "Ts".to_owned(),
+    name: |lab, _| tr!(lab, pi.sampling),
+    read: |s, _| s.controller.sampling_time_s,
+    write: |s, _, time_s| s.controller = s.controller.with_sampling_time(time_s),
+    limits: |s, _| (limits::sampling_time_s(s.experiment.duration_s).min, 10.0),
+    scale: Scale::Linear(0.1),
+    unit: |_| "s",
+    lock: Control::Sampling,
+    ..Knob::PLAIN
+};
+
+/// The settings of the law.
+#[component]
+pub fn LawCard() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let windows = vec![
+        (None, "free-off", say!(lab, free.off)),
+        (Some(Window::Block), "free-block", say!(lab, free.block)),
+        (Some(Window::Sliding), "free-sliding", say!(lab, free.sliding)),
+    ];
+    let windups = vec![
+        (ModelFreeWindup::Off, "free-windup", say!(lab, free.windup_off)),
+        (ModelFreeWindup::Conditional, "free-conditional", say!(lab, free.conditional)),
+        (BACK_CALCULATION, "free-back", say!(lab, free.back_calculation)),
+    ];
+    let pairings = vec![
+        (Pairing::Diagonal, "free-diagonal", say!(lab, pi.diagonal)),
+        (Pairing::Swapped, "free-swapped", say!(lab, pi.swapped)),
+    ];
+    let stability = Memo::new(move |_| sentences::of_loop(session));
+    let lock = Control::Gains;
+    view! {
+        <Card name="law" title=say!(lab, free.law)>
+            <div class="formula">{formula()}</div>
+            <KnobRow session knob=&MODEL_GAIN />
+            <KnobRow session knob=&PROPORTIONAL />
+            <KnobRow session knob=&INTEGRAL />
+            <Switch
+                session
+                label=say!(lab, free.estimator)
+                choices=windows
+                read=|s| estimator(s).map(|estimator| estimator.window)
+                write=set_window
+                lock
+            />
+            <div hidden=session.told_part(|s| s.controller.estimator.is_none()) class="estimator"><EstimatorDetails /></div>
+            <div class="pairs">
+                <KnobRow session knob=&WINDOW />
+                <KnobRow session knob=&SAMPLING />
+            </div>
+            <Switch
+                session
+                label=say!(lab, free.windup)
+                choices=windups
+                read=windup_of
+                write=|s, windup| in_both(s, &|l| l.anti_windup = windup)
+                lock
+            />
+            <Switch
+                session
+                label=say!(lab, pi.pairing)
+                choices=pairings
+                read=|s| s.controller.pairing
+                write=|s, pairing| s.controller.pairing = pairing
+                lock=Control::Pairing
+            />
+            <Sentence
+                id="free-stability"
+                text=Signal::derive(move || stability.get().1)
+                warm=Signal::derive(move || !stability.get().0)
+                status=true
+            />
+        </Card>
+    }
+}
+
+/// The law, eqs. 16 and 17 of the paper.
+fn formula() -> impl IntoView {
+    view! {
+        <math>
+            <mi>"v"</mi>
+            <mo>"="</mo>
+            <mfrac>
+                <mrow>
+                    <mo>"−"</mo>
+                    <mover><mi>"φ"</mi><mo>"^"</mo></mover>
+                    <mo>"+"</mo>
+                    <msub><mi>"K"</mi><mi>"p"</mi></msub>
+                    <mi>"e"</mi>
+                    <mo>"+"</mo>
+                    <msub><mi>"K"</mi><mi>"i"</mi></msub>
+                    <mo>"∫"</mo>
+                    <mi>"e"</mi>
+                </mrow>
+                <mover><mi>"α"</mi><mo>"^"</mo></mover>
+            </mfrac>
+        </math>
+    }
+}
+
+/// How the estimator sums, and which voltage it is fed with.
+#[component]
+fn EstimatorDetails() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let sums = vec![
+        (Quadrature::Rectangular, "free-rectangular", say!(lab, free.rectangular)),
+        (Quadrature::Trapezoidal, "free-trapezoidal", say!(lab, free.trapezoidal)),
+    ];
+    let feeds = vec![
+        (FedWith::Applied, "free-applied", say!(lab, free.applied)),
+        (FedWith::Commanded, "free-commanded", say!(lab, free.commanded)),
+    ];
+    let lock = Control::Gains;
+    view! {
+        <Switch
+            session
+            label=say!(lab, free.sum)
+            choices=sums
+            read=|s| estimator(s).map_or(Quadrature::Rectangular, |e| e.quadrature)
+            write=|s, quadrature| with_estimator(s, |e| e.quadrature = quadrature)
+            lock
+        />
+        <Switch
+            session
+            label=say!(lab, free.fed_with)
+            choices=feeds
+            read=|s| estimator(s).map_or(FedWith::Applied, |e| e.fed_with)
+            write=|s, fed_with| with_estimator(s, |e| e.fed_with = fed_with)
+            lock
+        />
+    }
+}
+
+/// Both loops have the same settings.
+fn in_both(setup: &mut ModelFreeSetup, change: &dyn Fn(&mut ModelFreeSettings)) {
+    setup.controller.loops.iter_mut().for_each(change);
+}
+
+fn estimator(setup: &ModelFreeSetup) -> Option<EstimatorSettings> {
+    setup.controller.estimator
+}
+
+fn with_estimator(setup: &mut ModelFreeSetup, change: impl FnOnce(&mut EstimatorSettings)) {
+    if let Some(estimator) = &mut setup.controller.estimator {
+        change(estimator);
+    }
+}
+
+fn set_window(setup: &mut ModelFreeSetup, window: Option<Window>) {
+    let first = |window| EstimatorSettings {
+        window_s: USUAL_SAMPLES * setup.controller.sampling_time_s,
+        window,
+        quadrature: Quadrature::Rectangular,
+        fed_with: FedWith::Applied,
+    };
+    setup.controller.estimator =
+        window.map(|window| EstimatorSettings { window, ..estimator(setup).unwrap_or_else(|| first(window)) });
+}
+
+/// The protection against windup; the tracking time of back-calculation is not chosen here.
+fn windup_of(setup: &ModelFreeSetup) -> ModelFreeWindup {
+    match setup.controller.loops[0].anti_windup {
+        ModelFreeWindup::BackCalculation { .. } => BACK_CALCULATION,
+        other => other,
+    }
+}

@@ -1,0 +1,134 @@
+//! The charts of the bench, from the results of the session. Building them follows what they read.
+
+use leptos::prelude::*;
+
+use super::session::{Session, shown};
+use crate::texts::tr;
+use crate::widgets::Picture;
+use quadtank::linear::Complex;
+use quadtank::study::quadruple_tank::ValveMap;
+use quadtank_figure::{
+    self, Chart, ModelFreeCourse, ModelFreeTexts, PoleZero, PoleZeroTexts, ValvePlane, ValvePlaneTexts, with_way,
+};
+use quadtank_scenario::model_free::{moment_to_csv, run_to_csv};
+use quadtank_scenario::valve_map_to_csv;
+
+/// The setting whose zero is shaded half way to the full colour.
+const TYPICAL_SETTING: [f64; 2] = [0.3, 0.3];
+/// Steps of each valve in the exported table of the plane.
+const CSV_STEPS: u32 = 20;
+/// How much of the way of the valves is drawn behind them (s), and the time between its points (s).
+const TRAIL_S: f64 = 60.0;
+const TRAIL_STEP_S: f64 = 0.25;
+
+/// Levels, voltages and φ over time.
+pub fn course(session: Session, window: Signal<(f64, f64)>) -> Picture {
+    let lab = session.lab;
+    let build = move |show: &mut dyn FnMut(&[Chart])| {
+        let answer = session.charts.answer.get();
+        let Ok(answer) = answer.as_ref() else { return show(&[]) };
+        let (run, phi) = (&answer.run.trajectory, &answer.run);
+        let sample_time_s: Vec<f64> = run.time_s.iter().copied().step_by(phi.rows_per_sample).collect();
+        let comparison =
+            answer.comparison.as_ref().map(|(pi, _)| (&pi.time_s[..], [&pi.levels[0][..], &pi.levels[1][..]]));
+        show(&quadtank_figure::model_free_course(&ModelFreeCourse {
+            time_s: &run.time_s,
+            levels: run.levels.each_ref().map(Vec::as_slice),
+            references: run.references.each_ref().map(Vec::as_slice),
+            voltages: run.pump_voltage.each_ref().map(Vec::as_slice),
+            comparison,
+            sample_time_s: &sample_time_s,
+            estimates: phi.estimates.each_ref().map(Vec::as_slice),
+            true_values: phi.true_values.each_ref().map(Vec::as_slice),
+            window_s: window.get(),
+            texts: ModelFreeTexts {
+                axes: [
+                    &tr!(lab, chart.time),
+                    &tr!(lab, free.axis_lower),
+                    &tr!(lab, free.axis_upper),
+                    &tr!(lab, responses.pump_axis),
+                    &tr!(lab, free.axis_phi),
+                ],
+                reference: &tr!(lab, responses.reference),
+                comparison: &tr!(lab, free.with_pi),
+                estimate: &tr!(lab, free.estimate),
+                true_value: &tr!(lab, free.true_value),
+            },
+        }));
+    };
+    let csv = move || {
+        let setup = session.charts.setup.get();
+        session.charts.with_answer(|answer| run_to_csv(answer, &setup)).unwrap_or_default()
+    };
+    Picture::new(build, csv)
+}
+
+/// The map under the valve plane: at the voltages that hold the last references or, where there are none, in the middle of
+/// what the pumps can do.
+fn map(session: Session) -> ValveMap {
+    let plant = session.charts.setup.get().plant_at(0.0);
+    let voltage = session.charts.analysis.with(|a| a.rest.as_ref().ok().map(|rest| rest.pump_voltage));
+    ValveMap::at(plant, voltage).without_setting()
+}
+
+/// The plane of the valves; `whole` with the way that they go and where they stand, for files.
+pub fn plane(session: Session, whole: bool) -> Picture {
+    let lab = session.lab;
+    let map = Memo::new(move |_| map(session));
+    let csv = move || map.with(|map| valve_map_to_csv(map, CSV_STEPS));
+    let build = move |show: &mut dyn FnMut(&[Chart])| {
+        let map = map.get();
+        let plane = quadtank_figure::valve_plane(&ValvePlane {
+            right_most_zero: &|valves| map.rightmost_zero(valves),
+            halfway_zero: map.rightmost_zero(TYPICAL_SETTING).unwrap_or(1.0),
+            published: &[],
+            setting: shown(session).filter(|_| whole).map(|shown| shown.plant.valves),
+            texts: ValvePlaneTexts {
+                gamma_1: "γ₁",
+                gamma_2: "γ₂",
+                boundary: "γ₁ + γ₂ = 1",
+                minimum_phase: &tr!(lab, valves.minimum),
+                right_half_plane: &tr!(lab, valves.right),
+            },
+        });
+        show(&[if whole { with_way(plane, &way(session)) } else { plane }]);
+    };
+    Picture::new(build, csv)
+}
+
+/// γ1, γ2 up to the shown moment.
+pub fn way(session: Session) -> Vec<[f64; 2]> {
+    let Some(end) = shown(session).map(|shown| shown.time_s) else { return Vec::new() };
+    let from = (end - TRAIL_S).max(0.0);
+    session.words.setup.with(|setup| {
+        let times = (0u32..).map(|k| from + TRAIL_STEP_S * f64::from(k)).take_while(|&time| time < end);
+        times.chain([end]).map(|time| setup.valves.map(|valve| valve.at(time))).collect()
+    })
+}
+
+/// Poles and zeros as they are at the shown moment.
+pub fn zeros(session: Session) -> Picture {
+    let lab = session.lab;
+    let csv = move || shown(session).map(|shown| moment_to_csv(&shown.theory)).unwrap_or_default();
+    let build = move |show: &mut dyn FnMut(&[Chart])| {
+        let Some(shown) = shown(session) else { return show(&[]) };
+        let poles: Vec<Complex> = shown.theory.poles.iter().map(|&pole| Complex::new(pole, 0.0)).collect();
+        let zeros = shown.theory.zeros.unwrap_or_default();
+        show(&[quadtank_figure::pole_zero(&PoleZero {
+            poles: &poles,
+            zeros: &zeros,
+            zero_paths: &[],
+            closed_loop: &[],
+            decimal: lab.number_style().decimal,
+            texts: PoleZeroTexts {
+                real: &tr!(lab, zeros.real),
+                imaginary: &tr!(lab, zeros.imaginary),
+                poles: &tr!(lab, zeros.pole),
+                zeros: &tr!(lab, zeros.zero),
+                closed_loop: "",
+                beyond: &tr!(lab, zeros.beyond),
+            },
+        })]);
+    };
+    Picture::new(build, csv)
+}

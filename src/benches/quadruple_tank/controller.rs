@@ -1,0 +1,286 @@
+//! The decentralised PI controller.
+
+use leptos::prelude::*;
+
+use super::sentences;
+use super::session::use_session;
+use crate::controls::{Knob, KnobNumber, KnobRow};
+use crate::start::Control;
+use crate::texts::{say, tr};
+use crate::widgets::{Card, Scale, Segmented, Sentence, Tick};
+use quadtank::control::{AntiWindup, LoopMode, Pairing, PiSettings};
+use quadtank::interaction::PairingVerdict;
+use quadtank::study::quadruple_tank::Setup;
+use quadtank_scenario::limits;
+
+/// Tt/Ti when anti-windup is switched on (Cocota 2009, ch. 4).
+const TRACKING_RATIO: f64 = 0.5;
+/// When a loop that is put into manual goes back to automatic, unless the student says otherwise (s).
+const MANUAL_UNTIL_S: f64 = 500.0;
+
+const SIGN_IDS: [&str; 2] = ["sign1", "sign2"];
+const MANUAL_IDS: [&str; 2] = ["manual1", "manual2"];
+
+const GAIN: Knob<Setup> = Knob {
+    ids: [("gain1", "gain1-number"), ("gain2", "gain2-number")],
+    label: |_, k| ["K₁", "K₂"][k].to_owned(),
+    name: |lab, k| tr!(lab, pi.gain, level = k + 1),
+    read: |s, k| s.controller.loops[k].gain,
+    write: |s, k, gain| s.controller.loops[k].gain = gain,
+    limits: |_, _| (-limits::GAIN_MAGNITUDE.max, limits::GAIN_MAGNITUDE.max),
+    smallest: limits::GAIN_MAGNITUDE.min,
+    travel: Some(|_| (0.05, 50.0)),
+    unit: |_| "V/V",
+    ..OF_LOOP
+};
+const INTEGRAL_TIME: Knob<Setup> = Knob {
+    ids: [("integral1", "integral1-number"), ("integral2", "integral2-number")],
+    label: |_, k| ["Ti₁", "Ti₂"][k].to_owned(),
+    name: |lab, k| tr!(lab, pi.integral, level = k + 1),
+    read: |s, k| s.controller.loops[k].integral_time_s,
+    write: |s, k, time_s| s.controller.loops[k].integral_time_s = time_s,
+    limits: |_, _| (limits::INTEGRAL_TIME_S.min, limits::INTEGRAL_TIME_S.max),
+    travel: Some(|_| (3.0, 3000.0)),
+    unit: |_| "s",
+    ..OF_LOOP
+};
+const OF_LOOP: Knob<Setup> =
+    Knob { scale: Scale::Logarithmic, class: ["loop1-row", "loop2-row"], lock: Control::Gains, ..Knob::PLAIN };
+
+const WEIGHT: Knob<Setup> = Knob {
+    ids: [("weight", "weight-number"); 2],
+    label: |lab, _| tr!(lab, pi.weight_label),
+    name: |lab, _| tr!(lab, pi.weight),
+    read: |s, _| s.controller.loops[0].set_point_weight,
+    write: |s, _, weight| both(s, |l| l.set_point_weight = weight),
+    limits: |_, _| (limits::SET_POINT_WEIGHT.min, limits::SET_POINT_WEIGHT.max),
+    travel: Some(|_| (limits::SET_POINT_WEIGHT.min, limits::SET_POINT_WEIGHT.max)),
+    scale: Scale::Linear(0.05),
+    digits: Some(2),
+    ..FINE
+};
+const SAMPLING: Knob<Setup> = Knob {
+    ids: [("sampling", "sampling-number"); 2],
+    label: |lab, _| tr!(lab, pi.sampling_label),
+    name: |lab, _| tr!(lab, pi.sampling),
+    read: |s, _| s.controller.sampling_time_s,
+    write: |s, _, time_s| s.controller.sampling_time_s = time_s,
+    limits: |s, _| sampling_times(s),
+    travel: Some(sampling_times),
+    unit: |_| "s",
+    ..FINE
+};
+const TRACKING: Knob<Setup> = Knob {
+    ids: [("tracking", "tracking-number"); 2],
+    label: |lab, _| tr!(lab, pi.tracking_label),
+    name: |lab, _| tr!(lab, pi.tracking),
+    read: |s, _| match s.controller.loops[0].anti_windup {
+        AntiWindup::BackCalculation { tracking_ratio } => tracking_ratio,
+        AntiWindup::Off => TRACKING_RATIO,
+    },
+    write: |s, _, tracking_ratio| both(s, |l| l.anti_windup = AntiWindup::BackCalculation { tracking_ratio }),
+    limits: |_, _| (0.02, 20.0),
+    travel: Some(|_| (0.02, 20.0)),
+    matters: Some(is_guarded),
+    ..FINE
+};
+const MANUAL_UNTIL: Knob<Setup> = Knob {
+    ids: [("", "manual1-until"), ("", "manual2-until")],
+    name: |lab, k| tr!(lab, pi.manual_until, level = k + 1),
+    read: |s, k| manual(s, k).1,
+    write: |s, k, until_s| s.controller.loops[k].mode = LoopMode::Manual { output: manual(s, k).0, until_s },
+    limits: |_, _| (limits::TIME_S.min, limits::TIME_S.max),
+    scale: Scale::Linear(10.0),
+    digits: Some(0),
+    ..FINE
+};
+const MANUAL_OUTPUT: Knob<Setup> = Knob {
+    ids: [("", "manual1-output"), ("", "manual2-output")],
+    name: |lab, k| tr!(lab, pi.manual_output, level = k + 1),
+    read: |s, k| manual(s, k).0,
+    write: |s, k, output| s.controller.loops[k].mode = LoopMode::Manual { output, until_s: manual(s, k).1 },
+    limits: |s, k| s.plant().controller_limits()[s.controller.pairing.pump_of(k)],
+    scale: Scale::Linear(0.1),
+    digits: Some(2),
+    ..FINE
+};
+const FINE: Knob<Setup> =
+    Knob { scale: Scale::Logarithmic, class: ["wide"; 2], lock: Control::Sampling, ..Knob::PLAIN };
+
+fn both(setup: &mut Setup, change: impl Fn(&mut PiSettings)) {
+    setup.controller.loops.iter_mut().for_each(change);
+}
+
+fn sampling_times(setup: &Setup) -> (f64, f64) {
+    let limits = limits::sampling_time_s(setup.experiment.duration_s);
+    (limits.min, limits.max)
+}
+
+fn is_guarded(setup: &Setup) -> bool {
+    setup.controller.loops[0].anti_windup != AntiWindup::Off
+}
+
+/// Output of a loop in manual, and until when; zeros for one that is not.
+fn manual(setup: &Setup, index: usize) -> (f64, f64) {
+    match setup.controller.loops[index].mode {
+        LoopMode::Automatic => (0.0, 0.0),
+        LoopMode::Manual { output, until_s } => (output, until_s),
+    }
+}
+
+/// Pairing, gains and the fine print of the two loops.
+#[component]
+pub fn ControllerCard() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let windup = session.part(|s| s.controller.loops.iter().any(|l| l.anti_windup != AntiWindup::Off));
+    let about = move || {
+        let windup = if windup.get() { tr!(lab, pi.windup_on) } else { tr!(lab, pi.windup_off) };
+        tr!(lab, pi.remark, windup = windup)
+    };
+    let stability = Memo::new(move |_| sentences::of_stability(session));
+    view! {
+        <Card name="pi" title=say!(lab, pi.title) beside=move || view! { <span class="remark">{about}</span> }>
+            <PairingSwitch />
+            <LoopControls index=0 />
+            <LoopControls index=1 />
+            <details class="more">
+                <summary data-testid="pi-more">{say!(lab, pi.more)}</summary>
+                <FinePrint />
+            </details>
+            <Sentence
+                id="stability"
+                text=Signal::derive(move || stability.get().0)
+                warm=Signal::derive(move || stability.get().1)
+                status=true
+            />
+        </Card>
+    }
+}
+
+/// Shows the suggestion, obeys the student.
+#[component]
+fn PairingSwitch() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let chosen = session.part(|s| s.controller.pairing);
+    let suggested = move || {
+        session
+            .words
+            .with_analysis(|a| match a.verdict {
+                PairingVerdict::Diagonal(_) => Some(Pairing::Diagonal),
+                PairingVerdict::Swapped(_) => Some(Pairing::Swapped),
+                PairingVerdict::None(_) => None,
+            })
+            .flatten()
+    };
+    let choice = move |pairing: Pairing, id: &'static str| {
+        let text = Signal::derive(move || {
+            let name = match pairing {
+                Pairing::Diagonal => tr!(lab, pi.diagonal),
+                Pairing::Swapped => tr!(lab, pi.swapped),
+            };
+            if suggested() == Some(pairing) { format!("{name} ✓") } else { name }
+        });
+        (pairing, id, text)
+    };
+    let fits = move || suggested().is_none_or(|s| s == chosen.get());
+    view! {
+        <Segmented
+            label=say!(lab, pi.pairing)
+            choices=vec![choice(Pairing::Diagonal, "pairing-diagonal"), choice(Pairing::Swapped, "pairing-swapped")]
+            value=chosen
+            on_choose=move |pairing| session.edit(|s| s.controller.pairing = pairing)
+            disabled=lab.locks(Control::Pairing)
+        />
+        <p class="remark warm" hidden=fits>{say!(lab, pi.against)}</p>
+    }
+}
+
+#[component]
+fn LoopControls(index: usize) -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let heading = move || {
+        let pump = session.document.with(|s| s.setup.controller.pairing.pump_of(index)) + 1;
+        tr!(lab, pi.heading, level = index + 1, pump = pump)
+    };
+    view! {
+        <h3 class=["loop1", "loop2"][index]>{heading}</h3>
+        <KnobRow session knob=&GAIN index />
+        <KnobRow session knob=&INTEGRAL_TIME index />
+    }
+}
+
+/// What most students leave alone: set-point weight, anti-windup, sampling time, sign and manual mode.
+#[component]
+fn FinePrint() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let switch_windup = move |on| {
+        let choice = if on { AntiWindup::BackCalculation { tracking_ratio: TRACKING_RATIO } } else { AntiWindup::Off };
+        session.edit(|s| both(s, |l| l.anti_windup = choice));
+    };
+    view! {
+        <KnobRow session knob=&WEIGHT />
+        <KnobRow session knob=&SAMPLING />
+        <Tick
+            id="antiwindup"
+            text=say!(lab, pi.antiwindup)
+            ticked=session.part(is_guarded)
+            disabled=lab.locks(Control::Sampling)
+            on_tick=switch_windup
+        />
+        <KnobRow session knob=&TRACKING />
+        <ManualMode index=0 />
+        <ManualMode index=1 />
+    }
+}
+
+/// A loop in manual until a time, then handed over without a bump; and the sign of its gain.
+#[component]
+fn ManualMode(index: usize) -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let by_hand = session.part(move |s| s.controller.loops[index].mode != LoopMode::Automatic);
+    let rest = move || {
+        let pump = session.document.with(|s| s.setup.controller.pairing.pump_of(index));
+        let power = session.document.with(|s| s.setup.plant().power_gain);
+        session.words.with_analysis(|a| a.operating_point.pump_voltage[pump] / power).unwrap_or_default()
+    };
+    let switch = move |on| {
+        let mode =
+            if on { LoopMode::Manual { output: untrack(rest), until_s: MANUAL_UNTIL_S } } else { LoopMode::Automatic };
+        session.edit(|s| s.controller.loops[index].mode = mode);
+    };
+    let fields = move || {
+        view! {
+            <div class="fields">
+                <div class="field-row"><KnobNumber session knob=&MANUAL_UNTIL index /><span class="unit">"s"</span></div>
+                <div class="field-row"><KnobNumber session knob=&MANUAL_OUTPUT index /><span class="unit">"V"</span></div>
+            </div>
+        }
+    };
+    view! {
+        <div class="toolbar">
+            <Tick
+                id=MANUAL_IDS[index]
+                text=say!(lab, pi.manual, level = index + 1)
+                ticked=by_hand
+                disabled=lab.locks(Control::Sampling)
+                on_tick=switch
+            />
+            <button
+                type="button"
+                class="button small"
+                data-testid=SIGN_IDS[index]
+                disabled=lab.locks(Control::Gains)
+                aria-label=say!(lab, pi.sign, level = index + 1)
+                on:click=move |_| session.edit(|s| s.controller.loops[index].gain *= -1.0)
+            >
+                {["±K₁", "±K₂"][index]}
+            </button>
+        </div>
+        {move || by_hand.get().then(fields)}
+    }
+}

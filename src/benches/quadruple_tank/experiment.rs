@@ -1,0 +1,285 @@
+//! What is done to the loop: steps, a load, noise, how long, and the run played on the drawing.
+
+use crate::lab::Lab;
+use leptos::prelude::*;
+
+use super::cursor::PlayControls;
+use super::session::{Session, use_session};
+use crate::controls::{Knob, KnobNumber, KnobRow};
+use crate::shown::{CM3_PER_M3, MM2_PER_M2, to_metres, to_shown, unit_name};
+use crate::start::Control;
+use crate::texts::{say, tr};
+use crate::widgets::{Card, Choice, Scale, Select, Tick};
+use quadtank::sim::{Experiment, Load, LoadStep, SetPointStep};
+use quadtank::study::quadruple_tank::Setup;
+use quadtank_scenario::limits;
+
+/// Time of a step that the student adds (s).
+const FIRST_STEP_AT_S: f64 = 100.0;
+/// When a load that the student adds begins, as a share of the experiment: after the steps of the published ones.
+const FIRST_LOAD_AT: f64 = 0.8;
+/// Extra pump flow of a load that the student adds (m³/s): about 5 % of a pump's flow on Johansson's rig.
+const FIRST_LOAD_FLOW: f64 = 0.5e-6;
+/// Hole of a leak that the student adds (m²): about a fifth of an outlet of Johansson's rig.
+const FIRST_LEAK_AREA: f64 = 1.5e-6;
+/// Travel of the reference sliders as a share of the lowest wall.
+const REFERENCE_TRAVEL: f64 = 0.25;
+
+const REFERENCE: Knob<Setup> = Knob {
+    ids: [("step1", "step1-number"), ("step2", "step2-number")],
+    label: |_, k| ["r₁", "r₂"][k].to_owned(),
+    name: |lab, k| tr!(lab, experiment.reference, level = k + 1),
+    read: |s, k| to_shown(first_step(&s.experiment, k).size, s.plant.display_unit()),
+    write: |s, k, size| {
+        let size = to_metres(size, s.plant.display_unit());
+        first_step_mut(&mut s.experiment, k).size = size;
+    },
+    limits: |s, _| reach(s, 1.0),
+    travel: Some(|s| reach(s, REFERENCE_TRAVEL)),
+    unit: |s| unit_name(s.plant.display_unit()),
+    class: ["loop1-row", "loop2-row"],
+    ..OF_EXPERIMENT
+};
+const REFERENCE_TIME: Knob<Setup> = Knob {
+    ids: [("", "step1-time"), ("", "step2-time")],
+    name: |lab, k| tr!(lab, experiment.reference_time, level = k + 1),
+    read: |s, k| first_step(&s.experiment, k).time_s,
+    write: |s, k, time_s| first_step_mut(&mut s.experiment, k).time_s = time_s,
+    ..TIME
+};
+const LOAD: Knob<Setup> = Knob {
+    ids: [("load-size", "load-size-number"); 2],
+    name: |lab, _| tr!(lab, experiment.load_size),
+    read: |s, _| match first_load(&s.experiment) {
+        Some(Load::PumpFlow { flow, .. }) => flow * CM3_PER_M3,
+        Some(Load::Leak { area, .. }) => area * MM2_PER_M2,
+        None => 0.0,
+    },
+    write: |s, _, size| match s.experiment.load_steps.first_mut().map(|step| &mut step.load) {
+        Some(Load::PumpFlow { flow, .. }) => *flow = size / CM3_PER_M3,
+        Some(Load::Leak { area, .. }) => *area = size / MM2_PER_M2,
+        None => {}
+    },
+    limits: |s, _| {
+        if is_leak(s) {
+            (0.0, limits::LEAK_AREA.max * MM2_PER_M2)
+        } else {
+            (limits::LOAD_FLOW.min * CM3_PER_M3, limits::LOAD_FLOW.max * CM3_PER_M3)
+        }
+    },
+    travel: Some(|s| if is_leak(s) { (0.0, 10.0) } else { (-5.0, 5.0) }),
+    scale: Scale::Linear(0.1),
+    unit: |s| if is_leak(s) { "mm²" } else { "cm³/s" },
+    class: [""; 2],
+    ..OF_EXPERIMENT
+};
+const LOAD_TIME: Knob<Setup> = Knob {
+    ids: [("", "load-time"); 2],
+    name: |lab, _| tr!(lab, experiment.load_time),
+    read: |s, _| s.experiment.load_steps.first().map_or(0.0, |step| step.time_s),
+    write: |s, _, time_s| s.experiment.load_steps.iter_mut().take(1).for_each(|step| step.time_s = time_s),
+    ..TIME
+};
+const NOISE: Knob<Setup> = Knob {
+    ids: [("noise", "noise-number"); 2],
+    label: |lab, _| tr!(lab, experiment.noise),
+    name: |lab, _| tr!(lab, experiment.noise_name),
+    read: |s, _| to_shown(s.experiment.measurement.noise_std, s.plant.display_unit()),
+    write: |s, _, noise| s.experiment.measurement.noise_std = to_metres(noise, s.plant.display_unit()),
+    limits: |s, _| noises(s),
+    travel: Some(noises),
+    unit: |s| unit_name(s.plant.display_unit()),
+    ..OF_EXPERIMENT
+};
+const DURATION: Knob<Setup> = Knob {
+    ids: [("duration", "duration-number"); 2],
+    label: |lab, _| tr!(lab, experiment.duration),
+    name: |lab, _| tr!(lab, experiment.duration_name),
+    read: |s, _| s.experiment.duration_s,
+    write: |s, _, duration_s| s.experiment.duration_s = duration_s,
+    limits: |s, _| {
+        let limits = limits::duration_s(s.controller.sampling_time_s);
+        (limits.min, limits.max)
+    },
+    travel: Some(|_| (100.0, 20_000.0)),
+    scale: Scale::Logarithmic,
+    digits: Some(0),
+    unit: |_| "s",
+    ..OF_EXPERIMENT
+};
+const TIME: Knob<Setup> = Knob {
+    limits: |s, _| (limits::TIME_S.min, s.experiment.duration_s),
+    scale: Scale::Linear(10.0),
+    digits: Some(0),
+    ..OF_EXPERIMENT
+};
+const OF_EXPERIMENT: Knob<Setup> =
+    Knob { digits: Some(2), class: ["wide"; 2], lock: Control::Experiment, ..Knob::PLAIN };
+
+/// Levels that a reference can be moved by, in the shown unit: a share of the lowest wall of the lower tanks.
+fn reach(setup: &Setup, share: f64) -> (f64, f64) {
+    let [one, two, ..] = setup.plant().tanks;
+    let reach = to_shown(one.height.min(two.height), setup.plant.display_unit()) * share;
+    (-reach, reach)
+}
+
+fn noises(setup: &Setup) -> (f64, f64) {
+    (0.0, to_shown(0.005, setup.plant.display_unit()))
+}
+
+/// The first step of a reference, or what it would be.
+fn first_step(experiment: &Experiment, level: usize) -> SetPointStep {
+    let step = experiment.set_point_steps.iter().copied().find(|s| s.level == level);
+    step.unwrap_or(SetPointStep { level, time_s: FIRST_STEP_AT_S, size: 0.0 })
+}
+
+/// The first step of a reference, which is added where there is none.
+pub fn first_step_mut(experiment: &mut Experiment, level: usize) -> &mut SetPointStep {
+    let fresh = first_step(experiment, level);
+    let steps = &mut experiment.set_point_steps;
+    let place = steps.iter().position(|step| step.level == level).unwrap_or_else(|| {
+        steps.push(fresh);
+        steps.len() - 1
+    });
+    &mut steps[place]
+}
+
+/// Size of the first step of a reference (m).
+pub fn step_size(session: Session, level: usize) -> Signal<f64> {
+    session.part(move |s| first_step(&s.experiment, level).size)
+}
+
+/// Time of the first step of a reference (s).
+pub fn step_time(session: Session, level: usize) -> Signal<f64> {
+    session.part(move |s| first_step(&s.experiment, level).time_s)
+}
+
+fn first_load(experiment: &Experiment) -> Option<Load> {
+    experiment.load_steps.first().map(|step| step.load)
+}
+
+fn is_leak(setup: &Setup) -> bool {
+    matches!(first_load(&setup.experiment), Some(Load::Leak { .. }))
+}
+
+/// Steps beyond the first of each level and the first load: a file may hold them, the card does not show them.
+fn further_steps(experiment: &Experiment) -> usize {
+    let shown_levels = (0..2).filter(|&level| experiment.set_point_steps.iter().any(|s| s.level == level)).count();
+    experiment.set_point_steps.len() - shown_levels + experiment.load_steps.len().saturating_sub(1)
+}
+
+/// The experiment.
+#[component]
+pub fn ExperimentCard() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let further = move || session.document.with(|s| further_steps(&s.setup.experiment));
+    let about = move || view! { <span class="remark">{say!(lab, experiment.remark)}</span> };
+    view! {
+        <Card name="experiment" title=say!(lab, experiment.title) beside=about>
+            <Timed size=&REFERENCE time=&REFERENCE_TIME index=0 />
+            <Timed size=&REFERENCE time=&REFERENCE_TIME index=1 />
+            <LoadControls />
+            <KnobRow session knob=&NOISE />
+            <KnobRow session knob=&DURATION />
+            <Tick
+                id="quantised"
+                text=say!(lab, experiment.quantised)
+                ticked=session.part(|s| s.experiment.measurement.quantised)
+                disabled=lab.locks(Control::Experiment)
+                on_tick=move |on| session.edit(|s| s.experiment.measurement.quantised = on)
+            />
+            <p class="remark" hidden=move || further() == 0>{say!(lab, experiment.further, count = further())}</p>
+            <PlayControls />
+        </Card>
+    }
+}
+
+/// A slider, and "at … s".
+#[component]
+fn Timed(size: &'static Knob<Setup>, time: &'static Knob<Setup>, #[prop(optional)] index: usize) -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    view! {
+        <div class="timed">
+            <KnobRow session knob=size index />
+            <div class="at">
+                <span class="unit">{say!(lab, experiment.at)}</span>
+                <KnobNumber session knob=time index />
+                <span class="unit">"s"</span>
+            </div>
+        </div>
+    }
+}
+
+/// Where the first load acts: an index of a pump or a tank, or nowhere.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum LoadPlace {
+    Nowhere,
+    Pump(usize),
+    Tank(usize),
+}
+
+impl LoadPlace {
+    const ALL: [Self; 7] =
+        [Self::Nowhere, Self::Pump(0), Self::Pump(1), Self::Tank(0), Self::Tank(1), Self::Tank(2), Self::Tank(3)];
+
+    fn of(setup: &Setup) -> Self {
+        match first_load(&setup.experiment) {
+            None => Self::Nowhere,
+            Some(Load::PumpFlow { pump, .. }) => Self::Pump(pump),
+            Some(Load::Leak { tank, .. }) => Self::Tank(tank),
+        }
+    }
+
+    /// A load that begins there.
+    fn load(self) -> Option<Load> {
+        match self {
+            Self::Nowhere => None,
+            Self::Pump(pump) => Some(Load::PumpFlow { pump, flow: FIRST_LOAD_FLOW }),
+            Self::Tank(tank) => Some(Load::Leak { tank, area: FIRST_LEAK_AREA }),
+        }
+    }
+
+    fn choice(self, lab: Lab) -> Choice<Self> {
+        match self {
+            Self::Nowhere => Choice::new(self, "none", tr!(lab, experiment.load_none)),
+            Self::Pump(k) => Choice::new(self, format!("pump{k}"), tr!(lab, experiment.load_pump, pump = k + 1)),
+            Self::Tank(k) => Choice::new(self, format!("leak{k}"), tr!(lab, experiment.load_leak, tank = k + 1)),
+        }
+    }
+}
+
+/// Kind, size and time of the first load.
+#[component]
+fn LoadControls() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let present = session.part(|s| !s.experiment.load_steps.is_empty());
+    let choose = move |place: LoadPlace| {
+        session.edit(|s| {
+            let begin = (FIRST_LOAD_AT * s.experiment.duration_s).round();
+            let steps = &mut s.experiment.load_steps;
+            match (place.load(), steps.is_empty()) {
+                (None, false) => drop(steps.remove(0)),
+                (None, true) => {}
+                (Some(load), true) => steps.push(LoadStep { time_s: begin, load }),
+                (Some(load), false) => steps[0].load = load,
+            }
+        });
+    };
+    view! {
+        <div class="row load">
+            <label for="load-kind">{say!(lab, experiment.load)}</label>
+            <Select
+                id="load-kind"
+                labelled="load-kind"
+                choices=Signal::derive(move || LoadPlace::ALL.map(|place| place.choice(lab)).to_vec())
+                chosen=session.part(LoadPlace::of)
+                on_choose=choose
+                disabled=lab.locks(Control::Experiment)
+            />
+        </div>
+        {move || present.get().then(|| view! { <Timed size=&LOAD time=&LOAD_TIME /> })}
+    }
+}

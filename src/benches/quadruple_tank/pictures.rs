@@ -1,0 +1,123 @@
+//! The charts of the home bench, from the results of the laboratory. Building them follows what they read.
+
+use super::session::Session;
+use crate::shown::{per_metre, unit_name};
+use crate::texts::tr;
+use crate::widgets::Picture;
+use quadtank::linear::Complex;
+use quadtank::study::quadruple_tank::ValveMap;
+use quadtank_figure::{
+    self, Chart, PoleZero, PoleZeroTexts, ResponseTexts, Responses, RunColumns, ValvePlane, ValvePlaneTexts,
+};
+use quadtank_scenario::{roots_to_csv, run_to_csv, valve_map_to_csv};
+
+use leptos::prelude::*;
+
+/// The setting whose zero is shaded half way to the full colour.
+const TYPICAL_SETTING: [f64; 2] = [0.3, 0.3];
+/// Points on the paths of the zeros.
+const PATH_POINTS: usize = 61;
+/// Steps of each valve in the exported table of the plane.
+const CSV_STEPS: u32 = 20;
+
+/// The valve plane. It does not depend on the valves themselves, so dragging the point does not repaint it.
+pub fn valve_plane(session: Session) -> Picture {
+    let lab = session.lab;
+    let map = Memo::new(move |_| session.document.with(|s| ValveMap::of(&s.setup).ok().map(ValveMap::without_setting)));
+    let csv = move || map.get().map(|m| valve_map_to_csv(&m, CSV_STEPS)).unwrap_or_default();
+    let build = move |visit: &mut dyn FnMut(&[Chart])| {
+        let Some(map) = map.get() else { return };
+        let texts = ValvePlaneTexts {
+            gamma_1: "γ₁",
+            gamma_2: "γ₂",
+            boundary: "γ₁ + γ₂ = 1",
+            minimum_phase: &tr!(lab, valves.minimum),
+            right_half_plane: &tr!(lab, valves.right),
+        };
+        visit(&[quadtank_figure::valve_plane(&ValvePlane {
+            right_most_zero: &|valves| map.rightmost_zero(valves),
+            halfway_zero: map.rightmost_zero(TYPICAL_SETTING).unwrap_or(1.0),
+            published: &[],
+            setting: None,
+            texts,
+        })]);
+    };
+    Picture::new(build, csv)
+}
+
+/// Poles and zeros.
+pub fn pole_zero(session: Session) -> Picture {
+    let lab = session.lab;
+    let csv = move || session.charts.with_analysis(roots_to_csv).unwrap_or_default();
+    let build = move |visit: &mut dyn FnMut(&[Chart])| {
+        let map = session.charts.setup.with_untracked(|setup| ValveMap::of(setup));
+        let zero_paths = map.map(|m| m.zero_paths(PATH_POINTS)).unwrap_or_default();
+        session.charts.with_analysis(|a| {
+            let zeros: Vec<Complex> = a.zeros.iter().flatten().map(|z| z.value).collect();
+            visit(&[quadtank_figure::pole_zero(&PoleZero {
+                poles: &a.poles,
+                zeros: &zeros,
+                zero_paths: &zero_paths,
+                closed_loop: &a.closed_loop.poles_s,
+                decimal: lab.number_style().decimal,
+                texts: PoleZeroTexts {
+                    real: &tr!(lab, zeros.real),
+                    imaginary: &tr!(lab, zeros.imaginary),
+                    poles: &tr!(lab, zeros.pole),
+                    zeros: &tr!(lab, zeros.zero),
+                    closed_loop: &tr!(lab, zeros.closed),
+                    beyond: &tr!(lab, zeros.beyond),
+                },
+            })]);
+        });
+    };
+    Picture::new(build, csv)
+}
+
+/// Levels and pump voltages; the level axis shows at least `held`.
+pub fn responses(session: Session, held: RwSignal<Option<(f64, f64)>>) -> Picture {
+    let lab = session.lab;
+    let window = Memo::new(move |_| session.document.with(|s| s.view.zoom_s.map(<(f64, f64)>::from)));
+    let hide_linear = Memo::new(move |_| session.document.with(|s| s.view.hide_linear));
+    let csv = move || session.charts.run.with(|run| run.as_ref().as_ref().map(run_to_csv).unwrap_or_default());
+    let build = move |visit: &mut dyn FnMut(&[Chart])| {
+        let (run, pinned) = (session.charts.run.get(), session.charts.pinned.get());
+        let Ok(run) = run.as_ref() else { return };
+        let unit = session.own.unit.get();
+        let level = tr!(lab, responses.level_axis, unit = unit_name(unit));
+        let number = |text: &dyn Fn(usize) -> String| [text(1), text(2)];
+        let levels = number(&|k| tr!(lab, responses.level, number = k));
+        let pumps = number(&|k| tr!(lab, responses.pump, number = k));
+        let references = [1, 2].map(|k| format!("{} {k}", tr!(lab, responses.reference)));
+        let plant = session.charts.setup.with_untracked(|setup| setup.plant());
+        let [pump_1, pump_2] = plant.pumps;
+        let pinned = pinned
+            .iter()
+            .filter_map(|p| p.result.as_ref().as_ref().ok())
+            .map(|r| RunColumns::of(&r.nonlinear))
+            .collect();
+        visit(&quadtank_figure::responses(&Responses {
+            nonlinear: RunColumns::of(&run.nonlinear),
+            references: [&run.nonlinear.references[0], &run.nonlinear.references[1]],
+            linear: (!hide_linear.get()).then(|| RunColumns::of(&run.linear)),
+            pinned,
+            level_scale: per_metre(unit),
+            walls: [plant.tanks[0].height, plant.tanks[1].height],
+            voltage_limits: (pump_1.voltage_min.min(pump_2.voltage_min), pump_1.voltage_max.max(pump_2.voltage_max)),
+            window_s: window.get(),
+            held_levels: held.get(),
+            texts: ResponseTexts {
+                time: &tr!(lab, chart.time),
+                level: &level,
+                voltage: &tr!(lab, responses.pump_axis),
+                levels: [&levels[0], &levels[1]],
+                references: [&references[0], &references[1]],
+                voltages: [&pumps[0], &pumps[1]],
+                reference: &tr!(lab, responses.reference),
+                linear: &tr!(lab, responses.linear),
+                pinned: &tr!(lab, responses.pinned),
+            },
+        }));
+    };
+    Picture::new(build, csv)
+}

@@ -1,0 +1,106 @@
+//! The choice of a published rig.
+
+use leptos::prelude::*;
+
+use super::session::{Session, use_session};
+use crate::lab::Lab;
+use crate::start::Control;
+use crate::texts::{say, tr};
+use crate::widgets::{Choice, Select};
+use quadtank::literature::PresetId;
+use quadtank::study::quadruple_tank::{PlantSpec, setup_of};
+use quadtank_scenario::Scenario;
+
+/// Name of a rig in the language of the laboratory.
+pub fn name_of(lab: Lab, id: PresetId) -> String {
+    match id {
+        PresetId::JohanssonMinimumPhase => tr!(lab, preset.johansson_minus),
+        PresetId::JohanssonNonMinimumPhase => tr!(lab, preset.johansson_plus),
+        PresetId::CocotaMinimumPhase => tr!(lab, preset.cocota_minus),
+        PresetId::CocotaNonMinimumPhase => tr!(lab, preset.cocota_plus),
+        PresetId::JunqueiraA => tr!(lab, preset.junqueira_a),
+        PresetId::JunqueiraB => tr!(lab, preset.junqueira_b),
+    }
+}
+
+fn changed(lab: Lab, id: PresetId) -> String {
+    tr!(lab, preset.changed, name = name_of(lab, id))
+}
+
+/// What to know about a rig.
+pub fn remark_of(lab: Lab, id: Option<PresetId>) -> String {
+    match id {
+        Some(PresetId::JohanssonMinimumPhase) => tr!(lab, preset.remark_johansson_minus),
+        Some(PresetId::JohanssonNonMinimumPhase) => tr!(lab, preset.remark_johansson_plus),
+        Some(PresetId::CocotaMinimumPhase) => tr!(lab, preset.remark_cocota_minus),
+        Some(PresetId::CocotaNonMinimumPhase) => tr!(lab, preset.remark_cocota_plus),
+        Some(PresetId::JunqueiraA | PresetId::JunqueiraB) => tr!(lab, preset.remark_junqueira),
+        None => tr!(lab, preset.remark_own),
+    }
+}
+
+/// Loads a published rig with its published controller and experiment; pinned runs stay.
+pub fn load(session: Session, id: PresetId) {
+    session.document.update(|s| {
+        let fresh = Scenario {
+            version: s.version,
+            setup: setup_of(id),
+            pinned: std::mem::take(&mut s.pinned),
+            view: s.view.clone(),
+        };
+        *s = fresh;
+        s.view.cursor_s = None;
+        s.view.zoom_s = None;
+    });
+}
+
+/// The rig in force, if it is a published one.
+pub fn chosen(session: Session) -> Signal<Option<PresetId>> {
+    session.part(|s| match s.plant {
+        PlantSpec::Preset(id) => Some(id),
+        PlantSpec::Parameters { .. } => None,
+    })
+}
+
+/// What to know about the rig in force.
+#[component]
+pub fn PresetRemark() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let id = chosen(session);
+    view! { <p class="remark" data-testid="preset-remark">{move || remark_of(lab, id.get())}</p> }
+}
+
+/// The choice among all published rigs.
+#[component]
+pub fn PresetSelect() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let id = chosen(session);
+    // What was changed is none of the choices, so that choosing the same rig again brings it back.
+    let intact =
+        Signal::derive(move || id.get().filter(|&id| session.words.setup.with(|setup| **setup == setup_of(id))));
+    let choices = Signal::derive(move || {
+        let published =
+            PresetId::ALL.into_iter().map(|choice| Choice::new(Some(choice), choice.name(), name_of(lab, choice)));
+        let own = || id.get().map_or_else(|| tr!(lab, preset.own), |id| changed(lab, id));
+        let other = intact.get().is_none().then(|| Choice::new(None, "", own()));
+        other.into_iter().chain(published).collect::<Vec<_>>()
+    });
+    let choose = move |choice: Option<PresetId>| {
+        if let Some(id) = choice {
+            load(session, id);
+        }
+    };
+    view! {
+        <Select
+            id="preset"
+            name=say!(lab, preset.choose)
+            title=Signal::derive(move || remark_of(lab, id.get()))
+            choices
+            chosen=intact
+            on_choose=choose
+            disabled=lab.locks(Control::Preset)
+        />
+    }
+}

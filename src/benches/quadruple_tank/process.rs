@@ -1,0 +1,106 @@
+//! The card with the drawing of the rig, the valves, and one sentence about where the zero is.
+
+use leptos::prelude::*;
+
+use super::moment::use_moment;
+use super::preset::{PresetRemark, PresetSelect};
+use super::published::PublishedFigures;
+use super::rig::Rig;
+use super::sentences;
+use super::session::use_session;
+use crate::controls::{Knob, KnobRow};
+use crate::start::Control;
+use crate::texts::{say, tr};
+use crate::widgets::{Card, NumberField, Scale, Verdict, marked};
+use quadtank::study::quadruple_tank::{OperatingPointSpec, Setup};
+
+const GAMMA: Knob<Setup> = Knob {
+    ids: [("gamma1", "gamma1-number"), ("gamma2", "gamma2-number")],
+    label: |_, k| ["γ₁", "γ₂"][k].to_owned(),
+    name: |lab, k| tr!(lab, process.gamma, pump = k + 1),
+    read: |s, k| s.valves[k],
+    write: |s, k, gamma| s.valves[k] = gamma,
+    travel: Some(|_| (0.0, 1.0)),
+    digits: Some(2),
+    class: ["loop1-row", "loop2-row"],
+    lock: Control::Valves,
+    ..Knob::PLAIN
+};
+const VOLTAGE_IDS: [&str; 2] = ["voltage1", "voltage2"];
+
+/// The drawing of the rig, the valve sliders and the sentence under them.
+#[component]
+pub fn ProcessCard() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let moment = use_moment();
+    let remark = move || match moment.get().and_then(|m| m.time_s) {
+        Some(time) => tr!(lab, process.at_time, time = lab.number_style().fixed(time, 0)),
+        None if lab.locks(Control::Valves) => tr!(lab, process.at_rest),
+        None => tr!(lab, process.drag_valves),
+    };
+    let open = RwSignal::new(false);
+    let sentence = Memo::new(move |_| sentences::of_zero(session));
+    let paragraphs = move || {
+        let all = std::iter::once(sentence.get().0).chain(sentences::of_equilibrium(session));
+        all.map(|text| view! { <p>{marked(&text)}</p> }).collect_view()
+    };
+    view! {
+        <Card name="process" title=say!(lab, process.title) beside=|| view! { <PresetSelect /> }>
+            <p class="remark moment">{remark}</p>
+            <Rig />
+            <div>
+                <KnobRow session knob=&GAMMA index=0 />
+                <KnobRow session knob=&GAMMA index=1 />
+            </div>
+            <Verdict id="process-sentence" warm=Signal::derive(move || sentence.get().1)>{paragraphs}</Verdict>
+            <details class="more" on:toggle=move |_| open.update(|o| *o = !*o)>
+                <summary>{say!(lab, process.operating_point)}</summary>
+                <PresetRemark />
+                <div class="fields">
+                    <VoltageField pump=0 />
+                    <VoltageField pump=1 />
+                </div>
+                {move || open.get().then(|| view! { <PublishedFigures /> })}
+            </details>
+        </Card>
+    }
+}
+
+/// The voltage of a pump at rest. Editing it makes the voltages, not the levels, what the operating point is given by.
+#[component]
+fn VoltageField(pump: usize) -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let computed =
+        move || session.words.analysis.with(|a| a.as_ref().as_ref().ok().map(|a| a.operating_point.pump_voltage));
+    let voltages = move || match session.document.with(|s| s.setup.operating_point) {
+        OperatingPointSpec::PumpVoltage(given) => Some(given),
+        OperatingPointSpec::Levels(_) => computed(),
+    };
+    let on_change = move |v: f64| {
+        let mut both = untrack(voltages).unwrap_or_default();
+        both[pump] = v;
+        session.edit(|s| s.operating_point = OperatingPointSpec::PumpVoltage(both));
+    };
+    let range = session.part(move |s: &Setup| {
+        let pump = s.plant().pumps[pump];
+        (pump.voltage_min, pump.voltage_max)
+    });
+    view! {
+        <div class="field-row">
+            <span>{["v₁", "v₂"][pump]}</span>
+            <NumberField
+                id=VOLTAGE_IDS[pump]
+                name=say!(lab, process.voltage, pump = pump + 1)
+                value=Signal::derive(move || voltages().map_or(0.0, |v| v[pump]))
+                on_change
+                limits=range
+                scale=Scale::Linear(0.05)
+                digits=Some(2)
+                disabled=lab.locks(Control::Voltages)
+            />
+            <span class="unit">"V"</span>
+        </div>
+    }
+}

@@ -1,0 +1,252 @@
+//! The step responses: levels and pump voltages, with cursor, zoom, pinned runs, metrics and a data table.
+
+use leptos::prelude::*;
+
+use super::metrics::MetricsTable;
+use super::moment::{Moment, use_moment};
+use super::pictures;
+use super::session::{Session, use_session};
+use super::set_points::SetPoints;
+use crate::errors::of_study_error;
+use crate::shown::{length_digits, to_shown, unit_name};
+use crate::texts::{say, tr};
+use crate::widgets::{
+    Card, ChartCanvas, ChartMenu, DataTable, Readout, Sentence, TimeAxis, TimeSurface, ZoomButtons, unmarked,
+};
+use quadtank::sim::{EventKind, LoopMetrics, Settling, Stability};
+use quadtank::study::{StudyError, StudyFault};
+use quadtank_figure::Frame;
+use quadtank_scenario::Scenario;
+
+/// The shortest stretch of time that can be shown (s).
+const SHORTEST_S: f64 = 5.0;
+
+/// The step responses.
+#[component]
+pub fn ResponsesCard() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let frames = RwSignal::new(Vec::<Frame>::new());
+    let held = RwSignal::new(None);
+    let picture = pictures::responses(session, held);
+    let (for_menu, for_table) = (picture.clone(), picture.clone());
+    let axis = time_axis(session);
+    let moment = use_moment();
+    let at_cursor = move || moment.get().filter(|m| m.time_s.is_some());
+    let title = say!(lab, responses.title);
+    let sentence = Signal::derive(move || sentence(session));
+    let beside = move || {
+        view! {
+            <Toolbar axis />
+            <ChartMenu picture=for_menu file="responses" title />
+        }
+    };
+    view! {
+        <Card name="responses" title beside>
+            <div class="charts">
+                <div class="chart">
+                    <ChartCanvas
+                        picture
+                        frames
+                        summary=say!(lab, responses.summary, sentence = unmarked(&sentence.get()))
+                        name="responses"
+                    />
+                    <TimeSurface
+                        axis
+                        frames
+                        label=say!(lab, responses.cursor)
+                        spoken=Signal::derive(move || at_cursor().map_or_else(String::new, |m| spoken(session, &m)))
+                        readout=Signal::derive(move || at_cursor().map(|m| readout(session, &m)))
+                        id="responses-surface"
+                    />
+                    <SetPoints frames held />
+                </div>
+            </div>
+            <Sentence id="responses-sentence" text=sentence status=true />
+            <MetricsTable />
+            <DataTable picture=for_table id="data-table" />
+        </Card>
+    }
+}
+
+#[component]
+fn Toolbar(axis: TimeAxis) -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let pin = move |_| {
+        session.document.update(|s| {
+            let setup = s.setup.clone();
+            s.pinned.push(setup);
+            if s.pinned.len() > Scenario::MAX_PINNED {
+                s.pinned.remove(0);
+            }
+        });
+    };
+    let linear = move || session.document.with(|s| !s.view.hide_linear);
+    view! {
+        <div class="toolbar">
+            <button type="button" class="button small" data-testid="pin" on:click=pin>{say!(lab, responses.pin)}</button>
+            <button
+                type="button"
+                class="button small"
+                data-testid="unpin"
+                hidden=move || session.words.pinned.with(|p| p.is_empty())
+                on:click=move |_| session.document.update(|s| s.pinned.clear())
+            >
+                {say!(lab, responses.unpin)}
+            </button>
+            <button
+                type="button"
+                class="button small"
+                data-testid="linear"
+                aria-pressed=move || linear().to_string()
+                on:click=move |_| session.document.update(|s| s.view.hide_linear = !s.view.hide_linear)
+            >
+                {say!(lab, responses.hide_linear)}
+            </button>
+            <ZoomButtons axis ids=["zoom-in", "zoom-out", "zoom-reset"] />
+        </div>
+    }
+}
+
+/// The time of the run; zooming goes about the first step in sight.
+fn time_axis(session: Session) -> TimeAxis {
+    let window =
+        move || session.document.with(|s| s.view.zoom_s.map_or((0.0, s.setup.experiment.duration_s), Into::into));
+    let first_step = move || {
+        let (from, to) = window();
+        session.document.with(|s| {
+            let times = s.setup.experiment.set_point_steps.iter().map(|step| step.time_s);
+            times.filter(|t| (from..=to).contains(t)).reduce(f64::min)
+        })
+    };
+    TimeAxis {
+        whole: session.part(|s| (0.0, s.experiment.duration_s)),
+        window: Signal::derive(window),
+        cursor: Memo::new(move |_| session.document.with(|s| s.view.cursor_s)).into(),
+        on_cursor: Callback::new(move |time| session.document.update(|s| s.view.cursor_s = time)),
+        on_show: Callback::new(move |stretch: Option<(f64, f64)>| {
+            session.document.update(|s| s.view.zoom_s = stretch.map(Into::into));
+        }),
+        about: Signal::derive(first_step),
+        shortest: SHORTEST_S,
+    }
+}
+
+/// A moment as it is shown at the cursor: time, both levels without their unit, both pump voltages.
+fn numbers(session: Session, m: &Moment) -> (String, [String; 2], [String; 2]) {
+    let lab = session.lab;
+    let style = lab.number_style();
+    let unit = session.own.unit.get();
+    let level = |k: usize| style.fixed(to_shown(m.levels[k], unit), length_digits(unit));
+    let pump = |k: usize| style.fixed(m.pump_voltage[k], 2);
+    (style.fixed(m.time_s.unwrap_or(0.0), 0), [level(0), level(1)], [pump(0), pump(1)])
+}
+
+fn readout(session: Session, m: &Moment) -> Readout {
+    let (time, [h1, h2], [v1, v2]) = numbers(session, m);
+    let u = unit_name(session.own.unit.get());
+    Readout {
+        time: format!("t = {time} s"),
+        pairs: vec![[format!("h₁ {h1} {u}"), format!("h₂ {h2} {u}")], [format!("v₁ {v1} V"), format!("v₂ {v2} V")]],
+    }
+}
+
+fn spoken(session: Session, m: &Moment) -> String {
+    let (time, [h1, h2], [v1, v2]) = numbers(session, m);
+    let u = unit_name(session.own.unit.get());
+    format!("t = {time} s: h₁ {h1} {u}, h₂ {h2} {u}, v₁ {v1} V, v₂ {v2} V")
+}
+
+/// What the run says, in words: how each stepped level did, then what went wrong first.
+fn sentence(session: Session) -> String {
+    let lab = session.lab;
+    session.words.run.with(|outcome| {
+        let run = match outcome.as_ref() {
+            Ok(run) => run,
+            Err(error @ StudyError { fault: StudyFault::TooMuchWork { .. }, .. }) => {
+                return of_study_error(lab, session.own.unit.get(), error);
+            }
+            Err(_) => return tr!(lab, responses.none),
+        };
+        let mut parts: Vec<String> =
+            run.metrics.iter().enumerate().filter_map(|(k, m)| of_metrics(session, k, m)).collect();
+        let unstable = session.words.with_analysis(|a| a.closed_loop.stability == Stability::Unstable);
+        if unstable == Some(true) {
+            parts = vec![tr!(lab, responses.unstable)];
+        } else if parts.is_empty() {
+            let has_step = run.metrics.iter().any(|m| m.step_time_s.is_some());
+            let has_load = session.words.setup.with(|s| !s.experiment.load_steps.is_empty());
+            let text = match (has_step, has_load) {
+                (true, _) => tr!(lab, responses.not_at_rest),
+                (false, true) => tr!(lab, responses.load_alone),
+                (false, false) => tr!(lab, responses.sentence_still),
+            };
+            parts.push(text);
+        } else if session.words.setup.with(|s| s.experiment.is_disturbed()) {
+            parts.push(tr!(lab, responses.disturbed));
+        }
+        parts.extend(run.nonlinear.events.iter().take(MOST_EVENTS).map(|event| {
+            let time = lab.number_style().fixed(event.time_s, 0);
+            match event.kind {
+                EventKind::Overflow { tank } => {
+                    tr!(lab, responses.event_overflow, tank = tank + 1, time = time)
+                }
+                EventKind::Empty { tank } => tr!(lab, responses.event_empty, tank = tank + 1, time = time),
+                EventKind::Saturated { pump } => {
+                    tr!(lab, responses.event_saturated, pump = pump + 1, time = time)
+                }
+            }
+        }));
+        parts.join(" ")
+    })
+}
+
+/// Most events that the sentence tells.
+const MOST_EVENTS: usize = 4;
+
+fn of_metrics(session: Session, index: usize, metrics: &LoopMetrics) -> Option<String> {
+    let lab = session.lab;
+    let style = lab.number_style();
+    let unit = session.own.unit.get();
+    let window_s = metrics.window_s?;
+    let window = style.significant(window_s, 3);
+    let cross = style.fixed(to_shown(metrics.other_peak, unit), length_digits(unit));
+    let (level, other) = (index + 1, 2 - index);
+    Some(match metrics.settling_2_percent? {
+        Settling::After { time_s } => {
+            // As many digits as in the table below.
+            let percent = 100.0 * metrics.overshoot.unwrap_or(0.0);
+            let overshoot = if percent < 0.05 {
+                tr!(lab, responses.without_overshoot)
+            } else {
+                let share = format!("{}\u{a0}%", style.fixed(percent, 1));
+                tr!(lab, responses.with_overshoot, share = share)
+            };
+            let time = style.significant(time_s, 3);
+            // Where it is over so soon, what comes later may be worse.
+            let is_short = window_s < 2.0 * time_s;
+            let watched = if is_short { tr!(lab, responses.watched, window = window) } else { String::new() };
+            tr!(
+                lab,
+                responses.sentence_settles,
+                level = level,
+                time = time,
+                watched = watched,
+                overshoot = overshoot,
+                other = other,
+                cross = cross,
+                unit = unit_name(unit)
+            )
+        }
+        Settling::Never => tr!(
+            lab,
+            responses.sentence_never,
+            level = level,
+            window = window,
+            other = other,
+            cross = cross,
+            unit = unit_name(unit)
+        ),
+    })
+}

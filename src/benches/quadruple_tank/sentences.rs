@@ -1,0 +1,188 @@
+//! What the cards say in plain words. Each sentence follows from a typed result, never from a number of its own.
+
+use leptos::prelude::*;
+
+use super::session::Session;
+use crate::errors::of_plant_error;
+use crate::texts::tr;
+use quadtank::linear::{Complex, LinearError};
+use quadtank::plant::PlantError;
+use quadtank::sim::Stability;
+use quadtank::study::quadruple_tank::Analysis;
+use quadtank::study::{StudyError, StudyFault};
+
+/// Which of its situations a plant is in, for the sentences and the colours.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ZeroSituation {
+    /// Both finite zeros are in the left half-plane.
+    Left(f64),
+    /// One is in the right half-plane.
+    Right(f64),
+    /// One is at the origin.
+    Origin,
+    /// There is no finite zero.
+    NoFinite,
+    /// The two lower tanks do not interact, or nothing couples them.
+    Uncoupled,
+    /// det G(s) ≡ 0.
+    Degenerate,
+}
+
+impl ZeroSituation {
+    /// Reads the situation off an analysis.
+    pub fn of(analysis: &Analysis, valves: [f64; 2]) -> Self {
+        if valves == [1.0, 1.0] {
+            return Self::Uncoupled;
+        }
+        match &analysis.zeros {
+            Err(_) => Self::Degenerate,
+            Ok(_) => match (analysis.rightmost_zero(), &analysis.rga_11) {
+                (None, _) => Self::NoFinite,
+                (Some(_), Err(LinearError::SingularGain { .. })) => Self::Origin,
+                (Some(z), _) if z.value.re > 0.0 => Self::Right(z.value.re),
+                (Some(z), _) => Self::Left(z.value.re),
+            },
+        }
+    }
+
+    /// Whether this situation limits what control can do.
+    pub fn is_hard(&self) -> bool {
+        matches!(self, Self::Right(_) | Self::Origin | Self::Degenerate)
+    }
+}
+
+/// The situation of the plant in force.
+pub fn situation(session: Session) -> Option<ZeroSituation> {
+    let valves = session.words.setup.with(|s| s.valves);
+    session.words.with_analysis(|a| ZeroSituation::of(a, valves))
+}
+
+/// The sentence under the drawing, and whether it is a warning.
+pub fn of_zero(session: Session) -> (String, bool) {
+    let lab = session.lab;
+    let style = lab.number_style();
+    let valves = session.words.setup.with(|s| s.valves);
+    let (sum, off) = (valves[0] + valves[1], (valves[0] + valves[1] - 1.0).abs());
+    // Enough digits to see on which side of 1.
+    let sum = style.fixed(sum, if off < 0.005 { 5 } else { 2 });
+    let Some(situation) = situation(session) else {
+        return (tr!(lab, process.no_equilibrium), true);
+    };
+    let text = match &situation {
+        ZeroSituation::Left(_) => tr!(lab, process.minimum, sum = sum),
+        ZeroSituation::Right(z) => {
+            let zero = format!("+{}", style.significant(*z, 3));
+            tr!(lab, process.right, sum = sum, zero = zero)
+        }
+        ZeroSituation::Origin => tr!(lab, process.origin),
+        ZeroSituation::NoFinite => tr!(lab, process.few_zeros),
+        ZeroSituation::Uncoupled => tr!(lab, process.none_coupled),
+        ZeroSituation::Degenerate => {
+            let (tank, other) = if valves[0] > valves[1] { (1, 2) } else { (2, 1) };
+            tr!(lab, process.degenerate, tank = tank, other = other)
+        }
+    };
+    (text, situation.is_hard())
+}
+
+/// What walls and pumps do not allow at the operating point.
+pub fn of_equilibrium(session: Session) -> Vec<String> {
+    session.words.analysis.with(|outcome| match outcome.as_ref() {
+        Ok(analysis) => analysis.out_of_range.iter().map(|e| of_limit(session, e)).collect(),
+        Err(StudyError { fault: StudyFault::Plant(PlantError::SingularPlant { .. }), .. }) => Vec::new(),
+        Err(StudyError { fault: StudyFault::Plant(error), .. }) => vec![of_limit(session, error)],
+        Err(_) => Vec::new(),
+    })
+}
+
+fn of_limit(session: Session, error: &PlantError) -> String {
+    let lab = session.lab;
+    let sentence = of_plant_error(lab, session.own.unit.get(), error);
+    if matches!(error, PlantError::LevelOutOfRange { .. }) { sentence + &tr!(lab, process.overflow) } else { sentence }
+}
+
+/// How long the right-most zero takes, for the valve plane.
+pub fn of_rightmost(session: Session) -> String {
+    let lab = session.lab;
+    let style = lab.number_style();
+    let signed = |z: f64| format!("{}{}", if z > 0.0 { "+" } else { "" }, style.significant(z, 3));
+    let lead = |z: f64| tr!(lab, valves.rightmost, zero = signed(z));
+    let time = |z: f64| style.significant(1.0 / z.abs(), 2);
+    let from_zero = |z: f64| {
+        let rest =
+            if z > 0.0 { tr!(lab, valves.right_of, time = time(z)) } else { tr!(lab, valves.left_of, time = time(z)) };
+        lead(z) + &rest
+    };
+    match situation(session) {
+        Some(ZeroSituation::Left(z) | ZeroSituation::Right(z)) => from_zero(z),
+        Some(ZeroSituation::Origin) => tr!(lab, valves.at_origin),
+        _ => tr!(lab, valves.none),
+    }
+}
+
+/// A component below this share of a unit vector counts as none.
+const NO_PART: f64 = 0.05;
+
+/// The direction of the right-most zero, in words.
+pub fn of_direction(session: Session) -> String {
+    let lab = session.lab;
+    let style = lab.number_style();
+    session
+        .words
+        .with_analysis(|analysis| match &analysis.zeros {
+            Err(_) => tr!(lab, zeros.degenerate),
+            Ok(_) => match analysis.rightmost_zero() {
+                None => tr!(lab, zeros.none),
+                Some(zero) => {
+                    let y: [f64; 2] = [zero.output_direction[0].re, zero.output_direction[1].re];
+                    let lead = tr!(lab, zeros.direction, y1 = style.fixed(y[0], 2), y2 = style.fixed(y[1], 2));
+                    let rest = if zero.value.re < 0.0 {
+                        tr!(lab, zeros.easy)
+                    } else if y[1].abs() < NO_PART {
+                        tr!(lab, zeros.single, level = 1)
+                    } else if y[0].abs() < NO_PART {
+                        tr!(lab, zeros.single, level = 2)
+                    } else if y[0] * y[1] < 0.0 {
+                        tr!(lab, zeros.opposed)
+                    } else {
+                        tr!(lab, zeros.together)
+                    };
+                    lead + &rest
+                }
+            },
+        })
+        .unwrap_or_else(|| tr!(lab, process.no_equilibrium))
+}
+
+/// What the closed-loop poles say, and whether it is bad news.
+pub fn of_stability(session: Session) -> (String, bool) {
+    let lab = session.lab;
+    let style = lab.number_style();
+    session
+        .words
+        .with_analysis(|analysis| {
+            let slowest = analysis.closed_loop.slowest();
+            let number = |z: Complex| style.significant(z.re, 2);
+            match (analysis.closed_loop.stability, slowest) {
+                (Stability::Stable, Some(pole)) => {
+                    let time = style.significant(1.0 / pole.re.abs(), 3);
+                    let text = match analysis.closed_loop.sensitivity_peak {
+                        Some(peak) => {
+                            let peak = style.significant(peak, 3);
+                            tr!(lab, pi.stable, pole = number(pole), time = time, peak = peak)
+                        }
+                        None => tr!(lab, pi.stable_short, pole = number(pole), time = time),
+                    };
+                    (text, false)
+                }
+                (Stability::Unstable, Some(pole)) if pole.re > 0.0 => {
+                    let time = style.significant(std::f64::consts::LN_2 / pole.re, 2);
+                    let pole = format!("+{}", number(pole));
+                    (tr!(lab, pi.unstable, pole = pole, time = time), true)
+                }
+                (Stability::Marginal, _) => (tr!(lab, pi.marginal), true),
+                _ => (tr!(lab, pi.unstable_fast), true),
+            }
+        })
+        .unwrap_or_else(|| (tr!(lab, process.no_equilibrium), true))
+}

@@ -1,0 +1,171 @@
+//! The valve plane: γ1 across, γ2 upwards, shaded by the right-most zero, with a point to drag.
+
+use leptos::ev::KeyboardEvent;
+use leptos::prelude::*;
+
+use super::preset::{chosen, load, name_of};
+use super::session::{Session, use_session};
+use super::{pictures, sentences};
+use crate::start::Control;
+use crate::texts::{say, tr};
+use crate::widgets::{Card, ChartCanvas, ChartMenu, Nudge, PointHandle, Sentence, first_frame};
+use quadtank::literature::PresetId;
+use quadtank_figure::Frame;
+
+/// Steps of the arrow keys between shut and open.
+const STEPS: f64 = 100.0;
+/// Step of the arrow keys.
+pub const STEP: f64 = 1.0 / STEPS;
+
+/// The valve plane.
+#[component]
+pub fn ValvePlaneCard() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let frames = RwSignal::new(Vec::<Frame>::new());
+    let picture = pictures::valve_plane(session);
+    let for_menu = picture.clone();
+    let title = say!(lab, valves.title);
+    let summary = Signal::derive(move || {
+        let [g1, g2] = session.words.setup.with(|s| s.valves);
+        let style = lab.number_style();
+        tr!(lab, valves.summary, gamma1 = style.fixed(g1, 2), gamma2 = style.fixed(g2, 2))
+    });
+    let hint = (!lab.locks(Control::Valves)).then(|| view! { <span class="remark">{say!(lab, valves.remark)}</span> });
+    let beside = move || view! { {hint}<ChartMenu picture=for_menu file="valve-plane" title /> };
+    view! {
+        <Card name="plane" title beside>
+            <div class="chart square">
+                <ChartCanvas picture frames summary name="valve-plane" />
+                <Overlay frames />
+            </div>
+            <Sentence id="valves-sentence" text=Signal::derive(move || sentences::of_rightmost(session)) />
+        </Card>
+    }
+}
+
+/// What lies over the picture: guides, published points and the point to drag.
+#[component]
+fn Overlay(frames: RwSignal<Vec<Frame>>) -> impl IntoView {
+    // The overlay stands from the start and moves with the picture: rebuilding it would take the focus from the handle.
+    view! {
+        <svg class="over" aria-hidden="false">
+            <path class="guide" d=guides(use_session(), frames)></path>
+            <PublishedPoints frames />
+            <SettingHandle frames />
+        </svg>
+    }
+}
+
+/// From the point to both axes.
+fn guides(session: Session, frames: RwSignal<Vec<Frame>>) -> Signal<String> {
+    let [gamma_1, gamma_2] = [0, 1].map(|valve| session.part(move |s| s.valves[valve]));
+    Signal::derive(move || {
+        let frame = first_frame(frames);
+        let (left, bottom) = (frame.plot.left, frame.plot.bottom());
+        let (x, y) = frame.to_px((gamma_1.get(), gamma_2.get()));
+        format!("M{left} {y}H{x}M{x} {bottom}V{y}")
+    })
+}
+
+/// Settings of the same source, to load with a click.
+#[component]
+fn PublishedPoints(frames: RwSignal<Vec<Frame>>) -> impl IntoView {
+    let session = use_session();
+    let rig = chosen(session);
+    let points = move || {
+        let source = rig.get().map(|id| id.preset().source);
+        PresetId::ALL
+            .into_iter()
+            .filter(|id| Some(id.preset().source) == source)
+            .map(|id| view! { <PublishedPoint id frames /> })
+            .collect_view()
+    };
+    view! { {points} }
+}
+
+#[component]
+fn PublishedPoint(id: PresetId, frames: RwSignal<Vec<Frame>>) -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let valves = id.preset().plant.valves;
+    let place = move || {
+        let (x, y) = first_frame(frames).to_px(valves.into());
+        format!("translate({x} {y})")
+    };
+    let short = match id {
+        PresetId::JohanssonMinimumPhase | PresetId::CocotaMinimumPhase => "P−",
+        PresetId::JohanssonNonMinimumPhase | PresetId::CocotaNonMinimumPhase => "P+",
+        PresetId::JunqueiraA => "a",
+        PresetId::JunqueiraB => "b",
+    };
+    let label = Signal::derive(move || {
+        let style = lab.number_style();
+        let (gamma1, gamma2) = (style.fixed(valves[0], 2), style.fixed(valves[1], 2));
+        tr!(lab, valves.published, name = name_of(lab, id), gamma1 = gamma1, gamma2 = gamma2)
+    });
+    let choose = move || {
+        if !lab.locks(Control::Preset) {
+            load(session, id);
+        }
+    };
+    let on_key = move |event: KeyboardEvent| {
+        if matches!(event.key().as_str(), "Enter" | " ") {
+            event.prevent_default();
+            choose();
+        }
+    };
+    view! {
+        <g
+            class="published"
+            role="button"
+            tabindex="0"
+            aria-label=label
+            data-testid=format!("point-{}", id.name())
+            transform=place
+            on:click=move |_| choose()
+            on:keydown=on_key
+        >
+            <title>{label}</title>
+            <circle class="hit" r="14" />
+            <circle class="mark" r="4.5" />
+            <text x="13" y="18">{short}</text>
+        </g>
+    }
+}
+
+/// The point: dragged by mouse, pen or finger, moved by the arrow keys.
+#[component]
+fn SettingHandle(frames: RwSignal<Vec<Frame>>) -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let [gamma_1, gamma_2] = [0, 1].map(|valve| session.part(move |s| s.valves[valve]));
+    let set = move |(g1, g2): (f64, f64)| session.edit(|s| s.valves = [g1, g2].map(on_grid));
+    let spoken = move || {
+        let style = lab.number_style();
+        format!("γ₁ {}, γ₂ {}", style.fixed(gamma_1.get(), 2), style.fixed(gamma_2.get(), 2))
+    };
+    let on_nudge = move |by: Nudge| {
+        let moved = |gamma: f64, steps: f64| gamma + STEP * (steps + by.page);
+        set((moved(gamma_1.get_untracked(), by.right), moved(gamma_2.get_untracked(), by.up)));
+    };
+    view! {
+        <PointHandle
+            id="valve-handle"
+            label=say!(lab, valves.handle)
+            at=Signal::derive(move || (gamma_1.get(), gamma_2.get()))
+            value=gamma_1
+            limits=(0.0, 1.0)
+            spoken=Signal::derive(spoken)
+            locked=lab.locks(Control::Valves)
+            on_move=set
+            on_nudge
+            frames
+        />
+    }
+}
+
+/// The nearest valve fraction that a handle can be set to.
+pub fn on_grid(gamma: f64) -> f64 {
+    (gamma.clamp(0.0, 1.0) * STEPS).round() / STEPS
+}

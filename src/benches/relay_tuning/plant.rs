@@ -1,0 +1,285 @@
+//! The plant that is tuned, and the published cases.
+
+use leptos::prelude::*;
+
+use super::controls::TIME;
+use super::printed::{PrintedFigures, name_of_case};
+use super::session::{Session, load, use_session};
+use crate::benches::quadruple_tank::name_of;
+use crate::controls::{Knob, KnobRow, Switch};
+use crate::lab::Lab;
+use crate::start::Control;
+use crate::texts::{say, tr};
+use crate::widgets::{Card, Choice, Scale, Select};
+use quadtank::control::Pairing;
+use quadtank::literature::PresetId;
+use quadtank::literature::campestrini::PublishedCase;
+use quadtank::literature::campestrini::PublishedPlant;
+use quadtank::study::relay_tuning::{TuningPlant, TuningSetup};
+use quadtank_scenario::tuning::{TuningWarning, warnings};
+
+const VALVE: Knob<TuningSetup> = Knob {
+    ids: [("", "rig-gamma1"), ("", "rig-gamma2")],
+    label: |_, k| ["γ₁", "γ₂"][k].to_owned(),
+    name: |lab, k| tr!(lab, process.gamma, pump = k + 1),
+    read: |s, k| valves(s)[k],
+    write: set_valve,
+    ..Knob::PLAIN
+};
+const BEHIND: Knob<TuningSetup> = Knob {
+    ids: [("", "rig-dead-time"), ("", "rig-lag")],
+    label: |_, k| ["θ", "T"][k].to_owned(),
+    name: |lab, k| if k == 0 { tr!(lab, relay.dead_time) } else { tr!(lab, relay.lag) },
+    read: |s, k| behind(s)[k],
+    write: set_behind,
+    limits: |_, _| (0.0, 1000.0),
+    scale: Scale::Linear(0.5),
+    ..TIME
+};
+
+/// The choice of the plant, the parameters of a rig, and the published cases with their figures.
+#[component]
+pub fn PlantCard() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let no_rig = session.told_part(|s| !matches!(s.plant, TuningPlant::QuadrupleTank { .. }));
+    view! {
+        <Card
+            name="plant"
+            title=say!(lab, relay.plant)
+            beside=|| {
+                view! {
+                    <PlantSelect />
+                    <CaseSelect />
+                }
+            }
+        >
+            <div class="strip" hidden=no_rig><RigSettings /></div>
+            <PrintedFigures />
+            <p class="remark about" data-testid="plant-remark">{move || remark(session)}</p>
+        </Card>
+    }
+}
+
+/// Valves, what is behind the rig, pairing, and how it moves.
+#[component]
+fn RigSettings() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let lock = Control::Plant;
+    view! {
+        <KnobRow session knob=&VALVE index=0 />
+        <KnobRow session knob=&VALVE index=1 />
+        <KnobRow session knob=&BEHIND index=0 />
+        <KnobRow session knob=&BEHIND index=1 />
+        <Switch
+            session
+            label=say!(lab, relay.pairing)
+            choices=vec![
+                (Pairing::Diagonal, "rig-diagonal", say!(lab, relay.diagonal)),
+                (Pairing::Swapped, "rig-swapped", say!(lab, relay.swapped)),
+            ]
+            read=|s| rig(s).map_or(Pairing::Diagonal, |(pairing, _)| pairing)
+            write=set_pairing
+            lock
+        />
+        <Switch
+            session
+            label=say!(lab, relay.motion)
+            choices=vec![
+                (false, "rig-linear", say!(lab, relay.linear)),
+                (true, "rig-nonlinear", say!(lab, relay.nonlinear)),
+            ]
+            read=|s| rig(s).is_some_and(|(_, nonlinear)| nonlinear)
+            write=set_nonlinear
+            lock
+        />
+    }
+}
+
+/// Pairing of a rig, and whether it runs nonlinear.
+fn rig(setup: &TuningSetup) -> Option<(Pairing, bool)> {
+    match setup.plant {
+        TuningPlant::QuadrupleTank { pairing, nonlinear, .. } => Some((pairing, nonlinear)),
+        _ => None,
+    }
+}
+
+fn valves(setup: &TuningSetup) -> [f64; 2] {
+    match setup.plant {
+        TuningPlant::QuadrupleTank { preset, valves, .. } => valves.unwrap_or_else(|| preset.preset().plant.valves),
+        _ => [0.0; 2],
+    }
+}
+
+fn set_valve(setup: &mut TuningSetup, valve: usize, gamma: f64) {
+    let mut both = valves(setup);
+    both[valve] = gamma;
+    if let TuningPlant::QuadrupleTank { valves, .. } = &mut setup.plant {
+        *valves = Some(both);
+    }
+}
+
+/// Dead time and lag behind a rig (s).
+fn behind(setup: &TuningSetup) -> [f64; 2] {
+    match setup.plant {
+        TuningPlant::QuadrupleTank { dead_time_s, lag_s, .. } => [dead_time_s, lag_s],
+        _ => [0.0; 2],
+    }
+}
+
+/// The nonlinear rig has neither dead time nor lag, so asking for one asks for the linear model.
+fn set_behind(setup: &mut TuningSetup, which: usize, time_s: f64) {
+    if let TuningPlant::QuadrupleTank { dead_time_s, lag_s, nonlinear, .. } = &mut setup.plant {
+        *if which == 0 { dead_time_s } else { lag_s } = time_s;
+        *nonlinear = *nonlinear && time_s == 0.0;
+    }
+}
+
+fn set_pairing(setup: &mut TuningSetup, chosen: Pairing) {
+    if let TuningPlant::QuadrupleTank { pairing, .. } = &mut setup.plant {
+        *pairing = chosen;
+    }
+}
+
+/// The nonlinear rig has neither dead time nor lag.
+fn set_nonlinear(setup: &mut TuningSetup, chosen: bool) {
+    if let TuningPlant::QuadrupleTank { dead_time_s, lag_s, nonlinear, .. } = &mut setup.plant {
+        *nonlinear = chosen;
+        if *nonlinear {
+            (*dead_time_s, *lag_s) = (0.0, 0.0);
+        }
+    }
+}
+
+/// A plant that can be chosen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum KnownPlant {
+    Published(PublishedPlant),
+    Rig(PresetId),
+}
+
+impl KnownPlant {
+    /// The plant of a document; nothing for one with elements of its own.
+    fn of(plant: &TuningPlant) -> Option<Self> {
+        match *plant {
+            TuningPlant::Published(plant) => Some(Self::Published(plant)),
+            TuningPlant::QuadrupleTank { preset, .. } => Some(Self::Rig(preset)),
+            TuningPlant::Elements(_) => None,
+        }
+    }
+
+    fn all() -> impl Iterator<Item = Self> {
+        let published = [PublishedPlant::WoodBerry, PublishedPlant::ProcessTwo].map(Self::Published);
+        published.into_iter().chain(PresetId::ALL.map(Self::Rig))
+    }
+
+    fn plant(self) -> TuningPlant {
+        match self {
+            Self::Published(plant) => TuningPlant::Published(plant),
+            Self::Rig(preset) => TuningPlant::rig(preset),
+        }
+    }
+
+    fn choice(self, lab: Lab) -> Choice<Option<Self>> {
+        match self {
+            Self::Published(PublishedPlant::WoodBerry) => {
+                Choice::new(Some(self), "wood-berry", tr!(lab, relay.wood_berry))
+            }
+            Self::Published(PublishedPlant::ProcessTwo) => {
+                Choice::new(Some(self), "process-two", tr!(lab, relay.process_two))
+            }
+            Self::Rig(id) => Choice::new(Some(self), id.name(), name_of(lab, id)),
+        }
+    }
+}
+
+#[component]
+fn PlantSelect() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let chosen = Signal::derive(move || session.document.with(|s| KnownPlant::of(&s.tuning.plant)));
+    let choices = Signal::derive(move || {
+        let own = chosen.get().is_none().then(|| Choice::new(None, "", tr!(lab, relay.own_plant)));
+        KnownPlant::all().map(|plant| plant.choice(lab)).chain(own).collect::<Vec<_>>()
+    });
+    let choose = move |plant: Option<KnownPlant>| {
+        if let Some(plant) = plant {
+            load(session, TuningSetup::on(plant.plant()), None);
+        }
+    };
+    view! {
+        <Select
+            id="plant"
+            name=say!(lab, relay.plant)
+            choices
+            chosen
+            on_choose=choose
+            disabled=lab.locks(Control::Plant)
+        />
+    }
+}
+
+#[component]
+fn CaseSelect() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let choices = Signal::derive(move || {
+        let chosen = session.own.case.get();
+        let changed = chosen.is_some_and(|case| {
+            case.is_placement() && session.words.setup.with(|setup| **setup != TuningSetup::published(case))
+        });
+        let one = |case: PublishedCase| {
+            let text = name_of_case(lab, case);
+            let text = if changed && chosen == Some(case) { tr!(lab, relay.changed, name = text) } else { text };
+            Choice::new(Some(case), case.name(), text)
+        };
+        let none = Choice::new(None, "", tr!(lab, relay.no_case));
+        std::iter::once(none).chain(PublishedCase::all().map(one)).collect::<Vec<_>>()
+    });
+    let choose = move |case: Option<PublishedCase>| match case {
+        Some(case) => load(session, TuningSetup::published(case), Some(case)),
+        None => session.own.case.set(None),
+    };
+    view! {
+        <Select
+            id="case"
+            name=say!(lab, relay.case)
+            choices
+            chosen=session.own.case
+            on_choose=choose
+            disabled=lab.locks(Control::Plant)
+        />
+    }
+}
+
+/// What the plant is, in one line.
+fn remark(session: Session) -> String {
+    let lab = session.lab;
+    let study = session.words.study.get();
+    let gain = match study.as_ref() {
+        Ok(study) => study.rga_11,
+        Err(error) => return super::errors::sentence(lab, error),
+    };
+    let rga = gain.map_or_else(|| "∞".to_owned(), |gain| lab.number_style().fixed(gain, 3));
+    let source = session.words.setup.with(|s| match &s.plant {
+        TuningPlant::Published(PublishedPlant::WoodBerry) => tr!(lab, relay.remark_wood_berry),
+        TuningPlant::Published(PublishedPlant::ProcessTwo) => tr!(lab, relay.remark_process_two),
+        TuningPlant::QuadrupleTank { preset, .. } => preset.preset().source.to_owned(),
+        TuningPlant::Elements(_) => tr!(lab, relay.own_plant),
+    });
+    let mut text = tr!(lab, relay.plant_remark, source = source, rga = rga);
+    if gain.is_some_and(|gain| gain < 0.0) {
+        text = text + " " + &tr!(lab, relay.negative_pairing);
+    }
+    if session.words.setup.with(|s| rig(s).is_some_and(|(_, nonlinear)| nonlinear)) {
+        text = text + " " + &tr!(lab, relay.nonlinear_remark);
+    }
+    for warning in session.words.setup.with(|s| warnings(s)) {
+        if let TuningWarning::CoefficientOrder { field, read_as, reversed } = warning {
+            let order = tr!(lab, relay.coefficient_order, field = field, read = read_as, reversed = reversed);
+            text = text + " " + &order;
+        }
+    }
+    text
+}

@@ -1,0 +1,107 @@
+//! The relay-tuning bench: its document, its results as signals, and the published case that is shown.
+
+use std::sync::Arc;
+
+use leptos::prelude::*;
+use quadtank::literature::campestrini::{PublishedCase, PublishedPlant};
+use quadtank::study::PinnedResults;
+use quadtank::study::relay_tuning::{
+    DesignOutcome, Designed, PlantStudy, RelayTuningStudy, Results, Tested, TuningPlant, TuningSetup,
+};
+use quadtank::tuning::TuningError;
+use quadtank_scenario::tuning::TuningScenario;
+
+use crate::lab::Lab;
+use crate::session::{self, Bench, Outcome, part_of};
+use crate::texts::tr;
+
+/// The relay-tuning bench: relay tests and ultimate-point placement.
+pub struct RelayTuning;
+
+/// The session of the relay-tuning bench.
+pub type Session = session::Session<RelayTuning>;
+
+/// The results, for the views that show them.
+#[derive(Clone, Copy)]
+pub struct Found {
+    /// The setup that the results are of.
+    pub setup: Memo<Arc<TuningSetup>>,
+    /// What follows from the plant.
+    pub study: Memo<Outcome<PlantStudy, TuningError>>,
+    /// The relay test.
+    pub test: Memo<Outcome<Tested, TuningError>>,
+    /// The placement with its response.
+    pub design: Memo<Arc<DesignOutcome>>,
+    /// The pinned sessions, in the order of the document.
+    pub pinned: Memo<PinnedResults<TuningSetup, DesignOutcome>>,
+}
+
+impl Found {
+    /// What `read` makes of the design, if there is one.
+    pub fn with_design<T>(self, read: impl FnOnce(&Designed) -> T) -> Option<T> {
+        self.design.with(|outcome| outcome.as_ref().as_ref().ok()?.as_ref().map(read))
+    }
+}
+
+/// What the bench remembers besides its document.
+#[derive(Clone, Copy)]
+pub struct Own {
+    /// The published case that is shown.
+    pub case: RwSignal<Option<PublishedCase>>,
+}
+
+impl Bench for RelayTuning {
+    const ID: &'static str = "relay-tuning";
+    const CLASS: &'static str = "bench relay";
+    type Document = TuningScenario;
+    type Study = RelayTuningStudy;
+    type Found = Found;
+    type Own = Own;
+
+    fn found(results: RwSignal<Results>) -> Found {
+        Found {
+            setup: part_of(results, |results| &results.setup),
+            study: part_of(results, |results| &results.study),
+            test: part_of(results, |results| &results.test),
+            design: part_of(results, |results| &results.design),
+            pinned: part_of(results, |results| &results.pinned),
+        }
+    }
+
+    fn own(document: RwSignal<TuningScenario>) -> Own {
+        Own { case: RwSignal::new(document.with_untracked(|document| case_of(&document.tuning))) }
+    }
+
+    fn title(lab: Lab) -> String {
+        tr!(lab, app.relay_tuning)
+    }
+
+    fn cards(session: Session) -> AnyView {
+        super::cards(session).into_any()
+    }
+}
+
+/// The session of this page.
+pub fn use_session() -> Session {
+    session::use_session()
+}
+
+/// Begins another session.
+pub fn load(session: Session, setup: TuningSetup, case: Option<PublishedCase>) {
+    session.own.case.set(case);
+    session.edit(|s| *s = setup);
+}
+
+/// The case whose session this is; of several that begin alike, the one with controllers.
+fn case_of(setup: &TuningSetup) -> Option<PublishedCase> {
+    PublishedCase::all().filter(|case| case.is_placement()).find(|&case| TuningSetup::published(case) == *setup)
+}
+
+/// The unit of time of a plant; nothing where the document does not say.
+pub fn time_unit(plant: &TuningPlant) -> &'static str {
+    match plant {
+        TuningPlant::Published(PublishedPlant::WoodBerry) => "min",
+        TuningPlant::Published(PublishedPlant::ProcessTwo) | TuningPlant::QuadrupleTank { .. } => "s",
+        TuningPlant::Elements(_) => "",
+    }
+}

@@ -1,0 +1,318 @@
+//! Step 1: the relay test, its record and what it says.
+
+use leptos::prelude::*;
+
+use super::controls::TIME;
+use super::details::TestDetails;
+use super::pictures::{self, record_of, short_name};
+use super::readout::{Surface, readout};
+use super::session::use_session;
+use super::step::Step;
+use super::test_report::{sentence, table};
+use super::timeline::timeline;
+use crate::controls::{Knob, KnobRow, Switch};
+use crate::start::Control;
+use crate::texts::{say, tr};
+use crate::widgets::{Choice, DataTable, Figures, Scale, Select, ZoomButtons};
+use quadtank::study::relay_tuning::{Behind, CriticalSpec, TestKind, Tested, TuningSetup};
+use quadtank::tuning::TuningRule;
+use quadtank_figure::Frame;
+
+/// Ratios of the amplitudes that the slider covers.
+const RATIOS: (f64, f64) = (0.02, 20.0);
+/// Modulus that the estimator of a point begins with.
+const FIRST_MODULUS: f64 = 0.2;
+/// Share of a record that is shown to begin with: enough to see it settle, little enough to see its switches.
+const BEGINNING: f64 = 0.25;
+const SIZES: (f64, f64) = (1e-6, 1e6);
+
+const RATIO: Knob<TuningSetup> = Knob {
+    ids: [("ratio", "ratio-number"); 2],
+    label: |_, _| "d₂/d₁".to_owned(),
+    name: |lab, _| tr!(lab, relay.ratio),
+    read: |s, _| ratio_of(s),
+    write: |s, _, ratio| s.test.amplitudes[1] = ratio * s.test.amplitudes[0],
+    limits: |_, _| RATIOS,
+    travel: Some(|_| RATIOS),
+    scale: Scale::Logarithmic,
+    ..OF_TEST
+};
+/// Of relay 1, with the ratio kept; of relay 2 where that one is alone.
+const AMPLITUDE: Knob<TuningSetup> = Knob {
+    ids: [("", "test-amplitude"), ("", "test-amplitude2")],
+    label: |_, k| ["d₁", "d₂"][k].to_owned(),
+    name: |lab, k| tr!(lab, relay.amplitude, number = k + 1),
+    read: |s, k| s.test.amplitudes[k],
+    write: |s, k, d| s.test.amplitudes = if k == 0 { [d, d * ratio_of(s)] } else { [s.test.amplitudes[0], d] },
+    limits: |_, _| (0.001, 1e4),
+    ..OF_TEST
+};
+const DURATION: Knob<TuningSetup> = Knob {
+    ids: [("", "test-duration"); 2],
+    label: |_, _| "t".to_owned(),
+    name: |lab, _| tr!(lab, relay.duration),
+    read: |s, _| s.test.duration,
+    write: |s, _, duration| set_duration(s, duration),
+    limits: |_, _| (1.0, 1e5),
+    unit: TIME.unit,
+    ..OF_TEST
+};
+const MODULUS: Knob<TuningSetup> = Knob {
+    ids: [("", "test-modulus"); 2],
+    label: |_, _| "r".to_owned(),
+    name: |lab, _| tr!(lab, relay.modulus),
+    read: |s, _| if let Behind::Modulus(r) = s.test.behind { r } else { FIRST_MODULUS },
+    write: |s, _, r| s.test.behind = Behind::Modulus(r),
+    limits: |_, _| SIZES,
+    ..OF_TEST
+};
+const HYSTERESIS: Knob<TuningSetup> = Knob {
+    ids: [("", "test-hysteresis1"), ("", "test-hysteresis2")],
+    label: |_, k| ["ε₁", "ε₂"][k].to_owned(),
+    name: |lab, k| tr!(lab, relay.hysteresis, number = k + 1),
+    read: |s, k| s.test.hysteresis[k],
+    write: |s, k, hysteresis| s.test.hysteresis[k] = hysteresis,
+    limits: |_, _| (0.0, 1e6),
+    ..OF_LOOP
+};
+const BIAS: Knob<TuningSetup> = Knob {
+    ids: [("", "test-bias1"), ("", "test-bias2")],
+    label: |_, k| ["b₁", "b₂"][k].to_owned(),
+    name: |lab, k| tr!(lab, relay.bias, number = k + 1),
+    read: |s, k| s.test.bias[k],
+    write: |s, k, bias| s.test.bias[k] = bias,
+    limits: |_, _| (-1e6, 1e6),
+    ..OF_LOOP
+};
+/// The factors by which independent tests are made weaker.
+const DETUNING: Knob<TuningSetup> = Knob {
+    ids: [("", "test-detuning1"), ("", "test-detuning2")],
+    label: |_, k| ["f₁", "f₂"][k].to_owned(),
+    name: |lab, k| tr!(lab, relay.detuning, number = k + 1),
+    read: |s, k| s.test.detuning[k],
+    write: |s, k, factor| s.test.detuning[k] = factor,
+    limits: |_, _| (0.1, 100.0),
+    ..OF_LOOP
+};
+const PASSES: Knob<TuningSetup> = Knob {
+    ids: [("", "test-passes"); 2],
+    label: |_, _| "n".to_owned(),
+    name: |lab, _| tr!(lab, relay.passes),
+    read: |s, _| s.test.passes as f64,
+    write: |s, _, passes| set_passes(s, passes),
+    limits: |_, _| (1.0, 8.0),
+    scale: Scale::Linear(1.0),
+    digits: Some(0),
+    ..OF_TEST
+};
+const OF_TEST: Knob<TuningSetup> = Knob { scale: Scale::Linear(0.05), lock: Control::Test, ..Knob::PLAIN };
+const OF_LOOP: Knob<TuningSetup> = Knob { class: ["loop1", "loop2"], ..OF_TEST };
+
+/// The relay test.
+#[component]
+pub fn TestCard() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let frames = RwSignal::new(Vec::<Frame>::new());
+    let axis = timeline(session.part(|s| s.test.duration), BEGINNING);
+    let picture = pictures::test(session, axis.window);
+    let for_table = picture.clone();
+    let values = readout(session, axis.cursor, move |show| {
+        session.words.test.with(|outcome| {
+            if let Some(trace) = outcome.as_ref().as_ref().ok().and_then(record_of) {
+                show(trace);
+            }
+        });
+    });
+    let ids = ["test-zoom-in", "test-zoom-out", "test-zoom-reset"];
+    let label = say!(lab, relay.test_cursor);
+    let below = move || {
+        view! {
+            <DataTable picture=for_table id="test-table" />
+            <TestDetails />
+        }
+    };
+    view! {
+        <Step
+            name="test"
+            number=1
+            title=say!(lab, relay.test)
+            toolbar=move || view! { <div class="toolbar"><TakeOver /><ZoomButtons axis ids /></div> }
+            picture
+            frames
+            overlay=move || view! { <Surface id="test-surface" axis frames label readout=values /> }
+            verdict=Signal::derive(move || sentence(session))
+            below
+        >
+            <Settings />
+        </Step>
+    }
+}
+
+/// Hands the point that the test found to the placement.
+#[component]
+fn TakeOver() -> impl IntoView {
+    let session = use_session();
+    let take = move |_| {
+        let found = session.words.test.with_untracked(|outcome| outcome.as_ref().as_ref().ok().and_then(found_point));
+        if let Some(point) = found {
+            session.edit(|s| s.design.critical = point);
+        }
+    };
+    let nothing = Signal::derive(move || {
+        session.words.test.with(|outcome| outcome.as_ref().as_ref().ok().and_then(found_point).is_none())
+    });
+    view! {
+        <button
+            type="button"
+            class="button small"
+            data-testid="test-take"
+            hidden=nothing
+            disabled=session.lab.locks(Control::Point)
+            on:click=take
+        >
+            {say!(session.lab, relay.take_over)}
+        </button>
+    }
+}
+
+/// The critical point by first harmonics, from a simultaneous test.
+fn found_point(test: &Tested) -> Option<CriticalSpec> {
+    let Tested::Simultaneous(test, _) = test else { return None };
+    let oscillation = test.reading.oscillation?;
+    Some(CriticalSpec::Point { gains: oscillation.gains_by_harmonic()?, period: oscillation.period })
+}
+
+#[component]
+fn Settings() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let kinds = vec![
+        (TestKind::Single, "test-single", say!(lab, relay.single)),
+        (TestKind::Independent, "test-independent", say!(lab, relay.independent)),
+        (TestKind::Sequential, "test-sequential", say!(lab, relay.sequential)),
+        (TestKind::Simultaneous, "test-simultaneous", say!(lab, relay.simultaneous)),
+    ];
+    view! {
+        <Switch
+            session
+            label=say!(lab, relay.kind)
+            choices=kinds
+            read=|s| s.test.kind
+            write=|s, kind| s.test.kind = kind
+            lock=Control::Test
+        />
+        <div hidden=session.told_part(|s| s.test.kind != TestKind::Single)><SingleTest /></div>
+        <div hidden=session.told_part(|s| s.test.kind == TestKind::Single)><KnobRow session knob=&RATIO /></div>
+        // Amplitude of relay 1, or of relay 2 where that one is alone, and duration.
+        <div class="pairs">
+            <div hidden=session.told_part(|s| is_idle(s, 1))><KnobRow session knob=&AMPLITUDE index=0 /></div>
+            <div hidden=session.told_part(|s| !is_idle(s, 1))><KnobRow session knob=&AMPLITUDE index=1 /></div>
+            <KnobRow session knob=&DURATION />
+        </div>
+        <div class="pairs four">
+            <div hidden=session.told_part(|s| is_idle(s, 1))><KnobRow session knob=&HYSTERESIS index=0 /></div>
+            <div hidden=session.told_part(|s| is_idle(s, 2))><KnobRow session knob=&HYSTERESIS index=1 /></div>
+            <div hidden=session.told_part(|s| is_idle(s, 1))><KnobRow session knob=&BIAS index=0 /></div>
+            <div hidden=session.told_part(|s| is_idle(s, 2))><KnobRow session knob=&BIAS index=1 /></div>
+        </div>
+        <div hidden=session.told_part(|s| !is_tuned(s.test.kind))><RuleSelect /></div>
+        <div class="pairs" hidden=session.told_part(|s| s.test.kind != TestKind::Independent)>
+            <KnobRow session knob=&DETUNING index=0 />
+            <KnobRow session knob=&DETUNING index=1 />
+        </div>
+        <div class="pairs" hidden=session.told_part(|s| s.test.kind != TestKind::Sequential)>
+            <KnobRow session knob=&PASSES />
+        </div>
+        <Figures name="test-figures" caption=say!(lab, relay.test_caption)>{move || table(session)}</Figures>
+    }
+}
+
+/// Whether a loop has no relay because the other one is tested alone.
+fn is_idle(setup: &TuningSetup, number: usize) -> bool {
+    setup.test.kind == TestKind::Single && setup.test.number != number
+}
+
+/// What a test of a single element has besides.
+#[component]
+fn SingleTest() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let loops = vec![
+        (1, "test-loop1", say!(lab, relay.loop_name, number = 1)),
+        (2, "test-loop2", say!(lab, relay.loop_name, number = 2)),
+    ];
+    let behinds = Signal::derive(move || {
+        vec![
+            Choice::new(Behind::Nothing, "nothing", tr!(lab, relay.behind_nothing)),
+            Choice::new(Behind::Integrator, "integrator", tr!(lab, relay.behind_integrator)),
+            Choice::new(Behind::Modulus(FIRST_MODULUS), "modulus", tr!(lab, relay.behind_modulus)),
+        ]
+    });
+    // The modulus has a field of its own.
+    let behind = Signal::derive(move || match session.words.setup.with(|s| s.test.behind) {
+        Behind::Modulus(_) => Behind::Modulus(FIRST_MODULUS),
+        other => other,
+    });
+    view! {
+        <Switch
+            session
+            label=say!(lab, relay.which_loop)
+            choices=loops
+            read=|s| s.test.number
+            write=|s, number| s.test.number = number
+            lock=Control::Test
+        />
+        <Select
+            id="test-behind"
+            name=say!(lab, relay.behind)
+            choices=behinds
+            chosen=behind
+            on_choose=move |behind| session.edit(|s| s.test.behind = behind)
+            disabled=lab.locks(Control::Test)
+        />
+        <div hidden=session.told_part(|s| !matches!(s.test.behind, Behind::Modulus(_)))>
+            <KnobRow session knob=&MODULUS />
+        </div>
+    }
+}
+
+/// The rule by which a test ends in controller settings.
+#[component]
+fn RuleSelect() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let choices = TuningRule::ALL.map(|rule| Choice::new(rule, short_name(rule), short_name(rule))).to_vec();
+    view! {
+        <Select
+            id="test-rule"
+            name=say!(lab, relay.rule)
+            choices=Signal::stored(choices)
+            chosen=Signal::derive(move || session.words.setup.with(|s| s.test.rule))
+            on_choose=move |rule| session.edit(|s| s.test.rule = rule)
+            disabled=lab.locks(Control::Test)
+        />
+    }
+}
+
+/// Whether the test ends in controller settings.
+fn is_tuned(kind: TestKind) -> bool {
+    matches!(kind, TestKind::Independent | TestKind::Sequential)
+}
+
+fn ratio_of(setup: &TuningSetup) -> f64 {
+    setup.test.amplitudes[1] / setup.test.amplitudes[0]
+}
+
+/// The record keeps its number of rows.
+fn set_duration(setup: &mut TuningSetup, duration: f64) {
+    let factor = duration / setup.test.duration;
+    setup.test.duration = duration;
+    setup.test.step *= factor;
+    setup.test.release = setup.test.release.min(duration);
+}
+
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the field allows 1 to 8")]
+fn set_passes(setup: &mut TuningSetup, passes: f64) {
+    setup.test.passes = passes.round() as usize;
+}

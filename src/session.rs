@@ -1,0 +1,153 @@
+//! A bench on the page: its document, its results, and how these follow the document.
+
+use std::ops::Deref;
+use std::sync::Arc;
+
+use leptos::prelude::*;
+use quadtank::study::Study;
+use quadtank_scenario::BenchDocument;
+
+use super::lab::{Lab, use_lab};
+
+/// A bench: a study, its document, and the cards that show it. [`BENCHES`](super::benches::BENCHES) lists them.
+pub trait Bench: Sized + 'static {
+    /// Its name in an address.
+    const ID: &'static str;
+    /// Class of the element that holds its cards.
+    const CLASS: &'static str;
+    /// What files and links hold.
+    type Document: BenchDocument<Setup = SetupOf<Self>> + Send + Sync;
+    /// What computes the results.
+    type Study: Study<Setup: Send + Sync, Results: Send + Sync>;
+    /// The results, each part as a signal of its own.
+    type Found: Copy + Send + Sync;
+    /// What the bench remembers besides, such as the unit that follows from the document.
+    type Own: Copy + Send + Sync;
+
+    /// The parts of results, see [`part_of`].
+    fn found(results: RwSignal<ResultsOf<Self>>) -> Self::Found;
+
+    /// What is remembered besides.
+    fn own(document: RwSignal<Self::Document>) -> Self::Own;
+
+    /// What the navigation calls it.
+    fn title(lab: Lab) -> String;
+
+    /// The cards that the start flags ask for.
+    fn cards(session: Session<Self>) -> AnyView;
+}
+
+/// The setup of a bench.
+pub type SetupOf<B> = <<B as Bench>::Study as Study>::Setup;
+/// The results of a bench.
+pub type ResultsOf<B> = <<B as Bench>::Study as Study>::Results;
+
+/// A result that a panel may show, or why there is none.
+pub type Outcome<T, E> = Arc<Result<T, E>>;
+
+/// A part of results as a signal, which changes when that part does: views of it leave changes of other parts alone.
+pub fn part_of<R, T>(results: RwSignal<R>, part: fn(&R) -> &Arc<T>) -> Memo<Arc<T>>
+where
+    R: Send + Sync + 'static,
+    T: Send + Sync + 'static,
+{
+    Memo::new_with_compare(
+        move |_| results.with(|results| Arc::clone(part(results))),
+        |before, after| !before.zip(after).is_some_and(|(before, after)| Arc::ptr_eq(before, after)),
+    )
+}
+
+/// A bench with its state, which stays when another one is shown. A handle of one pointer, as [`Lab`].
+pub struct Session<B: Bench>(&'static State<B>);
+
+impl<B: Bench> Clone for Session<B> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<B: Bench> Copy for Session<B> {}
+
+impl<B: Bench> Deref for Session<B> {
+    type Target = State<B>;
+
+    fn deref(&self) -> &State<B> {
+        self.0
+    }
+}
+
+/// The document of a bench and what follows from it.
+pub struct State<B: Bench> {
+    /// What all benches share.
+    pub lab: Lab,
+    /// The document that all of it follows from. A control edits it; the [frame scheduler](super::frames) takes the change up.
+    pub document: RwSignal<B::Document>,
+    /// The results for charts, new in every frame.
+    pub charts: B::Found,
+    /// The same for words, numbers and drawings, once the charts are on the screen.
+    pub words: B::Found,
+    /// What the bench remembers besides.
+    pub own: B::Own,
+    results: RwSignal<ResultsOf<B>>,
+    told: RwSignal<ResultsOf<B>>,
+}
+
+/// The session of a bench on this page.
+pub fn use_session<B: Bench>() -> Session<B> {
+    use_lab().session()
+}
+
+impl<B: Bench> Session<B> {
+    /// A session that shows `document`, computed at once.
+    pub(super) fn start(lab: Lab, document: B::Document) -> Self {
+        let found = B::Study::update(document.setup(), document.pinned(), None);
+        let (results, told) = (RwSignal::new(found.clone()), RwSignal::new(found));
+        let document = RwSignal::new(document);
+        let session = Self(Box::leak(Box::new(State {
+            lab,
+            document,
+            charts: B::found(results),
+            words: B::found(told),
+            own: B::own(document),
+            results,
+            told,
+        })));
+        lab.follow(document, move || session.compute(), move || session.told.set(session.results.get_untracked()));
+        session
+    }
+
+    /// Computes what changed; what it returns hands that to the panels.
+    fn compute(self) -> Option<Box<dyn FnOnce()>> {
+        let update = |document: &B::Document| {
+            self.results.with_untracked(|last| B::Study::update(document.setup(), document.pinned(), Some(last)))
+        };
+        let found = self.document.try_with_untracked(update)?;
+        Some(Box::new(move || self.results.set(found)))
+    }
+
+    /// What `read` makes of the setup.
+    pub fn read<T>(self, read: impl FnOnce(&SetupOf<B>) -> T) -> T {
+        self.document.with(|document| read(document.setup()))
+    }
+
+    /// Changes the setup.
+    pub fn edit(self, change: impl FnOnce(&mut SetupOf<B>)) {
+        self.document.update(|document| change(document.setup_mut()));
+    }
+
+    /// A part of the setup, for controls.
+    pub fn part<T>(self, read: impl Fn(&SetupOf<B>) -> T + Send + Sync + 'static) -> Signal<T>
+    where
+        T: PartialEq + Send + Sync + 'static,
+    {
+        Memo::new(move |_| self.read(&read)).into()
+    }
+
+    /// A part of the setup as the page shows it: it changes with the words.
+    pub fn told_part<T>(self, read: fn(&SetupOf<B>) -> T) -> Signal<T>
+    where
+        T: Send + Sync + 'static,
+    {
+        Signal::derive(move || self.told.with(|results| read(B::Study::setup_of(results))))
+    }
+}
