@@ -8,7 +8,7 @@ use crate::shown::{to_metres, to_shown};
 use crate::texts::tr;
 use quadtank::control::Pairing;
 use quadtank::plant::DisplayUnit;
-use quadtank::sim::{HoldingEnds, Stability, TrackingFigures};
+use quadtank::sim::{Stability, TrackingFigures, ZeroDynamicsEnd};
 use quadtank_scenario::ScenarioError;
 use quadtank_scenario::model_free::{LossBy, ModelFreeVerdict};
 
@@ -38,11 +38,11 @@ pub fn of_run(session: Session) -> (bool, String) {
             return (false, if begins { reason } else { tr!(lab, free.no_run, reason = reason) });
         }
     };
-    let end = |by: HoldingEnds, ends_s: f64| match by {
-        HoldingEnds::Overflow { tank, .. } => {
+    let end = |by: ZeroDynamicsEnd, ends_s: f64| match by {
+        ZeroDynamicsEnd::Overflow { tank, .. } => {
             tr!(lab, free.end_overflow, tank = tank + 1, time = seconds(ends_s))
         }
-        HoldingEnds::Pump { pump, .. } => tr!(lab, free.end_pump, pump = pump + 1, time = seconds(ends_s)),
+        ZeroDynamicsEnd::Pump { pump, .. } => tr!(lab, free.end_pump, pump = pump + 1, time = seconds(ends_s)),
     };
     let cause = |by: LossBy| match by {
         LossBy::Overflow { tank, time_s } => {

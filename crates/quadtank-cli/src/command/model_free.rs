@@ -1,7 +1,7 @@
 //! The model-free law without a screen: what theory says of a run and what happens in it, as JSON, CSV or a picture.
 
 use quadtank::linear::Complex;
-use quadtank::sim::{HoldingEnds, TrackingFigures};
+use quadtank::sim::{TrackingFigures, ZeroDynamicsEnd};
 use quadtank_figure::{ModelFreeCourse, ModelFreeTexts, Size, Style, model_free_course, to_svg};
 use quadtank_scenario::ScenarioError;
 use quadtank_scenario::model_free::{
@@ -59,10 +59,10 @@ pub fn analysis(setup: &ModelFreeSetup) -> Value {
     })
 }
 
-fn ends(end: HoldingEnds) -> Value {
+fn ends(end: ZeroDynamicsEnd) -> Value {
     match end {
-        HoldingEnds::Pump { pump, after_s } => json!({ "pump_at_its_limit": pump + 1, "after_s": after_s }),
-        HoldingEnds::Overflow { tank, after_s } => json!({ "tank_runs_over": tank + 1, "after_s": after_s }),
+        ZeroDynamicsEnd::Pump { pump, after_s } => json!({ "pump_at_its_limit": pump + 1, "after_s": after_s }),
+        ZeroDynamicsEnd::Overflow { tank, after_s } => json!({ "tank_runs_over": tank + 1, "after_s": after_s }),
     }
 }
 

@@ -5,7 +5,7 @@ use quadtank::interaction::{niederlinski, relative_gain_array};
 use quadtank::linear::{Complex, LinearError, StateSpace, place_nearest_at_origin, transmission_zeros};
 use quadtank::plant::{OperatingPoint, PlantError, QuadrupleTank, ValveSchedule};
 use quadtank::sim::{
-    Experiment, HeldOutputs, HoldingEnds, ModelFreePoles, ModelFreeRun, Stability, TrackingFigures, Trajectory,
+    Experiment, ModelFreePoles, ModelFreeRun, Stability, TrackingFigures, Trajectory, ZeroDynamics, ZeroDynamicsEnd,
     continuous_model_free_poles, model_free_poles, simulate_model_free, simulate_with_valves, smallest_model_gain,
     smallest_model_gain_of_integrator, tracking_figures,
 };
@@ -114,7 +114,7 @@ pub struct PredictedLoss {
     /// From when on it is predicted (s).
     pub from_s: f64,
     /// When and how it ends, or `None` when it goes on.
-    pub ends: Option<HoldingEnds>,
+    pub ends: Option<ZeroDynamicsEnd>,
 }
 
 /// What happens in the experiment of a setup.
@@ -184,7 +184,7 @@ fn predicted_loss(setup: &ModelFreeSetup, plant: &QuadrupleTank, run: &Trajector
     })?;
     let upper = [run.levels[2][row], run.levels[3][row]];
     let from_s = run.time_s[row];
-    let ends = HeldOutputs::new(plant, references).ends(upper, LONGEST_PREDICTION_S);
+    let ends = ZeroDynamics::new(plant, references).ends(upper, LONGEST_PREDICTION_S);
     Some(PredictedLoss { from_s, ends })
 }
 

@@ -2,7 +2,7 @@
 
 use quadtank::control::Pairing;
 use quadtank::plant::{OperatingPoint, PresetId};
-use quadtank::sim::{HoldingEnds, Stability};
+use quadtank::sim::{Stability, ZeroDynamicsEnd};
 use quadtank_scenario::ScenarioError;
 use quadtank_scenario::model_free::{
     Claim, LossBy, ModelFreeSetup, ModelFreeVerdict, Moment, PublishedExperiment, PublishedValves, Standing,
@@ -47,7 +47,7 @@ fn case_b_looks_settled_while_the_upper_tanks_leave_and_is_lost_when_told() -> R
         panic!("{seen:?}");
     };
     assert!((time_s - ends_s).abs() < 5.0 && (time_s - foretold_s).abs() < 5.0 && at_s > time_s);
-    assert!(matches!(by, HoldingEnds::Overflow { tank: 2, .. }), "{by:?}");
+    assert!(matches!(by, ZeroDynamicsEnd::Overflow { tank: 2, .. }), "{by:?}");
     Ok(())
 }
 

@@ -5,9 +5,7 @@ mod comparison;
 mod course;
 mod experiment;
 mod explicit;
-mod held_outputs;
 mod held_tank;
-
 mod hydraulics;
 mod implicit;
 mod integrate;
@@ -24,12 +22,12 @@ mod tracking;
 mod trajectory;
 mod two_loops;
 mod walls;
+mod zero_dynamics;
 mod zero_order_hold;
 
 pub use closed_loop::simulate;
 pub use course::{MAX_ROWS, MAX_RUN_WORK};
 pub use experiment::{Experiment, Load, LoadStep, Measurement, SetPointStep};
-pub use held_outputs::{HeldOutputs, HoldingEnds};
 pub use held_tank::HeldTank;
 pub use linear_loop::simulate_linear;
 pub use metrics::{LoopMetrics, loop_metrics};
@@ -44,3 +42,4 @@ pub use step_figures::StepFigures;
 pub use tracking::{TrackingFigures, tracking_figures};
 pub use trajectory::{Event, EventKind, Trajectory};
 pub use two_loops::{Halt, HeldPlant, LoopTrace, MAX_WORK, TwoLoops, run_two_loops, run_two_loops_within};
+pub use zero_dynamics::{ZeroDynamics, ZeroDynamicsEnd};
