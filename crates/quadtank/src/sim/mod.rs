@@ -1,6 +1,5 @@
 //! Plant + controller + experiment → trajectories, events and metrics; and the poles of the sampled closed loop.
 
-mod closed_loop;
 mod comparison;
 mod course;
 mod experiment;
@@ -9,11 +8,12 @@ mod held_tank;
 mod hydraulics;
 mod implicit;
 mod integrate;
-mod linear_loop;
+mod linear;
 mod metrics;
 mod model_free;
 mod model_free_poles;
 mod noise;
+mod nonlinear;
 mod open_loop;
 mod poles;
 mod response;
@@ -25,17 +25,17 @@ mod walls;
 mod zero_dynamics;
 mod zero_order_hold;
 
-pub use closed_loop::simulate;
 pub use course::{MAX_ROWS, MAX_RUN_WORK};
 pub use experiment::{Experiment, Load, LoadStep, Measurement, SetPointStep};
 pub use held_tank::HeldTank;
-pub use linear_loop::simulate_linear;
+pub use linear::simulate_linear;
 pub use metrics::{LoopMetrics, loop_metrics};
 pub use model_free::{ModelFreeRun, simulate_model_free, simulate_with_valves};
 pub use model_free_poles::{
     ModelFreePoles, continuous_model_free_poles, model_free_poles, smallest_model_gain,
     smallest_model_gain_of_integrator,
 };
+pub use nonlinear::simulate;
 pub use poles::{ClosedLoop, Stability, UNIT_CIRCLE_TOLERANCE, closed_loop};
 pub use response::{NoResponse, Settling};
 pub use step_figures::StepFigures;

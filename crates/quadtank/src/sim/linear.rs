@@ -1,4 +1,4 @@
-//! The linear model in the same closed loop.
+//! Runs of the linear model with the same sampled controllers.
 
 use nalgebra::Vector4;
 
