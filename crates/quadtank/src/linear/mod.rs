@@ -18,6 +18,7 @@ mod spectrum;
 mod state_space;
 mod taylor_model;
 mod transfer;
+mod zero_order_hold;
 mod zeros;
 
 pub use crate::numeric::Complex;
@@ -32,4 +33,5 @@ pub use return_ratio::ReturnRatio;
 pub use spectrum::{eigenvalues, singular_values};
 pub use state_space::StateSpace;
 pub use transfer::{TransferFunction, TransferMatrix};
+pub(crate) use zero_order_hold::ZeroOrderHold;
 pub use zeros::{TransmissionZero, place_nearest_at_origin, transmission_zeros};

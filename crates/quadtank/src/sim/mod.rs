@@ -23,7 +23,6 @@ mod trajectory;
 mod two_loops;
 mod walls;
 mod zero_dynamics;
-mod zero_order_hold;
 
 pub use course::{MAX_ROWS, MAX_RUN_WORK};
 pub use experiment::{Experiment, Load, LoadStep, Measurement, SetPointStep};

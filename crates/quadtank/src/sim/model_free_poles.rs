@@ -7,11 +7,10 @@ use std::cmp::Ordering;
 use nalgebra::{DMatrix, Matrix6, Vector4};
 
 use crate::control::{EstimatorError, EstimatorSettings, ModelFree, Window};
-use crate::linear::{Complex, LinearError, eigenvalues};
+use crate::linear::{Complex, LinearError, ZeroOrderHold, eigenvalues};
 use crate::plant::Jacobian;
 
 use super::poles::Stability;
-use super::zero_order_hold::ZeroOrderHold;
 
 /// Samples of a sliding window up to which its poles are computed: each is two states.
 const MOST_SLIDING_SAMPLES: usize = 30;

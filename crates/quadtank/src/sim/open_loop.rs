@@ -3,10 +3,8 @@
 use nalgebra::{DMatrix, Matrix2, Matrix4, Matrix4x2};
 
 use crate::control::{DecentralisedPi, PiSettings};
-use crate::linear::Complex;
+use crate::linear::{Complex, ZeroOrderHold};
 use crate::plant::Jacobian;
-
-use super::zero_order_hold::ZeroOrderHold;
 
 /// Frequencies of the grid, from below the slowest pole of the loop up to Nyquist.
 const GRID: u32 = 80;
