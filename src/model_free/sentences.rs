@@ -7,8 +7,9 @@ use crate::errors::{of_error, of_plant_error};
 use crate::shown::{to_metres, to_shown};
 use crate::texts::tr;
 use quadtank::control::Pairing;
+use quadtank::linear::Stability;
 use quadtank::plant::DisplayUnit;
-use quadtank::sim::{Stability, TrackingFigures, ZeroDynamicsEnd};
+use quadtank::sim::{TrackingFigures, ZeroDynamicsEnd};
 use quadtank_scenario::ScenarioError;
 use quadtank_scenario::model_free::{LossBy, ModelFreeVerdict};
 

@@ -5,9 +5,8 @@ use leptos::prelude::*;
 use crate::errors::of_plant_error;
 use crate::lab::Lab;
 use crate::texts::tr;
-use quadtank::linear::{Complex, LinearError};
+use quadtank::linear::{Complex, LinearError, Stability};
 use quadtank::plant::PlantError;
-use quadtank::sim::Stability;
 use quadtank_scenario::{Analysis, ScenarioError};
 
 /// Which of its situations a plant is in, for the sentences and the colours.

@@ -2,10 +2,10 @@ use quadtank::interaction::{
     PairingVerdict, interpolation_integral, niederlinski, recommend_pairing, relative_gain_array,
 };
 use quadtank::linear::{
-    Complex, LinearError, StateSpace, TransmissionZero, place_nearest_at_origin, transmission_zeros,
+    ClosedLoop, Complex, LinearError, StateSpace, TransmissionZero, place_nearest_at_origin, transmission_zeros,
 };
 use quadtank::plant::{OperatingPoint, PlantError};
-use quadtank::sim::{ClosedLoop, Experiment, closed_loop};
+use quadtank::sim::{Experiment, closed_loop};
 
 use super::{ScenarioError, Setup};
 

@@ -1,8 +1,7 @@
 use serde::Serialize;
 
-use quadtank::sim::{
-    LoopMetrics, NoResponse, Stability, Trajectory, closed_loop, loop_metrics, simulate, simulate_linear,
-};
+use quadtank::linear::Stability;
+use quadtank::sim::{LoopMetrics, NoResponse, Trajectory, closed_loop, loop_metrics, simulate, simulate_linear};
 
 use super::{ScenarioError, Setup};
 

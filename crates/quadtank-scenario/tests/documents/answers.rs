@@ -5,9 +5,9 @@ use approx::assert_relative_eq;
 use proptest::prelude::*;
 use quadtank::control::Pairing;
 use quadtank::interaction::{PairingReason, PairingVerdict};
-use quadtank::linear::LinearError;
+use quadtank::linear::{LinearError, Stability};
 use quadtank::plant::{PlantError, PresetId};
-use quadtank::sim::{Settling, Stability, Trajectory};
+use quadtank::sim::{Settling, Trajectory};
 use quadtank_scenario::{
     Analysis, AnalysisReport, OperatingPointSpec, Scenario, ScenarioError, Setup, ValveMap, analyse, from_json, limits,
     run, setup_of,

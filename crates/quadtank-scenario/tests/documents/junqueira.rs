@@ -1,8 +1,9 @@
 //! What the bench says of each case, computed from the run and from theory.
 
 use quadtank::control::Pairing;
+use quadtank::linear::Stability;
 use quadtank::plant::{OperatingPoint, PresetId};
-use quadtank::sim::{Stability, ZeroDynamicsEnd};
+use quadtank::sim::ZeroDynamicsEnd;
 use quadtank_scenario::ScenarioError;
 use quadtank_scenario::model_free::{
     Claim, LossBy, ModelFreeSetup, ModelFreeVerdict, Moment, PublishedExperiment, PublishedValves, Standing,

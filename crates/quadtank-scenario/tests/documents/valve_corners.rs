@@ -2,9 +2,8 @@
 
 use approx::assert_relative_eq;
 use quadtank::interaction::{PairingReason, PairingVerdict};
-use quadtank::linear::{Complex, LinearError};
+use quadtank::linear::{Complex, LinearError, Stability};
 use quadtank::plant::PresetId;
-use quadtank::sim::Stability;
 use quadtank_scenario::model_free::Moment;
 use quadtank_scenario::{Analysis, Setup, ValveMap, analyse, setup_of};
 

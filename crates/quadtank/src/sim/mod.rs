@@ -35,7 +35,7 @@ pub use model_free_poles::{
     smallest_model_gain_of_integrator,
 };
 pub use nonlinear::simulate;
-pub use poles::{ClosedLoop, Stability, UNIT_CIRCLE_TOLERANCE, closed_loop};
+pub use poles::closed_loop;
 pub use response::{NoResponse, Settling};
 pub use step_figures::StepFigures;
 pub use tracking::{TrackingFigures, tracking_figures};

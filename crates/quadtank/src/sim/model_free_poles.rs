@@ -7,10 +7,8 @@ use std::cmp::Ordering;
 use nalgebra::{DMatrix, Matrix6, Vector4};
 
 use crate::control::{EstimatorError, EstimatorSettings, ModelFree, Window};
-use crate::linear::{Complex, LinearError, ZeroOrderHold, eigenvalues};
+use crate::linear::{Complex, LinearError, Stability, ZeroOrderHold, eigenvalues, s_from_z};
 use crate::plant::Jacobian;
-
-use super::poles::Stability;
 
 /// Samples of a sliding window up to which its poles are computed: each is two states.
 const MOST_SLIDING_SAMPLES: usize = 30;
@@ -46,9 +44,9 @@ pub fn model_free_poles(jacobian: &Jacobian, law: &ModelFree, power_gain: f64) -
     let (map, period_s) = linear.period_map();
     let nothing = linear.shifted();
     let multipliers = eigenvalues(&map)?;
-    let stability = Stability::of(&multipliers);
-    let mut poles_s: Vec<Complex> =
-        multipliers.into_iter().filter(|z| z.norm() > nothing).map(|z| z.ln() / period_s).collect();
+    let stability = Stability::of_poles(&multipliers);
+    let told = multipliers.into_iter().filter(|z| z.norm() > nothing);
+    let mut poles_s: Vec<Complex> = told.filter_map(|z| s_from_z(z, period_s)).collect();
     poles_s.sort_by(falling);
     Ok(ModelFreePoles { poles_s, stability })
 }

@@ -6,15 +6,6 @@ use crate::control::{DecentralisedPi, PiSettings};
 use crate::linear::{Complex, ZeroOrderHold};
 use crate::plant::Jacobian;
 
-/// Frequencies of the grid, from below the slowest pole of the loop up to Nyquist.
-const GRID: u32 = 80;
-
-/// How far the grid reaches below the slowest pole.
-const BELOW_SLOWEST: f64 = 0.1;
-
-/// Cuts of the interval around the highest point of the grid by the golden section; each leaves 62 % of it.
-const REFINEMENTS: u32 = 16;
-
 /// The loop, cut open at the outputs of the controllers. Columns are by loops, not by pumps.
 pub(super) struct OpenLoop<'a> {
     controller: &'a DecentralisedPi,
@@ -57,14 +48,8 @@ impl<'a> OpenLoop<'a> {
         })
     }
 
-    /// Largest singular value of the sensitivity `S = (I + L)⁻¹` at the frequency `w` (rad/s).
-    fn sensitivity(&self, w: f64) -> f64 {
-        let z = Complex::cis(w * self.controller.sampling_time_s);
-        largest_singular_value_of_inverse(&(Matrix2::identity() + self.loop_gain(z)))
-    }
-
     /// `L(z)`, outputs by inputs of the loops. Only the tank above stands between an input and a lower tank.
-    fn loop_gain(&self, z: Complex) -> Matrix2<Complex> {
+    pub(super) fn loop_gain(&self, z: Complex) -> Matrix2<Complex> {
         let settings = &self.controller.loops;
         let law = settings.map(|settings| tustin_pi(&settings, self.controller.sampling_time_s, z));
         Matrix2::from_fn(|lower, input| {
@@ -74,44 +59,10 @@ impl<'a> OpenLoop<'a> {
             flow * self.sensor[lower] / (z - self.transition[(lower, lower)]) * law[input]
         })
     }
-
-    /// Peak Ms over all frequencies up to Nyquist of a stable loop with the given poles (1/s), where a narrow peak may
-    /// hide between two points of the grid.
-    pub(super) fn sensitivity_peak(&self, poles_s: &[Complex]) -> f64 {
-        let nyquist = std::f64::consts::PI / self.controller.sampling_time_s;
-        let resonances = poles_s.iter().map(|s| s.norm().min(nyquist));
-        let slowest = BELOW_SLOWEST * resonances.clone().fold(nyquist, f64::min);
-        let ratio = (nyquist / slowest).powf(1.0 / f64::from(GRID));
-        let grid = (0..=GRID).map(|k| nyquist * ratio.powf(-f64::from(k)));
-        let sampled = grid.chain(resonances).map(|w| (self.sensitivity(w), w));
-        let highest = sampled.fold((0.0, nyquist), |best, new| if new.0 > best.0 { new } else { best });
-        self.refine(highest, ratio, nyquist)
-    }
-
-    /// Golden-section search on a logarithmic axis, one point of the grid to either side of the best frequency.
-    fn refine(&self, (mut peak, best): (f64, f64), ratio: f64, nyquist: f64) -> f64 {
-        let golden = (5.0_f64.sqrt() - 1.0) / 2.0;
-        let (mut low, mut high) = ((best / ratio).ln(), (best * ratio).min(nyquist).ln());
-        for _ in 0..REFINEMENTS {
-            let (left, right) = (high - golden * (high - low), low + golden * (high - low));
-            let (at_left, at_right) = (self.sensitivity(left.exp()), self.sensitivity(right.exp()));
-            peak = peak.max(at_left.max(at_right));
-            if at_left > at_right { high = right } else { low = left }
-        }
-        peak
-    }
 }
 
 /// `K (1 + Ts/(2 Ti) (z + 1)/(z − 1))` (Cocota 2009, eq. 4.2).
 fn tustin_pi(settings: &PiSettings, sampling_time_s: f64, z: Complex) -> Complex {
     let integral = sampling_time_s / (2.0 * settings.integral_time_s);
     ((z + 1.0) / (z - 1.0) * integral + 1.0) * settings.gain
-}
-
-/// `1/σ_min` of a 2 × 2 matrix, from `σ₁² + σ₂² = ‖M‖²` and `σ₁ σ₂ = |det M|`.
-fn largest_singular_value_of_inverse(m: &Matrix2<Complex>) -> f64 {
-    let sum = m.iter().map(Complex::norm_sqr).sum::<f64>();
-    let product = (m[(0, 0)] * m[(1, 1)] - m[(0, 1)] * m[(1, 0)]).norm();
-    let difference = ((sum - 2.0 * product) * (sum + 2.0 * product)).max(0.0).sqrt();
-    f64::midpoint(sum, difference).sqrt() / product
 }

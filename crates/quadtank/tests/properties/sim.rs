@@ -3,10 +3,11 @@
 
 use proptest::prelude::*;
 use quadtank::control::{AntiWindup, DecentralisedPi, LoopMode, Pairing, PiSettings};
+use quadtank::linear::Stability;
 use quadtank::plant::{Disturbance, OperatingPoint, PresetId, QuadrupleTank};
 use quadtank::sim::{
-    EventKind, Experiment, Load, LoadStep, Measurement, SetPointStep, Stability, Trajectory, closed_loop, loop_metrics,
-    simulate, simulate_linear,
+    EventKind, Experiment, Load, LoadStep, Measurement, SetPointStep, Trajectory, closed_loop, loop_metrics, simulate,
+    simulate_linear,
 };
 
 const NO_NOISE: Measurement = Measurement { noise_std: 0.0, seed: 0, quantised: false };

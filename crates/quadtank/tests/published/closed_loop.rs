@@ -2,10 +2,11 @@
 //! §4.2 decentralised PI. Tolerances are half a unit of the last printed digit unless they say otherwise.
 
 use quadtank::control::{AntiWindup, DecentralisedPi, LoopMode, Pairing, PiSettings};
+use quadtank::linear::Stability;
 use quadtank::plant::{OperatingPoint, PresetId, QuadrupleTank};
 use quadtank::sim::{
-    EventKind, Experiment, Load, LoadStep, LoopMetrics, Measurement, SetPointStep, Settling, Stability, Trajectory,
-    closed_loop, loop_metrics, simulate, simulate_linear,
+    EventKind, Experiment, Load, LoadStep, LoopMetrics, Measurement, SetPointStep, Settling, Trajectory, closed_loop,
+    loop_metrics, simulate, simulate_linear,
 };
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;

@@ -2,11 +2,11 @@
 
 use quadtank::control::{EstimatorSettings, FedWith, ModelFree, ModelFreeSettings, ModelFreeWindup, Pairing, Window};
 use quadtank::interaction::{niederlinski, relative_gain_array};
-use quadtank::linear::{StateSpace, transmission_zeros};
+use quadtank::linear::{Stability, StateSpace, transmission_zeros};
 use quadtank::plant::{OperatingPoint, PresetId, QuadrupleTank, ValveSchedule};
 use quadtank::sim::{
-    EventKind, Experiment, Measurement, ModelFreeRun, SetPointStep, Stability, TrackingFigures, ZeroDynamics,
-    ZeroDynamicsEnd, continuous_model_free_poles, model_free_poles, simulate_model_free, smallest_model_gain,
+    EventKind, Experiment, Measurement, ModelFreeRun, SetPointStep, TrackingFigures, ZeroDynamics, ZeroDynamicsEnd,
+    continuous_model_free_poles, model_free_poles, simulate_model_free, smallest_model_gain,
     smallest_model_gain_of_integrator, tracking_figures,
 };
 #[cfg(target_arch = "wasm32")]
