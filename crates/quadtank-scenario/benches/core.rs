@@ -3,13 +3,15 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use quadtank::control::{AntiWindup, DecentralisedPi, LoopMode, Pairing, ParallelPid, PiSettings, PidMatrix};
+use quadtank::control::{
+    AntiWindup, DecentralisedPi, LoopMode, Pairing, ParallelPid, PiSettings, PidMatrix, closed_loop,
+};
 use quadtank::interaction::relative_gain_array;
 use quadtank::linear::{DelayedPlant, StateSpace, transmission_zeros};
 use quadtank::plant::{OperatingPoint, PresetId, QuadrupleTank};
 use quadtank::sim::{
-    Experiment, Measurement, SetPointStep, TwoLoops, closed_loop, loop_metrics, run_two_loops, simulate,
-    simulate_linear, simulate_model_free,
+    Experiment, Measurement, SetPointStep, TwoLoops, loop_metrics, run_two_loops, simulate, simulate_linear,
+    simulate_model_free,
 };
 use quadtank::tuning::{
     CriticalCurve, CriticalSearch, Design, PublishedPlant, TestTime, frequency_range, simultaneous_test,

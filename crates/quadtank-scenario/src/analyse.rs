@@ -1,3 +1,4 @@
+use quadtank::control::closed_loop;
 use quadtank::interaction::{
     PairingVerdict, interpolation_integral, niederlinski, recommend_pairing, relative_gain_array,
 };
@@ -5,7 +6,7 @@ use quadtank::linear::{
     ClosedLoop, Complex, LinearError, StateSpace, TransmissionZero, place_nearest_at_origin, transmission_zeros,
 };
 use quadtank::plant::{OperatingPoint, PlantError};
-use quadtank::sim::{Experiment, closed_loop};
+use quadtank::sim::Experiment;
 
 use super::{ScenarioError, Setup};
 

@@ -1,7 +1,8 @@
 use serde::Serialize;
 
+use quadtank::control::closed_loop;
 use quadtank::linear::Stability;
-use quadtank::sim::{LoopMetrics, NoResponse, Trajectory, closed_loop, loop_metrics, simulate, simulate_linear};
+use quadtank::sim::{LoopMetrics, NoResponse, Trajectory, loop_metrics, simulate, simulate_linear};
 
 use super::{ScenarioError, Setup};
 

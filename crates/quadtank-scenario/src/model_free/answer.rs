@@ -1,13 +1,15 @@
 use crate::ScenarioError;
 use crate::run::whole;
-use quadtank::control::{DecentralisedPi, ModelFree, Pairing};
+use quadtank::control::{
+    DecentralisedPi, ModelFree, ModelFreePoles, Pairing, continuous_model_free_poles, model_free_poles,
+    smallest_model_gain, smallest_model_gain_of_integrator,
+};
 use quadtank::interaction::{niederlinski, relative_gain_array};
 use quadtank::linear::{Complex, LinearError, Stability, StateSpace, place_nearest_at_origin, transmission_zeros};
 use quadtank::plant::{OperatingPoint, PlantError, QuadrupleTank, ValveSchedule};
 use quadtank::sim::{
-    Experiment, ModelFreePoles, ModelFreeRun, TrackingFigures, Trajectory, ZeroDynamics, ZeroDynamicsEnd,
-    continuous_model_free_poles, model_free_poles, simulate_model_free, simulate_with_valves, smallest_model_gain,
-    smallest_model_gain_of_integrator, tracking_figures,
+    Experiment, ModelFreeRun, TrackingFigures, Trajectory, ZeroDynamics, ZeroDynamicsEnd, simulate_model_free,
+    simulate_with_valves, tracking_figures,
 };
 
 use super::{ModelFreeSetup, StartSpec};

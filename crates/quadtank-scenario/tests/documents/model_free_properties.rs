@@ -1,12 +1,12 @@
 //! Model-free control beyond the published cases: moving valves, loads, other windows, other power modules.
 
 use approx::assert_relative_eq;
-use quadtank::control::{EstimatorSettings, ModelFree, ModelFreeSettings, Pairing, Window};
-use quadtank::plant::{Disturbance, PresetId, ValveSchedule};
-use quadtank::sim::{
-    Load, LoadStep, SetPointStep, continuous_model_free_poles, model_free_poles, simulate_model_free,
+use quadtank::control::{
+    EstimatorSettings, ModelFree, ModelFreeSettings, Pairing, Window, continuous_model_free_poles, model_free_poles,
     smallest_model_gain,
 };
+use quadtank::plant::{Disturbance, PresetId, ValveSchedule};
+use quadtank::sim::{Load, LoadStep, SetPointStep, simulate_model_free};
 use quadtank_scenario::model_free::{
     ModelFreeSetup, PublishedExperiment, PublishedValves, StartSpec, published_model_free, run_model_free,
 };

@@ -1,4 +1,4 @@
-//! Plant + controller + experiment → trajectories, events and metrics; and the poles of the sampled closed loop.
+//! Plant + controller + experiment → trajectories, events and metrics; and the zero dynamics of the nonlinear plant.
 
 mod comparison;
 mod course;
@@ -11,11 +11,8 @@ mod integrate;
 mod linear;
 mod metrics;
 mod model_free;
-mod model_free_poles;
 mod noise;
 mod nonlinear;
-mod open_loop;
-mod poles;
 mod response;
 mod step_figures;
 mod tracking;
@@ -30,12 +27,7 @@ pub use held_tank::HeldTank;
 pub use linear::simulate_linear;
 pub use metrics::{LoopMetrics, loop_metrics};
 pub use model_free::{ModelFreeRun, simulate_model_free, simulate_with_valves};
-pub use model_free_poles::{
-    ModelFreePoles, continuous_model_free_poles, model_free_poles, smallest_model_gain,
-    smallest_model_gain_of_integrator,
-};
 pub use nonlinear::simulate;
-pub use poles::closed_loop;
 pub use response::{NoResponse, Settling};
 pub use step_figures::StepFigures;
 pub use tracking::{TrackingFigures, tracking_figures};

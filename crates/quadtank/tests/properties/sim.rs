@@ -2,11 +2,11 @@
 //! seed decides a run, the linear model is the limit of small steps, and poles foretell growth.
 
 use proptest::prelude::*;
-use quadtank::control::{AntiWindup, DecentralisedPi, LoopMode, Pairing, PiSettings};
+use quadtank::control::{AntiWindup, DecentralisedPi, LoopMode, Pairing, PiSettings, closed_loop};
 use quadtank::linear::Stability;
 use quadtank::plant::{Disturbance, OperatingPoint, PresetId, QuadrupleTank};
 use quadtank::sim::{
-    EventKind, Experiment, Load, LoadStep, Measurement, SetPointStep, Trajectory, closed_loop, loop_metrics, simulate,
+    EventKind, Experiment, Load, LoadStep, Measurement, SetPointStep, Trajectory, loop_metrics, simulate,
     simulate_linear,
 };
 

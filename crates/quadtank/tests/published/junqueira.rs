@@ -1,13 +1,15 @@
 //! Junqueira, Neves and Angelico: the numbers that a second program found for the published cases.
 
-use quadtank::control::{EstimatorSettings, FedWith, ModelFree, ModelFreeSettings, ModelFreeWindup, Pairing, Window};
+use quadtank::control::{
+    EstimatorSettings, FedWith, ModelFree, ModelFreeSettings, ModelFreeWindup, Pairing, Window,
+    continuous_model_free_poles, model_free_poles, smallest_model_gain, smallest_model_gain_of_integrator,
+};
 use quadtank::interaction::{niederlinski, relative_gain_array};
 use quadtank::linear::{Stability, StateSpace, transmission_zeros};
 use quadtank::plant::{OperatingPoint, PresetId, QuadrupleTank, ValveSchedule};
 use quadtank::sim::{
     EventKind, Experiment, Measurement, ModelFreeRun, SetPointStep, TrackingFigures, ZeroDynamics, ZeroDynamicsEnd,
-    continuous_model_free_poles, model_free_poles, simulate_model_free, smallest_model_gain,
-    smallest_model_gain_of_integrator, tracking_figures,
+    simulate_model_free, tracking_figures,
 };
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;

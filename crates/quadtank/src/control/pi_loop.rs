@@ -1,16 +1,16 @@
-//! The sampled linear loop of two PI laws.
+//! The sampled linear loop of two PI laws: the plant under zero-order hold, as a state matrix and over frequency.
 
-use crate::control::DecentralisedPi;
-use crate::linear::{ClosedLoop, LinearError};
+use nalgebra::{DMatrix, Matrix2, Matrix4, Matrix4x2};
+
+use super::{DecentralisedPi, PiSettings};
+use crate::linear::{ClosedLoop, Complex, LinearError, ZeroOrderHold};
 use crate::plant::Jacobian;
 
-use super::open_loop::OpenLoop;
-
 /// Poles, verdict and sensitivity peak of the sampled linear loop: the plant of `jacobian` under zero-order hold with
-/// the two PI laws, both in automatic mode and away from their limits.
+/// the two PI laws by Tustin's rule (Cocota 2009, eq. 4.2), both in automatic mode and away from their limits.
 ///
 /// One state per tank that is not quasi-steady and one per loop. A loop with gain 0 does not act and its integral is left out.
-/// `power_gain` is that of the power module.
+/// `power_gain` is that of the power module (V/V).
 ///
 /// # Errors
 /// [`LinearError::NoConvergence`] when an entry of the closed-loop matrix is not finite.
@@ -19,9 +19,70 @@ pub fn closed_loop(
     controller: &DecentralisedPi,
     power_gain: f64,
 ) -> Result<ClosedLoop, LinearError> {
-    let open = OpenLoop::new(jacobian, controller, power_gain);
-    let matrix = open.closed(jacobian.quasi_steady);
-    ClosedLoop::new(&matrix, controller.sampling_time_s, |z| open.loop_gain(z))
+    let pi_loop = PiLoop::new(jacobian, controller, power_gain);
+    let matrix = pi_loop.state_matrix(jacobian.quasi_steady);
+    ClosedLoop::new(&matrix, controller.sampling_time_s, |z| pi_loop.return_ratio(z))
+}
+
+/// The sampled plant with its laws. Columns are by loops, not by pumps.
+struct PiLoop<'a> {
+    controller: &'a DecentralisedPi,
+    /// State transition of the plant over one sample.
+    transition: Matrix4<f64>,
+    /// What a controller output held for one sample does to the levels (m/V).
+    input: Matrix4x2<f64>,
+    /// Gain of the level sensors; 0 for a tank that is dry (V/m).
+    sensor: [f64; 2],
+}
+
+impl<'a> PiLoop<'a> {
+    fn new(jacobian: &Jacobian, controller: &'a DecentralisedPi, power_gain: f64) -> Self {
+        let hold = ZeroOrderHold::new(&jacobian.a, controller.sampling_time_s);
+        let by_pump = hold.response * jacobian.b * power_gain;
+        let input = Matrix4x2::from_fn(|tank, i| by_pump[(tank, controller.pairing.pump_of(i))]);
+        let sensor = [jacobian.c[(0, 0)], jacobian.c[(1, 1)]];
+        Self { controller, transition: hold.transition, input, sensor }
+    }
+
+    /// State matrix of the closed loop without the tanks that are `quasi_steady`. States are levels (m), then one integral per
+    /// loop that acts, `s = I − K Ts/(2 Ti) e` (V), with which Tustin's rule reads `c = K (1 + Ts/(2 Ti)) e + s` and
+    /// `s⁺ = s + K Ts/Ti e`.
+    fn state_matrix(&self, quasi_steady: [bool; 4]) -> DMatrix<f64> {
+        let wet: Vec<usize> = (0..4).filter(|&tank| !quasi_steady[tank]).collect();
+        let acting: Vec<usize> = (0..2).filter(|&i| self.controller.loops[i].gain != 0.0).collect();
+        let n = wet.len();
+        let share = |i: usize| self.controller.sampling_time_s / self.controller.loops[i].integral_time_s;
+        let gain = |i: usize| self.controller.loops[i].gain * self.sensor[i];
+        DMatrix::from_fn(n + acting.len(), n + acting.len(), |row, column| match (wet.get(row), wet.get(column)) {
+            (Some(&to), Some(&from)) => {
+                let feedback =
+                    if from < 2 { gain(from) * (1.0 + share(from) / 2.0) * self.input[(to, from)] } else { 0.0 };
+                self.transition[(to, from)] - feedback
+            }
+            (Some(&to), None) => self.input[(to, acting[column - n])],
+            (None, Some(&from)) if from == acting[row - n] => -gain(from) * share(from),
+            (None, None) if row == column => 1.0,
+            (None, _) => 0.0,
+        })
+    }
+
+    /// `L(z) = G(z) K(z)`, cut open at the measured signals. Only the tank above stands between an input and a lower tank.
+    fn return_ratio(&self, z: Complex) -> Matrix2<Complex> {
+        let settings = &self.controller.loops;
+        let law = settings.map(|settings| tustin_pi(&settings, self.controller.sampling_time_s, z));
+        Matrix2::from_fn(|lower, input| {
+            let upper = lower + 2;
+            let above = self.input[(upper, input)] / (z - self.transition[(upper, upper)]);
+            let flow = above * self.transition[(lower, upper)] + self.input[(lower, input)];
+            flow * self.sensor[lower] / (z - self.transition[(lower, lower)]) * law[input]
+        })
+    }
+}
+
+/// `K (1 + Ts/(2 Ti) (z + 1)/(z − 1))` (Cocota 2009, eq. 4.2).
+fn tustin_pi(settings: &PiSettings, sampling_time_s: f64, z: Complex) -> Complex {
+    let integral = sampling_time_s / (2.0 * settings.integral_time_s);
+    ((z + 1.0) / (z - 1.0) * integral + 1.0) * settings.gain
 }
 
 #[cfg(test)]
@@ -30,7 +91,7 @@ mod tests {
 
     use super::*;
     use crate::control::{AntiWindup, LoopMode, Pairing, PiSettings};
-    use crate::linear::{Complex, Stability, StateSpace, singular_values};
+    use crate::linear::{Stability, StateSpace, singular_values};
     use crate::plant::PresetId;
 
     fn law(pairing: Pairing, gains: [f64; 2], integral_times: [f64; 2]) -> DecentralisedPi {
