@@ -3,7 +3,9 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use quadtank::control::{AntiWindup, DecentralisedPi, LoopMode, Pairing, ParallelPid, PiSettings, PidMatrix};
+use quadtank::control::{
+    AntiWindup, DecentralisedPi, LoopMode, Pairing, ParallelPid, PiSettings, PidMatrix, closed_loop,
+};
 use quadtank::interaction::relative_gain_array;
 use quadtank::linear::{DelayedPlant, StateSpace, transmission_zeros};
 use quadtank::literature::PresetId;
@@ -11,8 +13,8 @@ use quadtank::literature::campestrini::PublishedPlant;
 use quadtank::literature::junqueira::{PublishedExperiment, PublishedValves};
 use quadtank::plant::{OperatingPoint, QuadrupleTank};
 use quadtank::sim::{
-    Experiment, Measurement, SetPointStep, TwoLoops, closed_loop, loop_metrics, run_two_loops, simulate,
-    simulate_linear, simulate_model_free,
+    Experiment, Measurement, SetPointStep, TwoLoops, loop_metrics, run_two_loops, simulate, simulate_linear,
+    simulate_model_free,
 };
 use quadtank::study::model_free::ModelFreeSetup;
 use quadtank::tuning::{CriticalCurve, CriticalSearch, Design, TestTime, frequency_range, simultaneous_test};

@@ -2,9 +2,8 @@ use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 
 use quadtank::interaction::PairingVerdict;
-use quadtank::linear::{Complex, LinearError, TransmissionZero};
+use quadtank::linear::{Complex, LinearError, Stability, TransmissionZero};
 use quadtank::plant::{OperatingPoint, PlantError};
-use quadtank::sim::Stability;
 
 use quadtank::study::quadruple_tank::{Analysis, GuaranteedMargins};
 

@@ -5,9 +5,9 @@
 //! | floor | module | purpose |
 //! |---|---|---|
 //! | 1 | [`plant`] | what is really there: tanks, outlets, pumps, valves, sensors, and their nonlinear equations |
-//! | 1 | [`linear`] | what a linear model says: poles, transmission zeros and directions, frequency response |
+//! | 1 | [`linear`] | what a linear model says: poles, transmission zeros and directions, frequency response, closed loops |
 //! | 2 | [`interaction`] | what couples the loops: relative gain array, Niederlinski index, pairing |
-//! | 2 | [`control`] | what acts: sampled PI and PID controllers, alone, decentralised or as a matrix; relays |
+//! | 2 | [`control`] | what acts: sampled PI and PID controllers, alone, decentralised or as a matrix; relays; the linear loops they close |
 //! | 3 | [`sim`] | plant + controller + experiment → trajectories, events, metrics |
 //! | 4 | [`tuning`] | how gains are found: relay tests, ultimate points, critical curve, rules, placement |
 //! | 5 | [`literature`] | what is printed, by source: rigs, cases, printed numbers and what is to be known about them |

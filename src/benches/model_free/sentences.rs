@@ -7,8 +7,9 @@ use crate::errors::{of_plant_error, of_study_error};
 use crate::shown::{to_metres, to_shown};
 use crate::texts::tr;
 use quadtank::control::Pairing;
+use quadtank::linear::Stability;
 use quadtank::literature::DisplayUnit;
-use quadtank::sim::{HoldingEnds, Stability, TrackingFigures};
+use quadtank::sim::{TrackingFigures, ZeroDynamicsEnd};
 use quadtank::study::model_free::{LossBy, ModelFreeVerdict};
 use quadtank::study::{StudyError, StudyFault};
 
@@ -38,11 +39,11 @@ pub fn of_run(session: Session) -> (bool, String) {
             return (false, if begins { reason } else { tr!(lab, free.no_run, reason = reason) });
         }
     };
-    let end = |by: HoldingEnds, ends_s: f64| match by {
-        HoldingEnds::Overflow { tank, .. } => {
+    let end = |by: ZeroDynamicsEnd, ends_s: f64| match by {
+        ZeroDynamicsEnd::Overflow { tank, .. } => {
             tr!(lab, free.end_overflow, tank = tank + 1, time = seconds(ends_s))
         }
-        HoldingEnds::Pump { pump, .. } => tr!(lab, free.end_pump, pump = pump + 1, time = seconds(ends_s)),
+        ZeroDynamicsEnd::Pump { pump, .. } => tr!(lab, free.end_pump, pump = pump + 1, time = seconds(ends_s)),
     };
     let cause = |by: LossBy| match by {
         LossBy::Overflow { tank, time_s } => {

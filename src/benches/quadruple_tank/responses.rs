@@ -13,7 +13,8 @@ use crate::texts::{say, tr};
 use crate::widgets::{
     Card, ChartCanvas, ChartMenu, DataTable, Readout, Sentence, TimeAxis, TimeSurface, ZoomButtons, unmarked,
 };
-use quadtank::sim::{EventKind, LoopMetrics, Settling, Stability};
+use quadtank::linear::Stability;
+use quadtank::sim::{EventKind, LoopMetrics, Settling};
 use quadtank::study::{StudyError, StudyFault};
 use quadtank_figure::Frame;
 use quadtank_scenario::Scenario;

@@ -5,9 +5,8 @@ use leptos::prelude::*;
 use super::session::Session;
 use crate::errors::of_plant_error;
 use crate::texts::tr;
-use quadtank::linear::{Complex, LinearError};
+use quadtank::linear::{Complex, LinearError, Stability};
 use quadtank::plant::PlantError;
-use quadtank::sim::Stability;
 use quadtank::study::quadruple_tank::Analysis;
 use quadtank::study::{StudyError, StudyFault};
 

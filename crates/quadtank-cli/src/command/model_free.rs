@@ -2,7 +2,7 @@
 
 use quadtank::linear::Complex;
 use quadtank::literature::junqueira::{PublishedExperiment, PublishedValves};
-use quadtank::sim::{HoldingEnds, TrackingFigures};
+use quadtank::sim::{TrackingFigures, ZeroDynamicsEnd};
 use quadtank::study::StudyError;
 use quadtank::study::model_free::{ModelFreeSetup, Moment, analyse_model_free, run_model_free};
 use quadtank_figure::{ModelFreeCourse, ModelFreeTexts, Size, Style, model_free_course, to_svg};
@@ -59,10 +59,10 @@ pub fn analysis(setup: &ModelFreeSetup) -> Value {
     })
 }
 
-fn ends(end: HoldingEnds) -> Value {
+fn ends(end: ZeroDynamicsEnd) -> Value {
     match end {
-        HoldingEnds::Pump { pump, after_s } => json!({ "pump_at_its_limit": pump + 1, "after_s": after_s }),
-        HoldingEnds::Overflow { tank, after_s } => json!({ "tank_runs_over": tank + 1, "after_s": after_s }),
+        ZeroDynamicsEnd::Pump { pump, after_s } => json!({ "pump_at_its_limit": pump + 1, "after_s": after_s }),
+        ZeroDynamicsEnd::Overflow { tank, after_s } => json!({ "tank_runs_over": tank + 1, "after_s": after_s }),
     }
 }
 

@@ -1,10 +1,11 @@
 //! What the bench says of each case, computed from the run and from theory.
 
 use quadtank::control::Pairing;
+use quadtank::linear::Stability;
 use quadtank::literature::PresetId;
 use quadtank::literature::junqueira::{PublishedExperiment, PublishedValves};
 use quadtank::plant::OperatingPoint;
-use quadtank::sim::{HoldingEnds, Stability};
+use quadtank::sim::ZeroDynamicsEnd;
 use quadtank::study::StudyError;
 use quadtank::study::model_free::{
     Claim, LossBy, ModelFreeSetup, ModelFreeVerdict, Moment, Standing, analyse_model_free, check_claims, run_model_free,
@@ -48,7 +49,7 @@ fn case_b_looks_settled_while_the_upper_tanks_leave_and_is_lost_when_told() -> R
         panic!("{seen:?}");
     };
     assert!((time_s - ends_s).abs() < 5.0 && (time_s - foretold_s).abs() < 5.0 && at_s > time_s);
-    assert!(matches!(by, HoldingEnds::Overflow { tank: 2, .. }), "{by:?}");
+    assert!(matches!(by, ZeroDynamicsEnd::Overflow { tank: 2, .. }), "{by:?}");
     Ok(())
 }
 

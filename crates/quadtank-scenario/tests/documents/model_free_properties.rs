@@ -1,14 +1,14 @@
 //! Model-free control beyond the published cases: moving valves, loads, other windows, other power modules.
 
 use approx::assert_relative_eq;
-use quadtank::control::{EstimatorSettings, ModelFree, ModelFreeSettings, Pairing, Window};
+use quadtank::control::{
+    EstimatorSettings, ModelFree, ModelFreeSettings, Pairing, Window, continuous_model_free_poles, model_free_poles,
+    smallest_model_gain,
+};
 use quadtank::literature::PresetId;
 use quadtank::literature::junqueira::{PublishedExperiment, PublishedValves};
 use quadtank::plant::{Disturbance, ValveSchedule};
-use quadtank::sim::{
-    Load, LoadStep, SetPointStep, continuous_model_free_poles, model_free_poles, simulate_model_free,
-    smallest_model_gain,
-};
+use quadtank::sim::{Load, LoadStep, SetPointStep, simulate_model_free};
 use quadtank::study::model_free::{ModelFreeSetup, StartSpec, run_model_free};
 
 fn published(valves: PublishedValves, experiment: PublishedExperiment) -> ModelFreeSetup {

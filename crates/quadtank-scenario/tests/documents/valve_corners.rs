@@ -2,9 +2,8 @@
 
 use approx::assert_relative_eq;
 use quadtank::interaction::{PairingReason, PairingVerdict};
-use quadtank::linear::{Complex, LinearError};
+use quadtank::linear::{Complex, LinearError, Stability};
 use quadtank::literature::PresetId;
-use quadtank::sim::Stability;
 use quadtank::study::model_free::Moment;
 use quadtank::study::quadruple_tank::{Analysis, Setup, ValveMap, analyse, setup_of};
 

@@ -1,6 +1,7 @@
-//! What a linear model says: poles, transmission zeros with their directions, frequency response, exact sampling; and
-//! transfer functions with dead time.
+//! What a linear model says: poles, transmission zeros with their directions, frequency response, exact sampling; sampled closed
+//! loops with their stability and sensitivity; and transfer functions with dead time.
 
+mod closed_loop;
 mod delayed;
 mod discrete;
 mod encirclements;
@@ -14,13 +15,17 @@ pub mod quadruple;
 mod reduction;
 mod return_ratio;
 mod scaling;
+mod sensitivity;
 mod spectrum;
+mod stability;
 mod state_space;
 mod taylor_model;
 mod transfer;
+mod zero_order_hold;
 mod zeros;
 
 pub use crate::numeric::Complex;
+pub use closed_loop::ClosedLoop;
 pub use delayed::{DelayedPlant, Path};
 pub use discrete::DiscreteStateSpace;
 pub use encirclements::LoopStability;
@@ -30,6 +35,8 @@ pub use loci::{Closure, Crossing, Loci, locus_values};
 pub use margins::Margins;
 pub use return_ratio::ReturnRatio;
 pub use spectrum::{eigenvalues, singular_values};
+pub use stability::{Stability, UNIT_CIRCLE_TOLERANCE, s_from_z};
 pub use state_space::StateSpace;
 pub use transfer::{TransferFunction, TransferMatrix};
+pub(crate) use zero_order_hold::ZeroOrderHold;
 pub use zeros::{TransmissionZero, place_nearest_at_origin, transmission_zeros};

@@ -1,46 +1,36 @@
-//! Plant + controller + experiment → trajectories, events and metrics; and the poles of the sampled closed loop.
+//! Plant + controller + experiment → trajectories, events and metrics; and the zero dynamics of the nonlinear plant.
 
-mod closed_loop;
 mod comparison;
 mod course;
 mod experiment;
 mod explicit;
-mod held_outputs;
 mod held_tank;
-
 mod hydraulics;
 mod implicit;
 mod integrate;
-mod linear_loop;
+mod linear;
 mod metrics;
 mod model_free;
-mod model_free_poles;
 mod noise;
-mod open_loop;
-mod poles;
+mod nonlinear;
 mod response;
 mod step_figures;
 mod tracking;
 mod trajectory;
 mod two_loops;
 mod walls;
-mod zero_order_hold;
+mod zero_dynamics;
 
-pub use closed_loop::simulate;
 pub use course::{MAX_ROWS, MAX_RUN_WORK};
 pub use experiment::{Experiment, Load, LoadStep, Measurement, SetPointStep};
-pub use held_outputs::{HeldOutputs, HoldingEnds};
 pub use held_tank::HeldTank;
-pub use linear_loop::simulate_linear;
+pub use linear::simulate_linear;
 pub use metrics::{LoopMetrics, loop_metrics};
 pub use model_free::{ModelFreeRun, simulate_model_free, simulate_with_valves};
-pub use model_free_poles::{
-    ModelFreePoles, continuous_model_free_poles, model_free_poles, smallest_model_gain,
-    smallest_model_gain_of_integrator,
-};
-pub use poles::{ClosedLoop, Stability, UNIT_CIRCLE_TOLERANCE, closed_loop};
+pub use nonlinear::simulate;
 pub use response::{NoResponse, Settling};
 pub use step_figures::StepFigures;
 pub use tracking::{TrackingFigures, tracking_figures};
 pub use trajectory::{Event, EventKind, Trajectory};
 pub use two_loops::{Halt, HeldPlant, LoopTrace, MAX_WORK, TwoLoops, run_two_loops, run_two_loops_within};
+pub use zero_dynamics::{ZeroDynamics, ZeroDynamicsEnd};

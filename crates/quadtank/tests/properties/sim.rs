@@ -2,12 +2,13 @@
 //! seed decides a run, the linear model is the limit of small steps, and poles foretell growth.
 
 use proptest::prelude::*;
-use quadtank::control::{AntiWindup, DecentralisedPi, LoopMode, Pairing, PiSettings};
+use quadtank::control::{AntiWindup, DecentralisedPi, LoopMode, Pairing, PiSettings, closed_loop};
+use quadtank::linear::Stability;
 use quadtank::literature::PresetId;
 use quadtank::plant::{Disturbance, OperatingPoint, QuadrupleTank};
 use quadtank::sim::{
-    EventKind, Experiment, Load, LoadStep, Measurement, SetPointStep, Stability, Trajectory, closed_loop, loop_metrics,
-    simulate, simulate_linear,
+    EventKind, Experiment, Load, LoadStep, Measurement, SetPointStep, Trajectory, loop_metrics, simulate,
+    simulate_linear,
 };
 
 const NO_NOISE: Measurement = Measurement { noise_std: 0.0, seed: 0, quantised: false };

@@ -1,12 +1,13 @@
 //! Figures that Cocota (2009) publishes, or that follow from his experiments, about the running plant: §3.6 open loop,
 //! §4.2 decentralised PI. Tolerances are half a unit of the last printed digit unless they say otherwise.
 
-use quadtank::control::{AntiWindup, DecentralisedPi, LoopMode, Pairing, PiSettings};
+use quadtank::control::{AntiWindup, DecentralisedPi, LoopMode, Pairing, PiSettings, closed_loop};
+use quadtank::linear::Stability;
 use quadtank::literature::PresetId;
 use quadtank::plant::{OperatingPoint, QuadrupleTank};
 use quadtank::sim::{
-    EventKind, Experiment, Load, LoadStep, LoopMetrics, Measurement, SetPointStep, Settling, Stability, Trajectory,
-    closed_loop, loop_metrics, simulate, simulate_linear,
+    EventKind, Experiment, Load, LoadStep, LoopMetrics, Measurement, SetPointStep, Settling, Trajectory, loop_metrics,
+    simulate, simulate_linear,
 };
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;

@@ -1,14 +1,16 @@
 //! Junqueira, Neves and Angelico: the numbers that a second program found for the published cases.
 
-use quadtank::control::{EstimatorSettings, FedWith, ModelFree, ModelFreeSettings, ModelFreeWindup, Pairing, Window};
+use quadtank::control::{
+    EstimatorSettings, FedWith, ModelFree, ModelFreeSettings, ModelFreeWindup, Pairing, Window,
+    continuous_model_free_poles, model_free_poles, smallest_model_gain, smallest_model_gain_of_integrator,
+};
 use quadtank::interaction::{niederlinski, relative_gain_array};
-use quadtank::linear::{StateSpace, transmission_zeros};
+use quadtank::linear::{Stability, StateSpace, transmission_zeros};
 use quadtank::literature::PresetId;
 use quadtank::plant::{OperatingPoint, QuadrupleTank, ValveSchedule};
 use quadtank::sim::{
-    EventKind, Experiment, HeldOutputs, HoldingEnds, Measurement, ModelFreeRun, SetPointStep, Stability,
-    TrackingFigures, continuous_model_free_poles, model_free_poles, simulate_model_free, smallest_model_gain,
-    smallest_model_gain_of_integrator, tracking_figures,
+    EventKind, Experiment, Measurement, ModelFreeRun, SetPointStep, TrackingFigures, ZeroDynamics, ZeroDynamicsEnd,
+    simulate_model_free, tracking_figures,
 };
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
@@ -309,8 +311,8 @@ fn case_b_loses_an_unequal_step_as_its_zero_dynamics_say() {
     let level = |tank: usize, row: usize| run.trajectory.levels[tank][row];
     assert!((level(0, row) - 0.11).abs() < 0.001 && (level(1, row) - 0.10).abs() < 0.001);
     let (plant, _) = at_rest('b');
-    let predicted = HeldOutputs::new(&plant, [0.11, 0.10]).ends([level(2, row), level(3, row)], 2000.0);
-    let Some(HoldingEnds::Pump { pump: 0, after_s }) = predicted else { panic!("{predicted:?}") };
+    let predicted = ZeroDynamics::new(&plant, [0.11, 0.10]).ends([level(2, row), level(3, row)], 2000.0);
+    let Some(ZeroDynamicsEnd::Pump { pump: 0, after_s }) = predicted else { panic!("{predicted:?}") };
     let limited = (row..run.trajectory.time_s.len()).find(|&k| run.trajectory.pump_voltage[0][k] >= 12.0).unwrap();
     let limited = run.trajectory.time_s[limited];
     assert!((60.0 + after_s - limited).abs() < 0.05 * limited, "{after_s} {limited}");
@@ -337,8 +339,8 @@ fn case_b_drifts_apart_behind_equal_steps_too() {
     let (plant, _) = at_rest('b');
     let row = run.trajectory.row_at(320.0).unwrap();
     let upper = [2, 3].map(|tank| run.trajectory.levels[tank][row]);
-    let predicted = HeldOutputs::new(&plant, [0.15, 0.15]).ends(upper, 2000.0);
-    let Some(HoldingEnds::Overflow { tank: 2, after_s }) = predicted else { panic!("{predicted:?}") };
+    let predicted = ZeroDynamics::new(&plant, [0.15, 0.15]).ends(upper, 2000.0);
+    let Some(ZeroDynamicsEnd::Overflow { tank: 2, after_s }) = predicted else { panic!("{predicted:?}") };
     let overflow = run.trajectory.events.iter().find(|event| event.kind == EventKind::Overflow { tank: 2 }).unwrap();
     assert!((320.0 + after_s - overflow.time_s).abs() < 5.0, "{after_s} {overflow:?}");
     // At 15 cm the zero is at 0.00750: T3 = T4 = 66.6 s.

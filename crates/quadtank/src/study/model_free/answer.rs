@@ -1,11 +1,13 @@
-use crate::control::{DecentralisedPi, ModelFree, Pairing};
+use crate::control::{
+    DecentralisedPi, ModelFree, ModelFreePoles, Pairing, continuous_model_free_poles, model_free_poles,
+    smallest_model_gain, smallest_model_gain_of_integrator,
+};
 use crate::interaction::{niederlinski, relative_gain_array};
-use crate::linear::{Complex, LinearError, StateSpace, place_nearest_at_origin, transmission_zeros};
+use crate::linear::{Complex, LinearError, Stability, StateSpace, place_nearest_at_origin, transmission_zeros};
 use crate::plant::{OperatingPoint, PlantError, QuadrupleTank, ValveSchedule};
 use crate::sim::{
-    Experiment, HeldOutputs, HoldingEnds, ModelFreePoles, ModelFreeRun, Stability, TrackingFigures, Trajectory,
-    continuous_model_free_poles, model_free_poles, simulate_model_free, simulate_with_valves, smallest_model_gain,
-    smallest_model_gain_of_integrator, tracking_figures,
+    Experiment, ModelFreeRun, TrackingFigures, Trajectory, ZeroDynamics, ZeroDynamicsEnd, simulate_model_free,
+    simulate_with_valves, tracking_figures,
 };
 use crate::study::{StudyError, whole};
 
@@ -113,7 +115,7 @@ pub struct PredictedLoss {
     /// From when on it is predicted (s).
     pub from_s: f64,
     /// When and how it ends, or `None` when it goes on.
-    pub ends: Option<HoldingEnds>,
+    pub ends: Option<ZeroDynamicsEnd>,
 }
 
 /// What happens in the experiment of a setup.
@@ -196,7 +198,7 @@ fn predicted_loss(
     })?;
     let upper = [run.levels[2][row], run.levels[3][row]];
     let from_s = run.time_s[row];
-    let ends = HeldOutputs::new(plant, references).ends(upper, LONGEST_PREDICTION_S);
+    let ends = ZeroDynamics::new(plant, references).ends(upper, LONGEST_PREDICTION_S);
     Some(PredictedLoss { from_s, ends })
 }
 

@@ -1,5 +1,5 @@
 use crate::plant::{QuadrupleTank, ValveSchedule};
-use crate::sim::{EventKind, HoldingEnds, TrackingFigures, Trajectory};
+use crate::sim::{EventKind, TrackingFigures, Trajectory, ZeroDynamicsEnd};
 
 use super::{ModelFreeAnalysis, ModelFreeAnswer, ModelFreeSetup};
 
@@ -42,14 +42,14 @@ pub enum ModelFreeVerdict {
         /// By what.
         by: LossBy,
         /// What the zero dynamics had said would end it, and when (s).
-        foretold: Option<(HoldingEnds, f64)>,
+        foretold: Option<(ZeroDynamicsEnd, f64)>,
     },
     /// Both levels are where they should be, and the upper tanks are leaving: it cannot go on.
     Leaving {
         /// When it will end, by the zero dynamics (s).
         ends_s: f64,
         /// What will end it.
-        by: HoldingEnds,
+        by: ZeroDynamicsEnd,
         /// The time in which the upper tanks part by another factor e (s), by the right-most zero.
         e_folding_s: Option<f64>,
     },
@@ -100,9 +100,9 @@ impl ModelFreeVerdict {
 }
 
 /// Time from the prediction on (s).
-fn after_s(ends: HoldingEnds) -> f64 {
+fn after_s(ends: ZeroDynamicsEnd) -> f64 {
     match ends {
-        HoldingEnds::Pump { after_s, .. } | HoldingEnds::Overflow { after_s, .. } => after_s,
+        ZeroDynamicsEnd::Pump { after_s, .. } | ZeroDynamicsEnd::Overflow { after_s, .. } => after_s,
     }
 }
 

@@ -1,9 +1,12 @@
+use crate::control::closed_loop;
 use crate::interaction::{
     PairingVerdict, interpolation_integral, niederlinski, recommend_pairing, relative_gain_array,
 };
-use crate::linear::{Complex, LinearError, StateSpace, TransmissionZero, place_nearest_at_origin, transmission_zeros};
+use crate::linear::{
+    ClosedLoop, Complex, LinearError, StateSpace, TransmissionZero, place_nearest_at_origin, transmission_zeros,
+};
 use crate::plant::{OperatingPoint, PlantError};
-use crate::sim::{ClosedLoop, Experiment, closed_loop};
+use crate::sim::Experiment;
 
 use super::{Prepared, Setup};
 use crate::study::StudyError;

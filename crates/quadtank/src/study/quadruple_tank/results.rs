@@ -1,6 +1,6 @@
 use std::sync::Arc;
 
-use crate::sim::Stability;
+use crate::linear::Stability;
 use crate::study::{PinnedResults, Study, StudyError, update_pinned};
 
 use super::{Analysis, Prepared, Run, Setup, run};

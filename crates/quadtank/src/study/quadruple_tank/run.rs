@@ -1,8 +1,8 @@
 use serde::Serialize;
 
-use crate::sim::{
-    LoopMetrics, NoResponse, Stability, Trajectory, closed_loop, loop_metrics, simulate, simulate_linear,
-};
+use crate::control::closed_loop;
+use crate::linear::Stability;
+use crate::sim::{LoopMetrics, NoResponse, Trajectory, loop_metrics, simulate, simulate_linear};
 
 use super::{Prepared, Setup};
 use crate::study::{StudyError, whole};

@@ -1,17 +1,14 @@
-//! The linear loop of the model-free law, with its estimator, and how small α̂ may be.
+//! The sampled linear loop of the model-free law, with its estimator, and how small α̂ may be.
 
-use crate::numeric::root;
 use std::array::from_fn;
 use std::cmp::Ordering;
 
 use nalgebra::{DMatrix, Matrix6, Vector4};
 
-use crate::control::{EstimatorError, EstimatorSettings, ModelFree, Window};
-use crate::linear::{Complex, LinearError, eigenvalues};
+use super::{EstimatorError, EstimatorSettings, ModelFree, Window};
+use crate::linear::{Complex, LinearError, Stability, ZeroOrderHold, eigenvalues, s_from_z};
+use crate::numeric::root;
 use crate::plant::Jacobian;
-
-use super::poles::Stability;
-use super::zero_order_hold::ZeroOrderHold;
 
 /// Samples of a sliding window up to which its poles are computed: each is two states.
 const MOST_SLIDING_SAMPLES: usize = 30;
@@ -37,19 +34,19 @@ fn falling(one: &Complex, other: &Complex) -> Ordering {
 }
 
 /// Poles of the sampled linear loop: the plant of `jacobian` under zero-order hold with the law and its estimator. The
-/// estimator is fed with what the pumps get. `power_gain` is that of the power module.
+/// estimator is fed with what the pumps get. `power_gain` is that of the power module (V/V).
 ///
 /// # Errors
 /// [`LinearError::OutOfRange`] when the law [cannot work](ModelFree::check) or its sliding window has more than 30 samples,
 /// [`LinearError::NoConvergence`] when an entry is not finite.
 pub fn model_free_poles(jacobian: &Jacobian, law: &ModelFree, power_gain: f64) -> Result<ModelFreePoles, LinearError> {
-    let linear = LinearLoop::new(jacobian, law, power_gain)?;
+    let linear = ModelFreeLoop::new(jacobian, law, power_gain)?;
     let (map, period_s) = linear.period_map();
     let nothing = linear.shifted();
     let multipliers = eigenvalues(&map)?;
-    let stability = Stability::of(&multipliers);
-    let mut poles_s: Vec<Complex> =
-        multipliers.into_iter().filter(|z| z.norm() > nothing).map(|z| z.ln() / period_s).collect();
+    let stability = Stability::of_poles(&multipliers);
+    let told = multipliers.into_iter().filter(|z| z.norm() > nothing);
+    let mut poles_s: Vec<Complex> = told.filter_map(|z| s_from_z(z, period_s)).collect();
     poles_s.sort_by(falling);
     Ok(ModelFreePoles { poles_s, stability })
 }
@@ -98,7 +95,7 @@ pub fn smallest_model_gain(jacobian: &Jacobian, law: &ModelFree, power_gain: f64
     let slack = |gain: f64| {
         let mut law = *law;
         law.loops.iter_mut().for_each(|settings| settings.model_gain = gain);
-        let (map, _) = LinearLoop::new(jacobian, &law, power_gain)?.period_map();
+        let (map, _) = ModelFreeLoop::new(jacobian, &law, power_gain)?.period_map();
         Ok::<_, LinearError>(Stability::slack(&eigenvalues(&map)?))
     };
     let mut stable = law.loops[0].model_gain;
@@ -133,7 +130,7 @@ fn unusable(error: EstimatorError) -> LinearError {
 }
 
 /// The loop as linear steps, in deviations from a point of rest.
-struct LinearLoop<'a> {
+struct ModelFreeLoop<'a> {
     law: &'a ModelFree,
     hold: ZeroOrderHold,
     /// What an output of loop i held for one sample does to the levels (m/V).
@@ -153,7 +150,7 @@ struct State {
     memory: Vec<f64>,
 }
 
-impl<'a> LinearLoop<'a> {
+impl<'a> ModelFreeLoop<'a> {
     fn new(jacobian: &Jacobian, law: &'a ModelFree, power_gain: f64) -> Result<Self, LinearError> {
         law.check().map_err(unusable)?;
         let hold = ZeroOrderHold::new(&jacobian.a, law.sampling_time_s);

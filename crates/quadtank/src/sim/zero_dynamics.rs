@@ -1,4 +1,4 @@
-//! What the upper tanks do while the lower ones stand still: the zero dynamics of the nonlinear plant.
+//! Zero dynamics of the nonlinear plant: what the upper tanks do while the lower ones stand still.
 
 use crate::plant::{Disturbance, QuadrupleTank};
 
@@ -8,17 +8,18 @@ const STEP: f64 = 1.0 / 50.0;
 /// Most steps of a prediction.
 const MOST_STEPS: f64 = 100_000.0;
 
-/// The plant with levels 1 and 2 held for good by whatever voltages that takes. Its valves stand still.
+/// Zero dynamics of the plant: the motion of the upper levels while the pumps hold levels 1 and 2 exactly, by whatever voltages
+/// that takes. The valves stand still.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HeldOutputs<'a> {
+pub struct ZeroDynamics<'a> {
     plant: &'a QuadrupleTank,
     /// Outflow of the lower tanks (m³/s).
     outflow: [f64; 2],
 }
 
-/// What ends the holding of both outputs.
+/// What ends the motion along the zero dynamics: from there on both outputs cannot be held.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum HoldingEnds {
+pub enum ZeroDynamicsEnd {
     /// A pump would have to leave its limits.
     Pump {
         /// Index of the pump.
@@ -35,7 +36,7 @@ pub enum HoldingEnds {
     },
 }
 
-impl<'a> HeldOutputs<'a> {
+impl<'a> ZeroDynamics<'a> {
     /// Levels 1 and 2 held at `references` (m).
     pub fn new(plant: &'a QuadrupleTank, references: [f64; 2]) -> Self {
         let outflow = [0, 1].map(|tank| plant.tanks[tank].outflow(references[tank], plant.gravity));
@@ -62,8 +63,8 @@ impl<'a> HeldOutputs<'a> {
         })
     }
 
-    /// What ends the holding, from upper levels (m) on, within a time (s); `None` when nothing does.
-    pub fn ends(&self, upper: [f64; 2], within_s: f64) -> Option<HoldingEnds> {
+    /// What first ends the motion from the levels `upper` (m) on; `None` when nothing does within `within_s` (s).
+    pub fn ends(&self, upper: [f64; 2], within_s: f64) -> Option<ZeroDynamicsEnd> {
         let quickest = [0, 1].map(|i| {
             let (tank, level) = (&self.plant.tanks[i + 2], upper[i].max(1e-3));
             tank.section.area(level) / tank.outflow_slope(level, self.plant.gravity)
@@ -80,17 +81,17 @@ impl<'a> HeldOutputs<'a> {
         None
     }
 
-    fn end_at(&self, upper: [f64; 2], after_s: f64) -> Option<HoldingEnds> {
+    fn end_at(&self, upper: [f64; 2], after_s: f64) -> Option<ZeroDynamicsEnd> {
         let voltages = self.voltages(upper);
         let within = |pump: usize| {
             let limits = &self.plant.pumps[pump];
             (limits.voltage_min..=limits.voltage_max).contains(&voltages[pump])
         };
         if let Some(pump) = (0..2).find(|&pump| !within(pump)) {
-            return Some(HoldingEnds::Pump { pump, after_s });
+            return Some(ZeroDynamicsEnd::Pump { pump, after_s });
         }
         let over = (0..2).find(|&i| upper[i] > self.plant.tanks[i + 2].height);
-        over.map(|i| HoldingEnds::Overflow { tank: i + 2, after_s })
+        over.map(|i| ZeroDynamicsEnd::Overflow { tank: i + 2, after_s })
     }
 
     /// A Runge–Kutta step of order 4.
@@ -117,18 +118,18 @@ mod tests {
         for id in PresetId::ALL {
             let preset = id.preset();
             let op = preset.plant.free_equilibrium(preset.pump_voltage);
-            let held = HeldOutputs::new(&preset.plant, [op.levels[0], op.levels[1]]);
+            let zero_dynamics = ZeroDynamics::new(&preset.plant, [op.levels[0], op.levels[1]]);
             let upper = [op.levels[2], op.levels[3]];
             for i in 0..2 {
-                assert_relative_eq!(held.voltages(upper)[i], op.pump_voltage[i], max_relative = 1e-9);
-                assert!(held.rates(upper)[i].abs() < 1e-12);
+                assert_relative_eq!(zero_dynamics.voltages(upper)[i], op.pump_voltage[i], max_relative = 1e-9);
+                assert!(zero_dynamics.rates(upper)[i].abs() < 1e-12);
             }
             let nudge = 1e-6;
             let column = |k: usize| {
                 let moved = |sign: f64| {
                     let mut upper = upper;
                     upper[k] += sign * nudge;
-                    held.rates(upper)
+                    zero_dynamics.rates(upper)
                 };
                 let (up, down) = (moved(1.0), moved(-1.0));
                 [0, 1].map(|i| (up[i] - down[i]) / (2.0 * nudge))

@@ -1,14 +1,14 @@
-//! The linear model in the same closed loop.
+//! Runs of the linear model with the same sampled controllers.
 
 use nalgebra::Vector4;
 
 use crate::control::DecentralisedPi;
+use crate::linear::ZeroOrderHold;
 use crate::plant::{Disturbance, Jacobian, OperatingPoint, QuadrupleTank};
 
 use super::course::{self, Events, Process};
 use super::experiment::Experiment;
 use super::trajectory::Trajectory;
-use super::zero_order_hold::ZeroOrderHold;
 
 /// Durations that differ by less than this fraction are the same, up to the rounding of times.
 const SAME_DURATION: f64 = 1e-9;

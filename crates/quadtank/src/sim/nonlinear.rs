@@ -1,4 +1,4 @@
-//! The nonlinear plant in closed loop.
+//! Runs of the nonlinear plant with its sampled controllers.
 
 use crate::control::DecentralisedPi;
 use crate::plant::{Disturbance, OperatingPoint, QuadrupleTank};

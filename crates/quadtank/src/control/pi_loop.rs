@@ -1,77 +1,16 @@
-use serde::Serialize;
+//! The sampled linear loop of two PI laws: the plant under zero-order hold, as a state matrix and over frequency.
 
-use crate::control::DecentralisedPi;
-use crate::linear::{Complex, LinearError, eigenvalues};
+use nalgebra::{DMatrix, Matrix2, Matrix4, Matrix4x2};
+
+use super::{DecentralisedPi, PiSettings};
+use crate::linear::{ClosedLoop, Complex, LinearError, ZeroOrderHold};
 use crate::plant::Jacobian;
 
-use super::open_loop::OpenLoop;
-
-/// `1 − |z|` below which a pole counts as on the unit circle. A slow but stable pole at this distance would take 30
-/// years at one sample per second; rounding moves a simple pole at z = 1 by less than 1e-12.
-pub const UNIT_CIRCLE_TOLERANCE: f64 = 1e-9;
-
-/// Whether the sampled linear closed loop is stable.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Stability {
-    /// Every pole is inside the unit circle.
-    Stable,
-    /// A pole is on the unit circle, to rounding.
-    Marginal,
-    /// A pole is outside the unit circle.
-    Unstable,
-}
-
-impl Stability {
-    /// The verdict on a loop with these poles (z-plane).
-    pub(super) fn of(poles_z: &[Complex]) -> Self {
-        let radius = spectral_radius(poles_z);
-        if radius > 1.0 + UNIT_CIRCLE_TOLERANCE {
-            Self::Unstable
-        } else if radius < 1.0 - UNIT_CIRCLE_TOLERANCE {
-            Self::Stable
-        } else {
-            Self::Marginal
-        }
-    }
-
-    /// How far the poles (z-plane) stay inside the circle of a stable loop; positive for one that is stable.
-    pub(super) fn slack(poles_z: &[Complex]) -> f64 {
-        1.0 - UNIT_CIRCLE_TOLERANCE - spectral_radius(poles_z)
-    }
-}
-
-fn spectral_radius(poles_z: &[Complex]) -> f64 {
-    poles_z.iter().map(|z| z.norm()).fold(0.0, f64::max)
-}
-
-/// The poles of the sampled linear closed loop.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ClosedLoop {
-    /// Poles of the sampled loop (z-plane), by falling modulus.
-    pub poles_z: Vec<Complex>,
-    /// The same mapped to the s-plane, `s = ln(z)/Ts` (1/s); a pole at z = 0 has no image and is left
-    /// out, one at z = 1 to rounding is at 0.
-    pub poles_s: Vec<Complex>,
-    /// The verdict.
-    pub stability: Stability,
-    /// Peak Ms of the largest singular value of the sensitivity at the outputs, over all frequencies up to Nyquist;
-    /// `None` when the loop is not stable. 1.2 to 2 is usual for a loop that keeps its distance from instability.
-    pub sensitivity_peak: Option<f64>,
-}
-
-impl ClosedLoop {
-    /// The pole that decides how fast the loop forgets or grows: the one with the largest real part (1/s).
-    pub fn slowest(&self) -> Option<Complex> {
-        self.poles_s.iter().copied().max_by(|x, y| x.re.total_cmp(&y.re))
-    }
-}
-
 /// Poles, verdict and sensitivity peak of the sampled linear loop: the plant of `jacobian` under zero-order hold with
-/// the two PI laws, both in automatic mode and away from their limits.
+/// the two PI laws by Tustin's rule (Cocota 2009, eq. 4.2), both in automatic mode and away from their limits.
 ///
 /// One state per tank that is not quasi-steady and one per loop. A loop with gain 0 does not act and its integral is left out.
-/// `power_gain` is that of the power module.
+/// `power_gain` is that of the power module (V/V).
 ///
 /// # Errors
 /// [`LinearError::NoConvergence`] when an entry of the closed-loop matrix is not finite.
@@ -80,17 +19,70 @@ pub fn closed_loop(
     controller: &DecentralisedPi,
     power_gain: f64,
 ) -> Result<ClosedLoop, LinearError> {
-    let open = OpenLoop::new(jacobian, controller, power_gain);
-    let mut poles_z = eigenvalues(&open.closed(jacobian.quasi_steady))?;
-    poles_z.sort_by(|x, y| y.norm().total_cmp(&x.norm()).then(y.im.total_cmp(&x.im)));
-    let stability = Stability::of(&poles_z);
-    let images = poles_z.iter().filter(|&&z| z != Complex::ZERO);
-    // What rounding leaves of a pole at z = 1 would be told as a growth or a decay.
-    let is_one = |z: &Complex| (z - Complex::ONE).norm() < UNIT_CIRCLE_TOLERANCE;
-    let image = |z: &Complex| if is_one(z) { Complex::ZERO } else { z.ln() / controller.sampling_time_s };
-    let poles_s: Vec<Complex> = images.map(image).collect();
-    let sensitivity_peak = (stability == Stability::Stable).then(|| open.sensitivity_peak(&poles_s));
-    Ok(ClosedLoop { poles_z, poles_s, stability, sensitivity_peak })
+    let pi_loop = PiLoop::new(jacobian, controller, power_gain);
+    let matrix = pi_loop.state_matrix(jacobian.quasi_steady);
+    ClosedLoop::new(&matrix, controller.sampling_time_s, |z| pi_loop.return_ratio(z))
+}
+
+/// The sampled plant with its laws. Columns are by loops, not by pumps.
+struct PiLoop<'a> {
+    controller: &'a DecentralisedPi,
+    /// State transition of the plant over one sample.
+    transition: Matrix4<f64>,
+    /// What a controller output held for one sample does to the levels (m/V).
+    input: Matrix4x2<f64>,
+    /// Gain of the level sensors; 0 for a tank that is dry (V/m).
+    sensor: [f64; 2],
+}
+
+impl<'a> PiLoop<'a> {
+    fn new(jacobian: &Jacobian, controller: &'a DecentralisedPi, power_gain: f64) -> Self {
+        let hold = ZeroOrderHold::new(&jacobian.a, controller.sampling_time_s);
+        let by_pump = hold.response * jacobian.b * power_gain;
+        let input = Matrix4x2::from_fn(|tank, i| by_pump[(tank, controller.pairing.pump_of(i))]);
+        let sensor = [jacobian.c[(0, 0)], jacobian.c[(1, 1)]];
+        Self { controller, transition: hold.transition, input, sensor }
+    }
+
+    /// State matrix of the closed loop without the tanks that are `quasi_steady`. States are levels (m), then one integral per
+    /// loop that acts, `s = I − K Ts/(2 Ti) e` (V), with which Tustin's rule reads `c = K (1 + Ts/(2 Ti)) e + s` and
+    /// `s⁺ = s + K Ts/Ti e`.
+    fn state_matrix(&self, quasi_steady: [bool; 4]) -> DMatrix<f64> {
+        let wet: Vec<usize> = (0..4).filter(|&tank| !quasi_steady[tank]).collect();
+        let acting: Vec<usize> = (0..2).filter(|&i| self.controller.loops[i].gain != 0.0).collect();
+        let n = wet.len();
+        let share = |i: usize| self.controller.sampling_time_s / self.controller.loops[i].integral_time_s;
+        let gain = |i: usize| self.controller.loops[i].gain * self.sensor[i];
+        DMatrix::from_fn(n + acting.len(), n + acting.len(), |row, column| match (wet.get(row), wet.get(column)) {
+            (Some(&to), Some(&from)) => {
+                let feedback =
+                    if from < 2 { gain(from) * (1.0 + share(from) / 2.0) * self.input[(to, from)] } else { 0.0 };
+                self.transition[(to, from)] - feedback
+            }
+            (Some(&to), None) => self.input[(to, acting[column - n])],
+            (None, Some(&from)) if from == acting[row - n] => -gain(from) * share(from),
+            (None, None) if row == column => 1.0,
+            (None, _) => 0.0,
+        })
+    }
+
+    /// `L(z) = G(z) K(z)`, cut open at the measured signals. Only the tank above stands between an input and a lower tank.
+    fn return_ratio(&self, z: Complex) -> Matrix2<Complex> {
+        let settings = &self.controller.loops;
+        let law = settings.map(|settings| tustin_pi(&settings, self.controller.sampling_time_s, z));
+        Matrix2::from_fn(|lower, input| {
+            let upper = lower + 2;
+            let above = self.input[(upper, input)] / (z - self.transition[(upper, upper)]);
+            let flow = above * self.transition[(lower, upper)] + self.input[(lower, input)];
+            flow * self.sensor[lower] / (z - self.transition[(lower, lower)]) * law[input]
+        })
+    }
+}
+
+/// `K (1 + Ts/(2 Ti) (z + 1)/(z − 1))` (Cocota 2009, eq. 4.2).
+fn tustin_pi(settings: &PiSettings, sampling_time_s: f64, z: Complex) -> Complex {
+    let integral = sampling_time_s / (2.0 * settings.integral_time_s);
+    ((z + 1.0) / (z - 1.0) * integral + 1.0) * settings.gain
 }
 
 #[cfg(test)]
@@ -99,7 +91,7 @@ mod tests {
 
     use super::*;
     use crate::control::{AntiWindup, LoopMode, Pairing, PiSettings};
-    use crate::linear::{StateSpace, singular_values};
+    use crate::linear::{Stability, StateSpace, singular_values};
     use crate::literature::PresetId;
 
     fn law(pairing: Pairing, gains: [f64; 2], integral_times: [f64; 2]) -> DecentralisedPi {

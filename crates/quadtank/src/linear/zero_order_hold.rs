@@ -5,19 +5,23 @@ use nalgebra::{Matrix4, Vector4};
 /// Terms of the power series; with the norm scaled below 1/2 the next one is below rounding.
 const TERMS: u32 = 14;
 
-/// `x(t + Ts) = Φ x(t) + Ψ f` for `dx/dt = A x + f` with `f` constant: `Φ = exp(A Ts)`, `Ψ = ∫ exp(A τ) dτ` from 0 to Ts.
+/// Zero-order hold of four tanks: `x(t + Ts) = Φ x(t) + Ψ f` for `dx/dt = A x + f` with `f` constant, where `Φ = exp(A Ts)` and
+/// `Ψ = ∫ exp(A τ) dτ` from 0 to Ts.
+///
+/// [`StateSpace::sampled`](super::StateSpace::sampled) is for any model; this one allocates nothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct ZeroOrderHold {
+pub(crate) struct ZeroOrderHold {
     /// State transition Φ.
-    pub(super) transition: Matrix4<f64>,
+    pub(crate) transition: Matrix4<f64>,
     /// What a held rate of change does, Ψ (s).
-    pub(super) response: Matrix4<f64>,
+    pub(crate) response: Matrix4<f64>,
 }
 
 impl ZeroOrderHold {
-    /// By the power series of Ψ on a short stretch of time, doubled until it is `duration` long.
+    /// The hold of `a` (1/s), triangular as water only falls, for `duration` (s), by the power series of Ψ on a short stretch of
+    /// time that is doubled until it is `duration` long.
     #[expect(clippy::cast_possible_truncation, reason = "a logarithm of a float is small, and the cast saturates")]
-    pub(super) fn new(a: &Matrix4<f64>, duration: f64) -> Self {
+    pub(crate) fn new(a: &Matrix4<f64>, duration: f64) -> Self {
         let norm = a.abs().row_sum().max() * duration;
         let doublings = ((2.0 * norm).max(1.0).ln() / std::f64::consts::LN_2).ceil() as i32;
         let doublings = doublings.min(f64::MAX_EXP - 1);
@@ -40,12 +44,12 @@ impl ZeroOrderHold {
     }
 
     /// `Φ x + push`.
-    pub(super) fn pass(&self, x: &Vector4<f64>, push: &Vector4<f64>) -> Vector4<f64> {
+    pub(crate) fn pass(&self, x: &Vector4<f64>, push: &Vector4<f64>) -> Vector4<f64> {
         self.transition * x + push
     }
 
     /// `Ψ f`.
-    pub(super) fn push(&self, f: &Vector4<f64>) -> Vector4<f64> {
+    pub(crate) fn push(&self, f: &Vector4<f64>) -> Vector4<f64> {
         self.response * f
     }
 }
