@@ -1,6 +1,6 @@
 //! The controls of the benches as data: what they read and write of a document.
 //!
-//! A number is a constant that says how it is read, written, limited and shown; [`KnobRow`] makes the view of any of them.
+//! A number is a constant that says how it is read, written, limited and shown; [`ParamRow`] makes the view of any of them.
 
 use leptos::prelude::*;
 
@@ -8,24 +8,30 @@ use super::lab::Lab;
 use super::session::{Bench, Session, SetupOf};
 use super::start::Control;
 use super::widgets::{NumberField, Scale, Segmented, SliderField};
+use quadtank_scenario::Limits;
+use quadtank_scenario::params::Param;
 
 /// A stretch of numbers that depends on a setup.
 type Range<S> = fn(&S) -> (f64, f64);
 
 /// A number of a setup, or a pair of alike ones: an index of 0 or 1 says which.
-pub struct Knob<S> {
+pub struct ParamControl<S> {
     /// Names for tests: of the slider, and of the number field beside it or alone.
     pub ids: [(&'static str, &'static str); 2],
     /// Symbol or short text.
     pub label: fn(Lab, usize) -> String,
     /// What it is, for screen readers.
     pub name: fn(Lab, usize) -> String,
-    /// Reads it, in the shown unit.
+    /// Path of its row in the table of parameters, whose limits it has; empty for a number that is not in the document.
+    pub path: fn(&S, usize) -> &'static str,
+    /// Reads it, in the unit of the row.
     pub read: fn(&S, usize) -> f64,
-    /// Writes it, from the shown unit.
+    /// Writes it, in the unit of the row.
     pub write: fn(&mut S, usize, f64),
-    /// Smallest and largest allowed value.
-    pub limits: fn(&S, usize) -> (f64, f64),
+    /// What other numbers of the setup leave of the limits of the row.
+    pub within: fn(&S, usize) -> Limits,
+    /// Shown units in one of the row.
+    pub shown_per_unit: fn(&S) -> f64,
     /// Smallest allowed magnitude, where the sign is free but zero is not allowed.
     pub smallest: f64,
     /// Travel of the slider; `None` for a number field alone.
@@ -46,15 +52,17 @@ pub struct Knob<S> {
     pub matters: Option<fn(&S) -> bool>,
 }
 
-impl<S> Knob<S> {
+impl<S> ParamControl<S> {
     /// What most controls have in common.
     pub const PLAIN: Self = Self {
         ids: [("", ""); 2],
         label: |_, _| String::new(),
         name: |_, _| String::new(),
+        path: |_, _| "",
         read: |_, _| 0.0,
         write: |_, _, _| (),
-        limits: |_, _| (0.0, 1.0),
+        within: |_, _| Limits::NONE,
+        shown_per_unit: |_| 1.0,
         smallest: 0.0,
         travel: None,
         scale: Scale::Linear(0.01),
@@ -65,29 +73,53 @@ impl<S> Knob<S> {
         lock: Control::Plant,
         matters: None,
     };
+
+    /// The values that are allowed now, in the unit of the row.
+    pub fn limits(&self, setup: &S, index: usize) -> Limits {
+        let path = (self.path)(setup, index);
+        let param = Param::at(path);
+        debug_assert!(param.is_some() || path.is_empty(), "no row for {path}");
+        let row = param.map_or(Limits::NONE, |param| param.limits);
+        row.intersection((self.within)(setup, index))
+    }
+
+    fn shown(&self, setup: &S, index: usize) -> f64 {
+        (self.read)(setup, index) * (self.shown_per_unit)(setup)
+    }
+
+    /// Rounding of the unit does not lead out of the limits.
+    fn set_shown(&self, setup: &mut S, index: usize, shown: f64) {
+        let value = self.limits(setup, index).clamp(shown / (self.shown_per_unit)(setup));
+        (self.write)(setup, index, value);
+    }
+
+    fn shown_limits(&self, setup: &S, index: usize) -> (f64, f64) {
+        let (limits, shown_per_unit) = (self.limits(setup, index), (self.shown_per_unit)(setup));
+        (limits.min * shown_per_unit, limits.max * shown_per_unit)
+    }
 }
 
 /// A slider with its number field, or a number field in a row of its own.
 #[component]
-pub fn KnobRow<B: Bench>(
+pub fn ParamRow<B: Bench>(
     /// The bench whose setup it is a number of.
     session: Session<B>,
     /// The number.
-    knob: &'static Knob<SetupOf<B>>,
+    control: &'static ParamControl<SetupOf<B>>,
     /// Which one of a pair.
     #[prop(optional)]
     index: usize,
 ) -> impl IntoView {
-    let &Knob { ids, scale, digits, smallest, class, .. } = knob;
+    let &ParamControl { ids, scale, digits, smallest, class, .. } = control;
     let (id, class, lab) = (ids[index], class[index], session.lab);
-    let label = Signal::derive(move || (knob.label)(lab, index));
-    let unit = lab.told(Signal::derive(move || session.read(knob.unit).to_owned()));
-    let Wires { name, value, on_change, limits, disabled } = wires(session, knob, index);
-    let Some(travel) = knob.travel else {
+    let label = Signal::derive(move || (control.label)(lab, index));
+    let unit = lab.told(Signal::derive(move || session.read(control.unit).to_owned()));
+    let Wires { name, value, on_change, limits, disabled } = wires(session, control, index);
+    let Some(travel) = control.travel else {
         return view! {
             <div class=format!("field-row {class}")>
                 <span title=name>{label}</span>
-                <KnobNumber session knob index />
+                <ParamNumber session control index />
                 <span class="unit">{unit}</span>
             </div>
         }
@@ -100,18 +132,18 @@ pub fn KnobRow<B: Bench>(
 
 /// The number field alone, for a row of another shape.
 #[component]
-pub fn KnobNumber<B: Bench>(
+pub fn ParamNumber<B: Bench>(
     /// The bench whose setup it is a number of.
     session: Session<B>,
     /// The number.
-    knob: &'static Knob<SetupOf<B>>,
+    control: &'static ParamControl<SetupOf<B>>,
     /// Which one of a pair.
     #[prop(optional)]
     index: usize,
 ) -> impl IntoView {
-    let &Knob { ids, scale, digits, smallest, .. } = knob;
-    let Wires { name, value, on_change, limits, disabled } = wires(session, knob, index);
-    let grid = Signal::derive(move || session.read(knob.grid));
+    let &ParamControl { ids, scale, digits, smallest, .. } = control;
+    let Wires { name, value, on_change, limits, disabled } = wires(session, control, index);
+    let grid = Signal::derive(move || session.read(control.grid));
     view! { <NumberField id=ids[index].1 name value on_change limits scale digits smallest grid disabled /> }
 }
 
@@ -150,15 +182,15 @@ struct Wires {
     disabled: Signal<bool>,
 }
 
-fn wires<B: Bench>(session: Session<B>, knob: &'static Knob<SetupOf<B>>, index: usize) -> Wires {
-    let (lab, locked) = (session.lab, session.lab.locks(knob.lock));
+fn wires<B: Bench>(session: Session<B>, control: &'static ParamControl<SetupOf<B>>, index: usize) -> Wires {
+    let (lab, locked) = (session.lab, session.lab.locks(control.lock));
     // No memos: fields read all but the last when the words are told or a key is pressed, and do not follow it.
     Wires {
-        name: Signal::derive(move || (knob.name)(lab, index)),
-        value: Signal::derive(move || session.read(|s| (knob.read)(s, index))),
-        on_change: Callback::new(move |value| session.edit(|s| (knob.write)(s, index, value))),
-        limits: Signal::derive(move || session.read(|s| (knob.limits)(s, index))),
-        disabled: match knob.matters {
+        name: Signal::derive(move || (control.name)(lab, index)),
+        value: Signal::derive(move || session.read(|s| control.shown(s, index))),
+        on_change: Callback::new(move |shown| session.edit(|s| control.set_shown(s, index, shown))),
+        limits: Signal::derive(move || session.read(|s| control.shown_limits(s, index))),
+        disabled: match control.matters {
             Some(matters) => Memo::new(move |_| locked || !session.read(matters)).into(),
             None => locked.into(),
         },

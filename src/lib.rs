@@ -23,4 +23,7 @@ mod texts;
 mod timing;
 mod widgets;
 
-pub use shell::{Laboratory, mount};
+pub use benches::{BENCHES, BenchEntry};
+pub use lab::Lab;
+pub use session::{Bench, ResultsOf, Session, SetupOf, part_of};
+pub use shell::{Laboratory, LaboratoryProps, mount};

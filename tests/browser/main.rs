@@ -3,6 +3,7 @@
 
 mod benches;
 mod core;
+mod new_bench;
 mod page;
 #[path = "../../crates/quadtank-scenario/tests/seeded/mod.rs"]
 mod seeded;

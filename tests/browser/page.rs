@@ -1,7 +1,7 @@
 use gloo_timers::future::TimeoutFuture;
 use leptos::mount::mount_to;
-use leptos::prelude::{document, window};
-use quadtank_lab::Laboratory;
+use leptos::prelude::*;
+use quadtank_lab::{BENCHES, BenchEntry, Laboratory};
 use wasm_bindgen::{JsCast, JsValue};
 use web_sys::{Event, EventInit, HtmlElement, HtmlInputElement};
 
@@ -20,13 +20,18 @@ pub struct Page {
 impl Page {
     /// Opens the laboratory with a query such as `bench=relay-tuning&lang=en`.
     pub async fn open(query: &str) -> Self {
+        Self::with(&BENCHES, query).await
+    }
+
+    /// Opens a laboratory with other benches.
+    pub async fn with(benches: &'static [BenchEntry], query: &str) -> Self {
         let history = window().history().expect("a page has a history");
         history
             .replace_state_with_url(&JsValue::NULL, "", Some(&format!("?{query}")))
             .expect("a query is a valid address");
         let root: HtmlElement = document().create_element("div").expect("a div").unchecked_into();
         document().body().expect("a page has a body").append_child(&root).expect("an element can be added");
-        let mounted = Box::new(mount_to(root.clone(), Laboratory));
+        let mounted = Box::new(mount_to(root.clone(), move || view! { <Laboratory benches /> }));
         let page = Self { root, _mounted: mounted };
         page.settle().await;
         page

@@ -21,6 +21,16 @@ impl Limits {
         Self { min, max }
     }
 
+    /// All numbers.
+    pub const NONE: Self = Self::new(f64::NEG_INFINITY, f64::INFINITY);
+
+    /// What both allow; the smallest value of the second where they have none in common.
+    #[must_use]
+    pub fn intersection(self, other: Self) -> Self {
+        let min = self.min.max(other.min);
+        Self { min, max: self.max.min(other.max).max(min) }
+    }
+
     /// Whether `value` is allowed; never true of NaN.
     pub fn contains(self, value: f64) -> bool {
         self.min <= value && value <= self.max

@@ -2,63 +2,68 @@
 
 use leptos::prelude::*;
 
-use super::sentences::{in_cm, in_m};
+use super::sentences::CM_PER_M;
 use super::session::use_session;
-use crate::controls::{Knob, KnobRow, Switch};
+use crate::controls::{ParamControl, ParamRow, Switch};
 use crate::start::Control;
 use crate::texts::{say, tr};
 use crate::widgets::{Card, Scale};
 use quadtank::literature::junqueira::{PublishedExperiment, PublishedValves};
 use quadtank::study::model_free::{LONG_RUN_S, ModelFreeSetup};
-use quadtank_scenario::limits;
+use quadtank_scenario::{Limits, limits};
 
-const VALVE: Knob<ModelFreeSetup> = Knob {
+const VALVE: ParamControl<ModelFreeSetup> = ParamControl {
     ids: [("", "free-gamma1"), ("", "free-gamma2")],
     label: |_, k| ["γ₁", "γ₂"][k].to_owned(),
     name: |lab, k| tr!(lab, free.gamma, valve = k + 1),
     read: |s, k| s.valves[k].middle(),
     write: |s, k, middle| s.valves[k] = s.valves[k].around(middle),
     // The middle of a valve that moves keeps away from both ends.
-    limits: |s, k| (s.valves[k].swing(), 1.0 - s.valves[k].swing()),
+    path: |_, _| "valves[].constant.gamma",
+    within: |s, k| Limits::new(s.valves[k].swing(), 1.0 - s.valves[k].swing()),
     digits: Some(2),
     lock: Control::Valves,
-    ..Knob::PLAIN
+    ..ParamControl::PLAIN
 };
-const STEP: Knob<ModelFreeSetup> = Knob {
+const STEP: ParamControl<ModelFreeSetup> = ParamControl {
     ids: [("", "free-step1"), ("", "free-step2")],
     label: |_, k| ["Δr₁", "Δr₂"][k].to_owned(),
     name: |lab, k| tr!(lab, free.step, level = k + 1),
-    read: |s, k| in_cm(s.set_point_step(k)),
-    write: |s, k, size| s.set_set_point_step(k, in_m(size)),
-    limits: |s, k| {
+    path: |_, _| "experiment.set_point_steps[].size",
+    read: |s, k| s.set_point_step(k),
+    write: |s, k, size| s.set_set_point_step(k, size),
+    // From the bottom of the tank to its brim.
+    within: |s, k| {
         let (least, most) = s.set_point_steps(k);
-        (in_cm(least), in_cm(most))
+        Limits::new(least, most)
     },
+    shown_per_unit: |_| CM_PER_M,
     scale: Scale::Linear(0.1),
     digits: Some(2),
     unit: |_| "cm",
     lock: Control::Experiment,
-    ..Knob::PLAIN
+    ..ParamControl::PLAIN
 };
-const NOISE: Knob<ModelFreeSetup> = Knob {
+const NOISE: ParamControl<ModelFreeSetup> = ParamControl {
     ids: [("", "free-noise"); 2],
     label: |_, _| "σ".to_owned(),
     name: |lab, _| tr!(lab, experiment.noise_name),
-    read: |s, _| in_cm(s.experiment.measurement.noise_std),
-    write: |s, _, noise| s.experiment.measurement.noise_std = in_m(noise),
-    limits: |_, _| (0.0, 5.0),
+    path: |_, _| "experiment.measurement.noise_std",
+    read: |s, _| s.experiment.measurement.noise_std,
+    write: |s, _, noise| s.experiment.measurement.noise_std = noise,
+    within: |_, _| Limits::NONE,
     ..STEP
 };
-const DURATION: Knob<ModelFreeSetup> = Knob {
+const DURATION: ParamControl<ModelFreeSetup> = ParamControl {
     ids: [("", "free-end"); 2],
     label: |_, _| "t".to_owned(),
     name: |lab, _| tr!(lab, experiment.duration_name),
     read: |s, _| s.experiment.duration_s,
     write: |s, _, duration_s| s.experiment.duration_s = duration_s,
-    limits: |s, _| {
-        let limits = limits::model_free_duration_s(s);
-        (limits.min.max(s.shortest_s()), limits.max)
-    },
+    path: |_, _| "experiment.duration_s",
+    // So long that each reference steps.
+    within: |s, _| Limits { min: s.shortest_s(), ..limits::model_free_duration_s(s) },
+    shown_per_unit: |_| 1.0,
     scale: Scale::Linear(10.0),
     digits: Some(0),
     unit: |_| "s",
@@ -100,12 +105,12 @@ pub fn CaseCard() -> impl IntoView {
                 lock=Control::Experiment
             />
             <div class="pairs">
-                <KnobRow session knob=&VALVE index=0 />
-                <KnobRow session knob=&VALVE index=1 />
-                <KnobRow session knob=&STEP index=0 />
-                <KnobRow session knob=&STEP index=1 />
-                <KnobRow session knob=&NOISE />
-                <KnobRow session knob=&DURATION />
+                <ParamRow session control=&VALVE index=0 />
+                <ParamRow session control=&VALVE index=1 />
+                <ParamRow session control=&STEP index=0 />
+                <ParamRow session control=&STEP index=1 />
+                <ParamRow session control=&NOISE />
+                <ParamRow session control=&DURATION />
             </div>
             <div class="toolbar">
                 <Pressed

@@ -2,80 +2,88 @@
 
 use leptos::prelude::*;
 
-use super::sentences::{self, in_cm, in_m};
+use super::sentences::{self, CM_PER_M};
 use super::session::use_session;
-use crate::controls::{Knob, KnobRow, Switch};
+use crate::controls::{ParamControl, ParamRow, Switch};
 use crate::start::Control;
 use crate::texts::{say, tr};
 use crate::widgets::{Card, Scale, Sentence};
-use quadtank::control::{EstimatorSettings, FedWith, ModelFreeSettings, ModelFreeWindup, Pairing, Quadrature, Window};
+use quadtank::control::{
+    EstimatorSettings, FedWith, MAX_WINDOW_SAMPLES, ModelFreeSettings, ModelFreeWindup, Pairing, Quadrature, Window,
+};
 use quadtank::study::model_free::ModelFreeSetup;
-use quadtank_scenario::limits;
+use quadtank_scenario::{Limits, limits};
 
 /// Back-calculation when it is chosen.
 const BACK_CALCULATION: ModelFreeWindup = ModelFreeWindup::BackCalculation { tracking_time_s: 10.0 };
 /// Samples of a window when the estimator is switched on.
 const USUAL_SAMPLES: f64 = 10.0;
-/// Most samples of a window: more than a page computes in a frame.
-const MOST_SAMPLES: f64 = 100.0;
 
-const MODEL_GAIN: Knob<ModelFreeSetup> = Knob {
+const MODEL_GAIN: ParamControl<ModelFreeSetup> = ParamControl {
     ids: [("free-alpha", "free-alpha-number"); 2],
     label: |_, _| "α̂".to_owned(),
     name: |lab, _| tr!(lab, free.alpha),
-    read: |s, _| in_cm(s.controller.loops[0].model_gain),
-    write: |s, _, gain| in_both(s, &|l| l.model_gain = in_m(gain)),
-    limits: |_, _| (1e-4, 100.0),
+    path: |_, _| "controller.loops[].model_gain",
+    read: |s, _| s.controller.loops[0].model_gain,
+    write: |s, _, gain| in_both(s, &|l| l.model_gain = gain),
+    shown_per_unit: |_| CM_PER_M,
     travel: Some(|_| (0.02, 1.0)),
     unit: |_| "cm/(s V)",
     ..FEEDBACK
 };
-const PROPORTIONAL: Knob<ModelFreeSetup> = Knob {
+const PROPORTIONAL: ParamControl<ModelFreeSetup> = ParamControl {
     ids: [("free-kp", "free-kp-number"); 2],
     label: |_, _| "Kp".to_owned(),
     name: |lab, _| tr!(lab, free.kp),
+    path: |_, _| "controller.loops[].proportional",
     read: |s, _| s.controller.loops[0].proportional,
     write: |s, _, gain| in_both(s, &|l| l.proportional = gain),
     travel: Some(|_| (0.05, 20.0)),
     unit: |_| "1/s",
     ..FEEDBACK
 };
-const INTEGRAL: Knob<ModelFreeSetup> = Knob {
+const INTEGRAL: ParamControl<ModelFreeSetup> = ParamControl {
     ids: [("free-ki", "free-ki-number"); 2],
     label: |_, _| "Ki".to_owned(),
     name: |lab, _| tr!(lab, free.ki),
+    path: |_, _| "controller.loops[].integral",
     read: |s, _| s.controller.loops[0].integral,
     write: |s, _, gain| in_both(s, &|l| l.integral = gain),
     travel: Some(|_| (0.001, 2.0)),
     unit: |_| "1/s²",
     ..FEEDBACK
 };
-const FEEDBACK: Knob<ModelFreeSetup> =
-    Knob { limits: |_, _| (0.0, 1000.0), scale: Scale::Logarithmic, lock: Control::Gains, ..Knob::PLAIN };
-const WINDOW: Knob<ModelFreeSetup> = Knob {
+const FEEDBACK: ParamControl<ModelFreeSetup> =
+    ParamControl { scale: Scale::Logarithmic, lock: Control::Gains, ..ParamControl::PLAIN };
+const WINDOW: ParamControl<ModelFreeSetup> = ParamControl {
     ids: [("", "free-window"); 2],
     label: |_, _| "T".to_owned(),
     name: |lab, _| tr!(lab, free.window),
     read: |s, _| estimator(s).map_or(USUAL_SAMPLES * s.controller.sampling_time_s, |e| e.window_s),
     write: |s, _, window_s| with_estimator(s, |e| e.window_s = window_s),
-    limits: |s, _| (2.0 * s.controller.sampling_time_s, MOST_SAMPLES * s.controller.sampling_time_s),
+    path: |_, _| "controller.estimator.window_s",
+    within: |s, _| {
+        let samples = |count: f64| count * s.controller.sampling_time_s;
+        Limits::new(samples(2.0), samples(MAX_WINDOW_SAMPLES as f64))
+    },
     grid: |s| s.controller.sampling_time_s,
     unit: |_| "s",
     lock: Control::Gains,
     matters: Some(|s| s.controller.estimator.is_some()),
-    ..Knob::PLAIN
+    ..ParamControl::PLAIN
 };
-const SAMPLING: Knob<ModelFreeSetup> = Knob {
+const SAMPLING: ParamControl<ModelFreeSetup> = ParamControl {
     ids: [("", "free-sampling"); 2],
     label: |_, _| "Ts".to_owned(),
     name: |lab, _| tr!(lab, pi.sampling),
     read: |s, _| s.controller.sampling_time_s,
     write: |s, _, time_s| s.controller = s.controller.with_sampling_time(time_s),
-    limits: |s, _| (limits::sampling_time_s(s.experiment.duration_s).min, 10.0),
+    path: |_, _| "controller.sampling_time_s",
+    within: |s, _| limits::sampling_time_s(s.experiment.duration_s),
     scale: Scale::Linear(0.1),
     unit: |_| "s",
     lock: Control::Sampling,
-    ..Knob::PLAIN
+    ..ParamControl::PLAIN
 };
 
 /// The settings of the law.
@@ -102,9 +110,9 @@ pub fn LawCard() -> impl IntoView {
     view! {
         <Card name="law" title=say!(lab, free.law)>
             <div class="formula">{formula()}</div>
-            <KnobRow session knob=&MODEL_GAIN />
-            <KnobRow session knob=&PROPORTIONAL />
-            <KnobRow session knob=&INTEGRAL />
+            <ParamRow session control=&MODEL_GAIN />
+            <ParamRow session control=&PROPORTIONAL />
+            <ParamRow session control=&INTEGRAL />
             <Switch
                 session
                 label=say!(lab, free.estimator)
@@ -115,8 +123,8 @@ pub fn LawCard() -> impl IntoView {
             />
             <div hidden=session.told_part(|s| s.controller.estimator.is_none()) class="estimator"><EstimatorDetails /></div>
             <div class="pairs">
-                <KnobRow session knob=&WINDOW />
-                <KnobRow session knob=&SAMPLING />
+                <ParamRow session control=&WINDOW />
+                <ParamRow session control=&SAMPLING />
             </div>
             <Switch
                 session

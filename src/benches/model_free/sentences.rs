@@ -4,7 +4,7 @@ use leptos::prelude::*;
 
 use super::session::{Session, shown};
 use crate::errors::{of_plant_error, of_study_error};
-use crate::shown::{to_metres, to_shown};
+use crate::shown::{per_metre, to_shown};
 use crate::texts::tr;
 use quadtank::control::Pairing;
 use quadtank::linear::Stability;
@@ -13,14 +13,12 @@ use quadtank::sim::{TrackingFigures, ZeroDynamicsEnd};
 use quadtank::study::model_free::{LossBy, ModelFreeVerdict};
 use quadtank::study::{StudyError, StudyFault};
 
+/// Shown units in a metre: centimetres, as the source has them.
+pub const CM_PER_M: f64 = per_metre(DisplayUnit::Cm);
+
 /// A length (m), or what is proportional to one, with centimetres for metres as the source has it.
 pub fn in_cm(metres: f64) -> f64 {
     to_shown(metres, DisplayUnit::Cm)
-}
-
-/// The way back.
-pub fn in_m(centimetres: f64) -> f64 {
-    to_metres(centimetres, DisplayUnit::Cm)
 }
 
 /// What the run shows, and whether all is well.

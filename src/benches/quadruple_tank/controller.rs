@@ -4,14 +4,14 @@ use leptos::prelude::*;
 
 use super::sentences;
 use super::session::use_session;
-use crate::controls::{Knob, KnobNumber, KnobRow};
+use crate::controls::{ParamControl, ParamNumber, ParamRow};
 use crate::start::Control;
 use crate::texts::{say, tr};
 use crate::widgets::{Card, Scale, Segmented, Sentence, Tick};
 use quadtank::control::{AntiWindup, LoopMode, Pairing, PiSettings};
 use quadtank::interaction::PairingVerdict;
 use quadtank::study::quadruple_tank::Setup;
-use quadtank_scenario::limits;
+use quadtank_scenario::{Limits, limits};
 
 /// Tt/Ti when anti-windup is switched on (Cocota 2009, ch. 4).
 const TRACKING_RATIO: f64 = 0.5;
@@ -21,56 +21,64 @@ const MANUAL_UNTIL_S: f64 = 500.0;
 const SIGN_IDS: [&str; 2] = ["sign1", "sign2"];
 const MANUAL_IDS: [&str; 2] = ["manual1", "manual2"];
 
-const GAIN: Knob<Setup> = Knob {
+const GAIN: ParamControl<Setup> = ParamControl {
     ids: [("gain1", "gain1-number"), ("gain2", "gain2-number")],
     label: |_, k| ["K₁", "K₂"][k].to_owned(),
     name: |lab, k| tr!(lab, pi.gain, level = k + 1),
     read: |s, k| s.controller.loops[k].gain,
     write: |s, k, gain| s.controller.loops[k].gain = gain,
-    limits: |_, _| (-limits::GAIN_MAGNITUDE.max, limits::GAIN_MAGNITUDE.max),
+    path: |_, _| "controller.loops[].gain",
     smallest: limits::GAIN_MAGNITUDE.min,
     travel: Some(|_| (0.05, 50.0)),
     unit: |_| "V/V",
     ..OF_LOOP
 };
-const INTEGRAL_TIME: Knob<Setup> = Knob {
+const INTEGRAL_TIME: ParamControl<Setup> = ParamControl {
     ids: [("integral1", "integral1-number"), ("integral2", "integral2-number")],
     label: |_, k| ["Ti₁", "Ti₂"][k].to_owned(),
     name: |lab, k| tr!(lab, pi.integral, level = k + 1),
     read: |s, k| s.controller.loops[k].integral_time_s,
     write: |s, k, time_s| s.controller.loops[k].integral_time_s = time_s,
-    limits: |_, _| (limits::INTEGRAL_TIME_S.min, limits::INTEGRAL_TIME_S.max),
+    path: |_, _| "controller.loops[].integral_time_s",
     travel: Some(|_| (3.0, 3000.0)),
     unit: |_| "s",
     ..OF_LOOP
 };
-const OF_LOOP: Knob<Setup> =
-    Knob { scale: Scale::Logarithmic, class: ["loop1-row", "loop2-row"], lock: Control::Gains, ..Knob::PLAIN };
+const OF_LOOP: ParamControl<Setup> = ParamControl {
+    scale: Scale::Logarithmic,
+    class: ["loop1-row", "loop2-row"],
+    lock: Control::Gains,
+    ..ParamControl::PLAIN
+};
 
-const WEIGHT: Knob<Setup> = Knob {
+const WEIGHT: ParamControl<Setup> = ParamControl {
     ids: [("weight", "weight-number"); 2],
     label: |lab, _| tr!(lab, pi.weight_label),
     name: |lab, _| tr!(lab, pi.weight),
     read: |s, _| s.controller.loops[0].set_point_weight,
     write: |s, _, weight| both(s, |l| l.set_point_weight = weight),
-    limits: |_, _| (limits::SET_POINT_WEIGHT.min, limits::SET_POINT_WEIGHT.max),
+    path: |_, _| "controller.loops[].set_point_weight",
     travel: Some(|_| (limits::SET_POINT_WEIGHT.min, limits::SET_POINT_WEIGHT.max)),
     scale: Scale::Linear(0.05),
     digits: Some(2),
     ..FINE
 };
-const SAMPLING: Knob<Setup> = Knob {
+const SAMPLING: ParamControl<Setup> = ParamControl {
     ids: [("sampling", "sampling-number"); 2],
     label: |lab, _| tr!(lab, pi.sampling_label),
     name: |lab, _| tr!(lab, pi.sampling),
     read: |s, _| s.controller.sampling_time_s,
     write: |s, _, time_s| s.controller.sampling_time_s = time_s,
-    limits: |s, _| sampling_times(s),
-    travel: Some(sampling_times),
+    path: |_, _| "controller.sampling_time_s",
+    within: |s, _| limits::sampling_time_s(s.experiment.duration_s),
+    travel: Some(|s| {
+        let limits = limits::sampling_time_s(s.experiment.duration_s);
+        (limits.min, limits.max)
+    }),
     unit: |_| "s",
     ..FINE
 };
-const TRACKING: Knob<Setup> = Knob {
+const TRACKING: ParamControl<Setup> = ParamControl {
     ids: [("tracking", "tracking-number"); 2],
     label: |lab, _| tr!(lab, pi.tracking_label),
     name: |lab, _| tr!(lab, pi.tracking),
@@ -79,41 +87,41 @@ const TRACKING: Knob<Setup> = Knob {
         AntiWindup::Off => TRACKING_RATIO,
     },
     write: |s, _, tracking_ratio| both(s, |l| l.anti_windup = AntiWindup::BackCalculation { tracking_ratio }),
-    limits: |_, _| (0.02, 20.0),
+    path: |_, _| "controller.loops[].anti_windup.back_calculation.tracking_ratio",
     travel: Some(|_| (0.02, 20.0)),
     matters: Some(is_guarded),
     ..FINE
 };
-const MANUAL_UNTIL: Knob<Setup> = Knob {
+const MANUAL_UNTIL: ParamControl<Setup> = ParamControl {
     ids: [("", "manual1-until"), ("", "manual2-until")],
     name: |lab, k| tr!(lab, pi.manual_until, level = k + 1),
     read: |s, k| manual(s, k).1,
     write: |s, k, until_s| s.controller.loops[k].mode = LoopMode::Manual { output: manual(s, k).0, until_s },
-    limits: |_, _| (limits::TIME_S.min, limits::TIME_S.max),
+    path: |_, _| "controller.loops[].mode.manual.until_s",
     scale: Scale::Linear(10.0),
     digits: Some(0),
     ..FINE
 };
-const MANUAL_OUTPUT: Knob<Setup> = Knob {
+const MANUAL_OUTPUT: ParamControl<Setup> = ParamControl {
     ids: [("", "manual1-output"), ("", "manual2-output")],
     name: |lab, k| tr!(lab, pi.manual_output, level = k + 1),
     read: |s, k| manual(s, k).0,
     write: |s, k, output| s.controller.loops[k].mode = LoopMode::Manual { output, until_s: manual(s, k).1 },
-    limits: |s, k| s.plant().controller_limits()[s.controller.pairing.pump_of(k)],
+    path: |_, _| "controller.loops[].mode.manual.output",
+    // Beyond its limits a pump does no more.
+    within: |s, k| {
+        let (min, max) = s.plant().controller_limits()[s.controller.pairing.pump_of(k)];
+        Limits::new(min, max)
+    },
     scale: Scale::Linear(0.1),
     digits: Some(2),
     ..FINE
 };
-const FINE: Knob<Setup> =
-    Knob { scale: Scale::Logarithmic, class: ["wide"; 2], lock: Control::Sampling, ..Knob::PLAIN };
+const FINE: ParamControl<Setup> =
+    ParamControl { scale: Scale::Logarithmic, class: ["wide"; 2], lock: Control::Sampling, ..ParamControl::PLAIN };
 
 fn both(setup: &mut Setup, change: impl Fn(&mut PiSettings)) {
     setup.controller.loops.iter_mut().for_each(change);
-}
-
-fn sampling_times(setup: &Setup) -> (f64, f64) {
-    let limits = limits::sampling_time_s(setup.experiment.duration_s);
-    (limits.min, limits.max)
 }
 
 fn is_guarded(setup: &Setup) -> bool {
@@ -207,8 +215,8 @@ fn LoopControls(index: usize) -> impl IntoView {
     };
     view! {
         <h3 class=["loop1", "loop2"][index]>{heading}</h3>
-        <KnobRow session knob=&GAIN index />
-        <KnobRow session knob=&INTEGRAL_TIME index />
+        <ParamRow session control=&GAIN index />
+        <ParamRow session control=&INTEGRAL_TIME index />
     }
 }
 
@@ -222,8 +230,8 @@ fn FinePrint() -> impl IntoView {
         session.edit(|s| both(s, |l| l.anti_windup = choice));
     };
     view! {
-        <KnobRow session knob=&WEIGHT />
-        <KnobRow session knob=&SAMPLING />
+        <ParamRow session control=&WEIGHT />
+        <ParamRow session control=&SAMPLING />
         <Tick
             id="antiwindup"
             text=say!(lab, pi.antiwindup)
@@ -231,7 +239,7 @@ fn FinePrint() -> impl IntoView {
             disabled=lab.locks(Control::Sampling)
             on_tick=switch_windup
         />
-        <KnobRow session knob=&TRACKING />
+        <ParamRow session control=&TRACKING />
         <ManualMode index=0 />
         <ManualMode index=1 />
     }
@@ -256,8 +264,8 @@ fn ManualMode(index: usize) -> impl IntoView {
     let fields = move || {
         view! {
             <div class="fields">
-                <div class="field-row"><KnobNumber session knob=&MANUAL_UNTIL index /><span class="unit">"s"</span></div>
-                <div class="field-row"><KnobNumber session knob=&MANUAL_OUTPUT index /><span class="unit">"V"</span></div>
+                <div class="field-row"><ParamNumber session control=&MANUAL_UNTIL index /><span class="unit">"s"</span></div>
+                <div class="field-row"><ParamNumber session control=&MANUAL_OUTPUT index /><span class="unit">"V"</span></div>
             </div>
         }
     };

@@ -5,14 +5,14 @@ use leptos::prelude::*;
 
 use super::cursor::PlayControls;
 use super::session::{Session, use_session};
-use crate::controls::{Knob, KnobNumber, KnobRow};
-use crate::shown::{CM3_PER_M3, MM2_PER_M2, to_metres, to_shown, unit_name};
+use crate::controls::{ParamControl, ParamNumber, ParamRow};
+use crate::shown::{CM3_PER_M3, MM2_PER_M2, per_metre, to_shown, unit_name};
 use crate::start::Control;
 use crate::texts::{say, tr};
 use crate::widgets::{Card, Choice, Scale, Select, Tick};
 use quadtank::sim::{Experiment, Load, LoadStep, SetPointStep};
 use quadtank::study::quadruple_tank::Setup;
-use quadtank_scenario::limits;
+use quadtank_scenario::{Limits, limits};
 
 /// Time of a step that the student adds (s).
 const FIRST_STEP_AT_S: f64 = 100.0;
@@ -24,107 +24,109 @@ const FIRST_LOAD_FLOW: f64 = 0.5e-6;
 const FIRST_LEAK_AREA: f64 = 1.5e-6;
 /// Travel of the reference sliders as a share of the lowest wall.
 const REFERENCE_TRAVEL: f64 = 0.25;
+/// Travel of the noise slider (m).
+const NOISE_TRAVEL: f64 = 0.005;
 
-const REFERENCE: Knob<Setup> = Knob {
+const REFERENCE: ParamControl<Setup> = ParamControl {
     ids: [("step1", "step1-number"), ("step2", "step2-number")],
     label: |_, k| ["r₁", "r₂"][k].to_owned(),
     name: |lab, k| tr!(lab, experiment.reference, level = k + 1),
-    read: |s, k| to_shown(first_step(&s.experiment, k).size, s.plant.display_unit()),
-    write: |s, k, size| {
-        let size = to_metres(size, s.plant.display_unit());
-        first_step_mut(&mut s.experiment, k).size = size;
-    },
-    limits: |s, _| reach(s, 1.0),
-    travel: Some(|s| reach(s, REFERENCE_TRAVEL)),
+    path: |_, _| "experiment.set_point_steps[].size",
+    read: |s, k| first_step(&s.experiment, k).size,
+    write: |s, k, size| first_step_mut(&mut s.experiment, k).size = size,
+    // A reference above the walls says nothing.
+    within: |s, _| Limits::new(-lowest_wall(s), lowest_wall(s)),
+    shown_per_unit: |s| per_metre(s.plant.display_unit()),
+    travel: Some(|s| {
+        let reach = to_shown(REFERENCE_TRAVEL * lowest_wall(s), s.plant.display_unit());
+        (-reach, reach)
+    }),
     unit: |s| unit_name(s.plant.display_unit()),
     class: ["loop1-row", "loop2-row"],
     ..OF_EXPERIMENT
 };
-const REFERENCE_TIME: Knob<Setup> = Knob {
+const REFERENCE_TIME: ParamControl<Setup> = ParamControl {
     ids: [("", "step1-time"), ("", "step2-time")],
     name: |lab, k| tr!(lab, experiment.reference_time, level = k + 1),
+    path: |_, _| "experiment.set_point_steps[].time_s",
     read: |s, k| first_step(&s.experiment, k).time_s,
     write: |s, k, time_s| first_step_mut(&mut s.experiment, k).time_s = time_s,
     ..TIME
 };
-const LOAD: Knob<Setup> = Knob {
+const LOAD: ParamControl<Setup> = ParamControl {
     ids: [("load-size", "load-size-number"); 2],
     name: |lab, _| tr!(lab, experiment.load_size),
+    path: |s, _| {
+        if is_leak(s) {
+            "experiment.load_steps[].load.leak.area"
+        } else {
+            "experiment.load_steps[].load.pump_flow.flow"
+        }
+    },
     read: |s, _| match first_load(&s.experiment) {
-        Some(Load::PumpFlow { flow, .. }) => flow * CM3_PER_M3,
-        Some(Load::Leak { area, .. }) => area * MM2_PER_M2,
+        Some(Load::PumpFlow { flow, .. }) => flow,
+        Some(Load::Leak { area, .. }) => area,
         None => 0.0,
     },
     write: |s, _, size| match s.experiment.load_steps.first_mut().map(|step| &mut step.load) {
-        Some(Load::PumpFlow { flow, .. }) => *flow = size / CM3_PER_M3,
-        Some(Load::Leak { area, .. }) => *area = size / MM2_PER_M2,
+        Some(Load::PumpFlow { flow, .. }) => *flow = size,
+        Some(Load::Leak { area, .. }) => *area = size,
         None => {}
     },
-    limits: |s, _| {
-        if is_leak(s) {
-            (0.0, limits::LEAK_AREA.max * MM2_PER_M2)
-        } else {
-            (limits::LOAD_FLOW.min * CM3_PER_M3, limits::LOAD_FLOW.max * CM3_PER_M3)
-        }
-    },
+    shown_per_unit: |s| if is_leak(s) { MM2_PER_M2 } else { CM3_PER_M3 },
     travel: Some(|s| if is_leak(s) { (0.0, 10.0) } else { (-5.0, 5.0) }),
     scale: Scale::Linear(0.1),
     unit: |s| if is_leak(s) { "mm²" } else { "cm³/s" },
     class: [""; 2],
     ..OF_EXPERIMENT
 };
-const LOAD_TIME: Knob<Setup> = Knob {
+const LOAD_TIME: ParamControl<Setup> = ParamControl {
     ids: [("", "load-time"); 2],
     name: |lab, _| tr!(lab, experiment.load_time),
+    path: |_, _| "experiment.load_steps[].time_s",
     read: |s, _| s.experiment.load_steps.first().map_or(0.0, |step| step.time_s),
     write: |s, _, time_s| s.experiment.load_steps.iter_mut().take(1).for_each(|step| step.time_s = time_s),
     ..TIME
 };
-const NOISE: Knob<Setup> = Knob {
+const NOISE: ParamControl<Setup> = ParamControl {
     ids: [("noise", "noise-number"); 2],
     label: |lab, _| tr!(lab, experiment.noise),
     name: |lab, _| tr!(lab, experiment.noise_name),
-    read: |s, _| to_shown(s.experiment.measurement.noise_std, s.plant.display_unit()),
-    write: |s, _, noise| s.experiment.measurement.noise_std = to_metres(noise, s.plant.display_unit()),
-    limits: |s, _| noises(s),
-    travel: Some(noises),
+    path: |_, _| "experiment.measurement.noise_std",
+    read: |s, _| s.experiment.measurement.noise_std,
+    write: |s, _, noise| s.experiment.measurement.noise_std = noise,
+    shown_per_unit: |s| per_metre(s.plant.display_unit()),
+    travel: Some(|s| (0.0, to_shown(NOISE_TRAVEL, s.plant.display_unit()))),
     unit: |s| unit_name(s.plant.display_unit()),
     ..OF_EXPERIMENT
 };
-const DURATION: Knob<Setup> = Knob {
+const DURATION: ParamControl<Setup> = ParamControl {
     ids: [("duration", "duration-number"); 2],
     label: |lab, _| tr!(lab, experiment.duration),
     name: |lab, _| tr!(lab, experiment.duration_name),
+    path: |_, _| "experiment.duration_s",
     read: |s, _| s.experiment.duration_s,
     write: |s, _, duration_s| s.experiment.duration_s = duration_s,
-    limits: |s, _| {
-        let limits = limits::duration_s(s.controller.sampling_time_s);
-        (limits.min, limits.max)
-    },
+    within: |s, _| limits::duration_s(s.controller.sampling_time_s),
     travel: Some(|_| (100.0, 20_000.0)),
     scale: Scale::Logarithmic,
     digits: Some(0),
     unit: |_| "s",
     ..OF_EXPERIMENT
 };
-const TIME: Knob<Setup> = Knob {
-    limits: |s, _| (limits::TIME_S.min, s.experiment.duration_s),
+const TIME: ParamControl<Setup> = ParamControl {
+    within: |s, _| Limits::new(0.0, s.experiment.duration_s),
     scale: Scale::Linear(10.0),
     digits: Some(0),
     ..OF_EXPERIMENT
 };
-const OF_EXPERIMENT: Knob<Setup> =
-    Knob { digits: Some(2), class: ["wide"; 2], lock: Control::Experiment, ..Knob::PLAIN };
+const OF_EXPERIMENT: ParamControl<Setup> =
+    ParamControl { digits: Some(2), class: ["wide"; 2], lock: Control::Experiment, ..ParamControl::PLAIN };
 
-/// Levels that a reference can be moved by, in the shown unit: a share of the lowest wall of the lower tanks.
-fn reach(setup: &Setup, share: f64) -> (f64, f64) {
+/// The lowest wall of the lower tanks (m).
+fn lowest_wall(setup: &Setup) -> f64 {
     let [one, two, ..] = setup.plant().tanks;
-    let reach = to_shown(one.height.min(two.height), setup.plant.display_unit()) * share;
-    (-reach, reach)
-}
-
-fn noises(setup: &Setup) -> (f64, f64) {
-    (0.0, to_shown(0.005, setup.plant.display_unit()))
+    one.height.min(two.height)
 }
 
 /// The first step of a reference, or what it would be.
@@ -180,8 +182,8 @@ pub fn ExperimentCard() -> impl IntoView {
             <Timed size=&REFERENCE time=&REFERENCE_TIME index=0 />
             <Timed size=&REFERENCE time=&REFERENCE_TIME index=1 />
             <LoadControls />
-            <KnobRow session knob=&NOISE />
-            <KnobRow session knob=&DURATION />
+            <ParamRow session control=&NOISE />
+            <ParamRow session control=&DURATION />
             <Tick
                 id="quantised"
                 text=say!(lab, experiment.quantised)
@@ -197,15 +199,19 @@ pub fn ExperimentCard() -> impl IntoView {
 
 /// A slider, and "at … s".
 #[component]
-fn Timed(size: &'static Knob<Setup>, time: &'static Knob<Setup>, #[prop(optional)] index: usize) -> impl IntoView {
+fn Timed(
+    size: &'static ParamControl<Setup>,
+    time: &'static ParamControl<Setup>,
+    #[prop(optional)] index: usize,
+) -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
     view! {
         <div class="timed">
-            <KnobRow session knob=size index />
+            <ParamRow session control=size index />
             <div class="at">
                 <span class="unit">{say!(lab, experiment.at)}</span>
-                <KnobNumber session knob=time index />
+                <ParamNumber session control=time index />
                 <span class="unit">"s"</span>
             </div>
         </div>

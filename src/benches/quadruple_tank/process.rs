@@ -8,23 +8,24 @@ use super::published::PublishedFigures;
 use super::rig::Rig;
 use super::sentences;
 use super::session::use_session;
-use crate::controls::{Knob, KnobRow};
+use crate::controls::{ParamControl, ParamRow};
 use crate::start::Control;
 use crate::texts::{say, tr};
 use crate::widgets::{Card, NumberField, Scale, Verdict, marked};
 use quadtank::study::quadruple_tank::{OperatingPointSpec, Setup};
 
-const GAMMA: Knob<Setup> = Knob {
+const GAMMA: ParamControl<Setup> = ParamControl {
     ids: [("gamma1", "gamma1-number"), ("gamma2", "gamma2-number")],
     label: |_, k| ["γ₁", "γ₂"][k].to_owned(),
     name: |lab, k| tr!(lab, process.gamma, pump = k + 1),
+    path: |_, _| "valves[]",
     read: |s, k| s.valves[k],
     write: |s, k, gamma| s.valves[k] = gamma,
     travel: Some(|_| (0.0, 1.0)),
     digits: Some(2),
     class: ["loop1-row", "loop2-row"],
     lock: Control::Valves,
-    ..Knob::PLAIN
+    ..ParamControl::PLAIN
 };
 const VOLTAGE_IDS: [&str; 2] = ["voltage1", "voltage2"];
 
@@ -50,8 +51,8 @@ pub fn ProcessCard() -> impl IntoView {
             <p class="remark moment">{remark}</p>
             <Rig />
             <div>
-                <KnobRow session knob=&GAMMA index=0 />
-                <KnobRow session knob=&GAMMA index=1 />
+                <ParamRow session control=&GAMMA index=0 />
+                <ParamRow session control=&GAMMA index=1 />
             </div>
             <Verdict id="process-sentence" warm=Signal::derive(move || sentence.get().1)>{paragraphs}</Verdict>
             <details class="more" on:toggle=move |_| open.update(|o| *o = !*o)>

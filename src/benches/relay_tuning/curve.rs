@@ -8,7 +8,7 @@ use super::errors;
 use super::pictures;
 use super::session::{Session, time_unit, use_session};
 use super::step::Step;
-use crate::controls::{Knob, KnobRow};
+use crate::controls::{ParamControl, ParamRow};
 use crate::start::Control;
 use crate::texts::{say, tr};
 use crate::widgets::{Figures, Nudge, PointHandle, Row, Scale, TableContent, first_frame};
@@ -16,22 +16,22 @@ use quadtank::study::relay_tuning::{CriticalSpec, TuningSetup};
 use quadtank::tuning::{GainLimit, importance_direction};
 use quadtank_figure::Frame;
 
-/// Importances that can be chosen.
+/// Importances that the slider covers.
 const IMPORTANCES: (f64, f64) = (0.001, 1000.0);
 /// Ratio of one step of the arrow keys.
 const STEP: f64 = 1.05;
 
-const IMPORTANCE: Knob<TuningSetup> = Knob {
+const IMPORTANCE: ParamControl<TuningSetup> = ParamControl {
     ids: [("importance", "importance-number"); 2],
     label: |_, _| "r₂".to_owned(),
     name: |lab, _| tr!(lab, relay.importance),
     read: |s, _| importance(s),
     write: |s, _, r| s.design.critical = CriticalSpec::Importance(r),
-    limits: |_, _| IMPORTANCES,
+    path: |_, _| "design.critical.importance",
     travel: Some(|_| IMPORTANCES),
     scale: Scale::Logarithmic,
     lock: Control::Point,
-    ..Knob::PLAIN
+    ..ParamControl::PLAIN
 };
 
 /// The critical curve.
@@ -52,7 +52,7 @@ pub fn CurveCard() -> impl IntoView {
             overlay=move || view! { <Plane frames chosen /> }
             verdict=Signal::derive(move || sentence(session))
         >
-            <KnobRow session knob=&IMPORTANCE />
+            <ParamRow session control=&IMPORTANCE />
             <Figures name="critical-point" caption=say!(lab, relay.curve_caption)>{move || table(session)}</Figures>
             <span class="remark">{say!(lab, relay.importance_formula)}</span>
         </Step>

@@ -8,7 +8,7 @@ use super::errors;
 use super::pictures::{self, short_name};
 use super::session::{Session, use_session};
 use super::step::Step;
-use crate::controls::{Knob, KnobRow, Switch};
+use crate::controls::{ParamControl, ParamRow, Switch};
 use crate::lab::Lab;
 use crate::start::Control;
 use crate::texts::{say, tr};
@@ -20,19 +20,19 @@ use quadtank_figure::Frame;
 
 /// Step of the arrow keys, and the grid of dragging.
 const STEP: f64 = 0.01;
-/// Parts of the target that can be entered.
+/// Parts of the target that the handle reaches.
 const TARGETS: (f64, f64) = (-10.0, 10.0);
 
-const TARGET: Knob<TuningSetup> = Knob {
+const TARGET: ParamControl<TuningSetup> = ParamControl {
     ids: [("", "target-re"), ("", "target-im")],
     label: |_, k| ["Re λ", "Im λ"][k].to_owned(),
     name: |lab, k| if k == 0 { tr!(lab, relay.target_re) } else { tr!(lab, relay.target_im) },
     read: |s, k| s.design.target[k],
     write: |s, k, part| s.design.target[k] = part,
-    limits: |_, _| TARGETS,
+    path: |_, _| "design.target[]",
     scale: Scale::Linear(STEP),
     lock: Control::Target,
-    ..Knob::PLAIN
+    ..ParamControl::PLAIN
 };
 
 /// The placement.
@@ -96,8 +96,8 @@ fn Settings() -> impl IntoView {
                 write=|s, root| s.design.root = root
                 lock
             />
-            <KnobRow session knob=&TARGET index=0 />
-            <KnobRow session knob=&TARGET index=1 />
+            <ParamRow session control=&TARGET index=0 />
+            <ParamRow session control=&TARGET index=1 />
         </div>
         <RuleSelect />
         <Figures name="gains" caption=say!(lab, relay.gains_caption)>{move || table(session)}</Figures>

@@ -6,7 +6,7 @@ use super::controls::TIME;
 use super::printed::{PrintedFigures, name_of_case};
 use super::session::{Session, load, use_session};
 use crate::benches::quadruple_tank::name_of;
-use crate::controls::{Knob, KnobRow, Switch};
+use crate::controls::{ParamControl, ParamRow, Switch};
 use crate::lab::Lab;
 use crate::start::Control;
 use crate::texts::{say, tr};
@@ -18,21 +18,22 @@ use quadtank::literature::campestrini::PublishedPlant;
 use quadtank::study::relay_tuning::{TuningPlant, TuningSetup};
 use quadtank_scenario::tuning::{TuningWarning, warnings};
 
-const VALVE: Knob<TuningSetup> = Knob {
+const VALVE: ParamControl<TuningSetup> = ParamControl {
     ids: [("", "rig-gamma1"), ("", "rig-gamma2")],
     label: |_, k| ["γ₁", "γ₂"][k].to_owned(),
     name: |lab, k| tr!(lab, process.gamma, pump = k + 1),
+    path: |_, _| "plant.quadruple_tank.valves[]",
     read: |s, k| valves(s)[k],
     write: set_valve,
-    ..Knob::PLAIN
+    ..ParamControl::PLAIN
 };
-const BEHIND: Knob<TuningSetup> = Knob {
+const BEHIND: ParamControl<TuningSetup> = ParamControl {
     ids: [("", "rig-dead-time"), ("", "rig-lag")],
     label: |_, k| ["θ", "T"][k].to_owned(),
     name: |lab, k| if k == 0 { tr!(lab, relay.dead_time) } else { tr!(lab, relay.lag) },
     read: |s, k| behind(s)[k],
     write: set_behind,
-    limits: |_, _| (0.0, 1000.0),
+    path: |_, k| ["plant.quadruple_tank.dead_time_s", "plant.quadruple_tank.lag_s"][k],
     scale: Scale::Linear(0.5),
     ..TIME
 };
@@ -68,10 +69,10 @@ fn RigSettings() -> impl IntoView {
     let lab = session.lab;
     let lock = Control::Plant;
     view! {
-        <KnobRow session knob=&VALVE index=0 />
-        <KnobRow session knob=&VALVE index=1 />
-        <KnobRow session knob=&BEHIND index=0 />
-        <KnobRow session knob=&BEHIND index=1 />
+        <ParamRow session control=&VALVE index=0 />
+        <ParamRow session control=&VALVE index=1 />
+        <ParamRow session control=&BEHIND index=0 />
+        <ParamRow session control=&BEHIND index=1 />
         <Switch
             session
             label=say!(lab, relay.pairing)

@@ -10,13 +10,14 @@ use super::session::use_session;
 use super::step::Step;
 use super::test_report::{sentence, table};
 use super::timeline::timeline;
-use crate::controls::{Knob, KnobRow, Switch};
+use crate::controls::{ParamControl, ParamRow, Switch};
 use crate::start::Control;
 use crate::texts::{say, tr};
 use crate::widgets::{Choice, DataTable, Figures, Scale, Select, ZoomButtons};
 use quadtank::study::relay_tuning::{Behind, CriticalSpec, TestKind, Tested, TuningSetup};
 use quadtank::tuning::TuningRule;
 use quadtank_figure::Frame;
+use quadtank_scenario::Limits;
 
 /// Ratios of the amplitudes that the slider covers.
 const RATIOS: (f64, f64) = (0.02, 20.0);
@@ -24,89 +25,93 @@ const RATIOS: (f64, f64) = (0.02, 20.0);
 const FIRST_MODULUS: f64 = 0.2;
 /// Share of a record that is shown to begin with: enough to see it settle, little enough to see its switches.
 const BEGINNING: f64 = 0.25;
-const SIZES: (f64, f64) = (1e-6, 1e6);
 
-const RATIO: Knob<TuningSetup> = Knob {
+const RATIO: ParamControl<TuningSetup> = ParamControl {
     ids: [("ratio", "ratio-number"); 2],
     label: |_, _| "d₂/d₁".to_owned(),
     name: |lab, _| tr!(lab, relay.ratio),
     read: |s, _| ratio_of(s),
     write: |s, _, ratio| s.test.amplitudes[1] = ratio * s.test.amplitudes[0],
-    limits: |_, _| RATIOS,
+    // The second amplitude is a number of the document.
+    within: |s, _| {
+        let Limits { min, max } = AMPLITUDE.limits(s, 1);
+        Limits::new(min / s.test.amplitudes[0], max / s.test.amplitudes[0])
+    },
     travel: Some(|_| RATIOS),
     scale: Scale::Logarithmic,
     ..OF_TEST
 };
 /// Of relay 1, with the ratio kept; of relay 2 where that one is alone.
-const AMPLITUDE: Knob<TuningSetup> = Knob {
+const AMPLITUDE: ParamControl<TuningSetup> = ParamControl {
     ids: [("", "test-amplitude"), ("", "test-amplitude2")],
     label: |_, k| ["d₁", "d₂"][k].to_owned(),
     name: |lab, k| tr!(lab, relay.amplitude, number = k + 1),
     read: |s, k| s.test.amplitudes[k],
     write: |s, k, d| s.test.amplitudes = if k == 0 { [d, d * ratio_of(s)] } else { [s.test.amplitudes[0], d] },
-    limits: |_, _| (0.001, 1e4),
+    path: |_, _| "test.amplitudes[]",
     ..OF_TEST
 };
-const DURATION: Knob<TuningSetup> = Knob {
+const DURATION: ParamControl<TuningSetup> = ParamControl {
     ids: [("", "test-duration"); 2],
     label: |_, _| "t".to_owned(),
     name: |lab, _| tr!(lab, relay.duration),
     read: |s, _| s.test.duration,
     write: |s, _, duration| set_duration(s, duration),
-    limits: |_, _| (1.0, 1e5),
+    path: |_, _| "test.duration",
     unit: TIME.unit,
     ..OF_TEST
 };
-const MODULUS: Knob<TuningSetup> = Knob {
+const MODULUS: ParamControl<TuningSetup> = ParamControl {
     ids: [("", "test-modulus"); 2],
     label: |_, _| "r".to_owned(),
     name: |lab, _| tr!(lab, relay.modulus),
     read: |s, _| if let Behind::Modulus(r) = s.test.behind { r } else { FIRST_MODULUS },
     write: |s, _, r| s.test.behind = Behind::Modulus(r),
-    limits: |_, _| SIZES,
+    path: |_, _| "test.behind.modulus",
     ..OF_TEST
 };
-const HYSTERESIS: Knob<TuningSetup> = Knob {
+const HYSTERESIS: ParamControl<TuningSetup> = ParamControl {
     ids: [("", "test-hysteresis1"), ("", "test-hysteresis2")],
     label: |_, k| ["ε₁", "ε₂"][k].to_owned(),
     name: |lab, k| tr!(lab, relay.hysteresis, number = k + 1),
     read: |s, k| s.test.hysteresis[k],
     write: |s, k, hysteresis| s.test.hysteresis[k] = hysteresis,
-    limits: |_, _| (0.0, 1e6),
+    path: |_, _| "test.hysteresis[]",
     ..OF_LOOP
 };
-const BIAS: Knob<TuningSetup> = Knob {
+const BIAS: ParamControl<TuningSetup> = ParamControl {
     ids: [("", "test-bias1"), ("", "test-bias2")],
     label: |_, k| ["b₁", "b₂"][k].to_owned(),
     name: |lab, k| tr!(lab, relay.bias, number = k + 1),
     read: |s, k| s.test.bias[k],
     write: |s, k, bias| s.test.bias[k] = bias,
-    limits: |_, _| (-1e6, 1e6),
+    path: |_, _| "test.bias[]",
     ..OF_LOOP
 };
 /// The factors by which independent tests are made weaker.
-const DETUNING: Knob<TuningSetup> = Knob {
+const DETUNING: ParamControl<TuningSetup> = ParamControl {
     ids: [("", "test-detuning1"), ("", "test-detuning2")],
     label: |_, k| ["f₁", "f₂"][k].to_owned(),
     name: |lab, k| tr!(lab, relay.detuning, number = k + 1),
     read: |s, k| s.test.detuning[k],
     write: |s, k, factor| s.test.detuning[k] = factor,
-    limits: |_, _| (0.1, 100.0),
+    path: |_, _| "test.detuning[]",
     ..OF_LOOP
 };
-const PASSES: Knob<TuningSetup> = Knob {
+const PASSES: ParamControl<TuningSetup> = ParamControl {
     ids: [("", "test-passes"); 2],
     label: |_, _| "n".to_owned(),
     name: |lab, _| tr!(lab, relay.passes),
     read: |s, _| s.test.passes as f64,
     write: |s, _, passes| set_passes(s, passes),
-    limits: |_, _| (1.0, 8.0),
+    path: |_, _| "test.passes",
     scale: Scale::Linear(1.0),
     digits: Some(0),
     ..OF_TEST
 };
-const OF_TEST: Knob<TuningSetup> = Knob { scale: Scale::Linear(0.05), lock: Control::Test, ..Knob::PLAIN };
-const OF_LOOP: Knob<TuningSetup> = Knob { class: ["loop1", "loop2"], ..OF_TEST };
+const OF_TEST: ParamControl<TuningSetup> =
+    ParamControl { scale: Scale::Linear(0.05), lock: Control::Test, ..ParamControl::PLAIN };
+const OF_LOOP: ParamControl<TuningSetup> = ParamControl { class: ["loop1", "loop2"], ..OF_TEST };
 
 /// The relay test.
 #[component]
@@ -203,26 +208,26 @@ fn Settings() -> impl IntoView {
             lock=Control::Test
         />
         <div hidden=session.told_part(|s| s.test.kind != TestKind::Single)><SingleTest /></div>
-        <div hidden=session.told_part(|s| s.test.kind == TestKind::Single)><KnobRow session knob=&RATIO /></div>
+        <div hidden=session.told_part(|s| s.test.kind == TestKind::Single)><ParamRow session control=&RATIO /></div>
         // Amplitude of relay 1, or of relay 2 where that one is alone, and duration.
         <div class="pairs">
-            <div hidden=session.told_part(|s| is_idle(s, 1))><KnobRow session knob=&AMPLITUDE index=0 /></div>
-            <div hidden=session.told_part(|s| !is_idle(s, 1))><KnobRow session knob=&AMPLITUDE index=1 /></div>
-            <KnobRow session knob=&DURATION />
+            <div hidden=session.told_part(|s| is_idle(s, 1))><ParamRow session control=&AMPLITUDE index=0 /></div>
+            <div hidden=session.told_part(|s| !is_idle(s, 1))><ParamRow session control=&AMPLITUDE index=1 /></div>
+            <ParamRow session control=&DURATION />
         </div>
         <div class="pairs four">
-            <div hidden=session.told_part(|s| is_idle(s, 1))><KnobRow session knob=&HYSTERESIS index=0 /></div>
-            <div hidden=session.told_part(|s| is_idle(s, 2))><KnobRow session knob=&HYSTERESIS index=1 /></div>
-            <div hidden=session.told_part(|s| is_idle(s, 1))><KnobRow session knob=&BIAS index=0 /></div>
-            <div hidden=session.told_part(|s| is_idle(s, 2))><KnobRow session knob=&BIAS index=1 /></div>
+            <div hidden=session.told_part(|s| is_idle(s, 1))><ParamRow session control=&HYSTERESIS index=0 /></div>
+            <div hidden=session.told_part(|s| is_idle(s, 2))><ParamRow session control=&HYSTERESIS index=1 /></div>
+            <div hidden=session.told_part(|s| is_idle(s, 1))><ParamRow session control=&BIAS index=0 /></div>
+            <div hidden=session.told_part(|s| is_idle(s, 2))><ParamRow session control=&BIAS index=1 /></div>
         </div>
         <div hidden=session.told_part(|s| !is_tuned(s.test.kind))><RuleSelect /></div>
         <div class="pairs" hidden=session.told_part(|s| s.test.kind != TestKind::Independent)>
-            <KnobRow session knob=&DETUNING index=0 />
-            <KnobRow session knob=&DETUNING index=1 />
+            <ParamRow session control=&DETUNING index=0 />
+            <ParamRow session control=&DETUNING index=1 />
         </div>
         <div class="pairs" hidden=session.told_part(|s| s.test.kind != TestKind::Sequential)>
-            <KnobRow session knob=&PASSES />
+            <ParamRow session control=&PASSES />
         </div>
         <Figures name="test-figures" caption=say!(lab, relay.test_caption)>{move || table(session)}</Figures>
     }
@@ -272,7 +277,7 @@ fn SingleTest() -> impl IntoView {
             disabled=lab.locks(Control::Test)
         />
         <div hidden=session.told_part(|s| !matches!(s.test.behind, Behind::Modulus(_)))>
-            <KnobRow session knob=&MODULUS />
+            <ParamRow session control=&MODULUS />
         </div>
     }
 }
