@@ -113,7 +113,7 @@ pub fn ParamRow<B: Bench>(
     let &ParamControl { ids, scale, digits, smallest, class, .. } = control;
     let (id, class, lab) = (ids[index], class[index], session.lab);
     let label = Signal::derive(move || (control.label)(lab, index));
-    let unit = lab.told(Signal::derive(move || session.read(control.unit).to_owned()));
+    let unit = lab.throttled(Signal::derive(move || session.read(control.unit).to_owned()));
     let Wires { name, value, on_change, limits, disabled } = wires(session, control, index);
     let Some(travel) = control.travel else {
         return view! {
@@ -169,7 +169,7 @@ where
     T: Copy + PartialEq + Send + Sync + 'static,
 {
     let on_choose = move |choice| session.edit(|s| write(s, choice));
-    let value = session.lab.told(Signal::derive(move || session.read(read)));
+    let value = session.lab.throttled(Signal::derive(move || session.read(read)));
     view! { <Segmented label choices value on_choose disabled=session.lab.locks(lock) /> }
 }
 
@@ -184,7 +184,7 @@ struct Wires {
 
 fn wires<B: Bench>(session: Session<B>, control: &'static ParamControl<SetupOf<B>>, index: usize) -> Wires {
     let (lab, locked) = (session.lab, session.lab.locks(control.lock));
-    // No memos: fields read all but the last when the words are told or a key is pressed, and do not follow it.
+    // No memos: fields read all but the last when texts are updated or a key is pressed, and do not follow it.
     Wires {
         name: Signal::derive(move || (control.name)(lab, index)),
         value: Signal::derive(move || session.read(|s| control.shown(s, index))),

@@ -1,9 +1,9 @@
-//! The way of one change from an event to pixels, the same on every bench.
+//! One change from an event to pixels, the same on every bench.
 //!
 //! A control edits a document. That asks for one animation frame; in it, what the change touched is computed once (however
 //! many events came in between), the results are set, and the charts that show them repaint, all before the browser shows
-//! the frame. Words, numbers and drawings follow as soon as that frame is on the screen: they cost the browser more than
-//! the charts do, and nobody reads while dragging. Reading, computing, painting and telling never mix.
+//! the frame. Texts (sentences, tables, values of controls, drawings) follow once that frame is on the screen, at most about twenty
+//! times a second: laying them out costs the browser more than the charts do, and nobody reads while dragging.
 
 use std::rc::Rc;
 
@@ -24,22 +24,23 @@ pub struct FrameScheduler {
 struct Backstage {
     stopwatch: Stopwatch,
     compute: Compute,
-    tell: Rc<dyn Fn()>,
+    update_texts: Rc<dyn Fn()>,
     /// What comes after the frame. Kept, not forgotten: a forgotten timer is never freed.
     next: Option<Timeout>,
-    /// What comes after the words.
-    told: Option<Timeout>,
+    /// What comes after the texts.
+    after_texts: Option<Timeout>,
 }
 
 impl FrameScheduler {
-    /// From now on every change of `document` is computed and told.
+    /// From now on every change of `document` is computed, and texts follow.
     pub fn follow<T: Send + Sync + 'static>(
         document: RwSignal<T>,
         compute: impl Fn() -> Option<Box<dyn FnOnce()>> + 'static,
-        tell: impl Fn() + 'static,
+        update_texts: impl Fn() + 'static,
     ) {
-        let (stopwatch, compute, tell) = (Stopwatch::default(), Rc::new(compute), Rc::new(tell));
-        let backstage = StoredValue::new_local(Backstage { stopwatch, compute, tell, next: None, told: None });
+        let (stopwatch, compute, update_texts) = (Stopwatch::default(), Rc::new(compute), Rc::new(update_texts));
+        let backstage =
+            StoredValue::new_local(Backstage { stopwatch, compute, update_texts, next: None, after_texts: None });
         let scheduler = Self { backstage };
         // The document as it stands is computed already.
         let mut known = false;
@@ -75,16 +76,16 @@ impl FrameScheduler {
         self.after(0, Self::painted);
     }
 
-    /// The charts are on the screen: the words follow, at once if it is time for them.
+    /// The charts are on the screen: the texts follow, at once if it is time for them.
     fn painted(self) {
         let due = self.backstage.try_update_value(|b| {
             b.stopwatch.end();
-            (b.stopwatch.are_words_due(), b.stopwatch.pause_ms())
+            (b.stopwatch.are_texts_due(), b.stopwatch.pause_ms())
         });
         match due {
-            Some((true, _)) => self.tell(),
+            Some((true, _)) => self.update_texts(),
             // The next frame replaces this timer and decides anew.
-            Some((false, pause_ms)) => self.after(pause_ms, Self::tell),
+            Some((false, pause_ms)) => self.after(pause_ms, Self::update_texts),
             None => {}
         }
     }
@@ -94,23 +95,23 @@ impl FrameScheduler {
         self.backstage.try_update_value(|b| b.next = Some(timer));
     }
 
-    fn tell(self) {
-        let Some(tell) = self.backstage.try_update_value(|b| {
-            b.stopwatch.tell();
-            b.tell.clone()
+    fn update_texts(self) {
+        let Some(update_texts) = self.backstage.try_update_value(|b| {
+            b.stopwatch.begin_texts();
+            b.update_texts.clone()
         }) else {
             return;
         };
-        tell();
-        let told = Timeout::new(0, move || self.told());
-        self.backstage.try_update_value(|b| b.told = Some(told));
+        update_texts();
+        let after = Timeout::new(0, move || self.texts_updated());
+        self.backstage.try_update_value(|b| b.after_texts = Some(after));
     }
 
-    fn told(self) {
-        // Asking for a height lays the new words out now, not within the next frame of the charts.
+    fn texts_updated(self) {
+        // Asking for a height lays the new texts out now, not within the next frame of the charts.
         if let Some(page) = document().body() {
             page.offset_height();
         }
-        self.backstage.try_update_value(|b| b.stopwatch.told());
+        self.backstage.try_update_value(|b| b.stopwatch.end_texts());
     }
 }

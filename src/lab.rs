@@ -14,7 +14,7 @@ use super::texts::Language;
 use quadtank_figure::{Palette, Style};
 use quadtank_scenario::{Document, ScenarioError};
 
-/// Something to tell at the top of the page.
+/// A notice at the top of the page.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Notice {
     /// The link or file was not usable; the bench shows what it showed before.
@@ -46,13 +46,13 @@ pub struct State {
     pub benches: &'static [BenchEntry],
     /// The bench that is shown.
     pub bench: RwSignal<&'static BenchEntry>,
-    /// Words and numbers are being told.
-    telling: Trigger,
+    /// Throttled texts are being updated.
+    texts_update: Trigger,
     /// The language of the texts.
     pub language: RwSignal<Language>,
     /// Whether the theme is dark.
     pub dark: RwSignal<bool>,
-    /// What to tell at the top of the page.
+    /// The notice at the top of the page.
     pub notice: RwSignal<Option<Notice>>,
     /// How the page was started.
     pub flags: StoredValue<StartFlags>,
@@ -72,7 +72,7 @@ impl Lab {
         Self(Box::leak(Box::new(State {
             benches,
             bench: RwSignal::new(named.unwrap_or(&benches[0])),
-            telling: Trigger::new(),
+            texts_update: Trigger::new(),
             language: RwSignal::new(language),
             dark: RwSignal::new(dark),
             notice: RwSignal::new(None),
@@ -81,39 +81,39 @@ impl Lab {
         })))
     }
 
-    /// Follows a document; whenever its words are told, so are the values of its controls.
+    /// Follows a document. The values of its controls are updated with its throttled texts.
     pub(super) fn follow<T: Send + Sync + 'static>(
         self,
         document: RwSignal<T>,
         compute: impl Fn() -> Option<Box<dyn FnOnce()>> + 'static,
-        tell: impl Fn() + 'static,
+        update_texts: impl Fn() + 'static,
     ) {
-        let tell = move || {
-            tell();
-            self.telling.notify();
+        let update_texts = move || {
+            update_texts();
+            self.texts_update.notify();
         };
-        FrameScheduler::follow(document, compute, tell);
+        FrameScheduler::follow(document, compute, update_texts);
     }
 
-    /// A value as the page shows it: it changes with the words, not in every frame. Handlers read the value itself.
-    pub fn told<T: Clone + Send + Sync + 'static>(self, value: Signal<T>) -> Signal<T> {
+    /// A value as texts show it: updated with them, not in every frame. Handlers read the value itself.
+    pub fn throttled<T: Clone + Send + Sync + 'static>(self, value: Signal<T>) -> Signal<T> {
         Signal::derive(move || {
-            self.follow_words();
+            self.track_texts();
             value.get_untracked()
         })
     }
 
     /// The same, and at once when the control that shows it is `moved` itself.
-    pub fn told_or<T: Clone + Send + Sync + 'static>(self, moved: Trigger, value: Signal<T>) -> Signal<T> {
+    pub fn throttled_or<T: Clone + Send + Sync + 'static>(self, moved: Trigger, value: Signal<T>) -> Signal<T> {
         Signal::derive(move || {
             moved.track();
-            self.follow_words();
+            self.track_texts();
             value.get_untracked()
         })
     }
 
-    fn follow_words(self) {
-        self.telling.track();
+    fn track_texts(self) {
+        self.texts_update.track();
         self.language.track();
     }
 

@@ -1,7 +1,7 @@
 //! The Leptos user interface: benches, charts on screen, widgets, the drawing of the plant, texts.
 //!
-//! `benches` is the list of the benches, a folder for each; `session` is the document of a bench with its results, `frames` the way
-//! of one change from an event to pixels, `lab` what all benches share; `widgets` are the parts that any bench is made of. There is
+//! `benches` is the list of the benches, a folder for each; `session` is the document of a bench with its results, `frames` takes
+//! one change from an event to pixels, `lab` what all benches share; `widgets` are the parts that any bench is made of. There is
 //! no control theory here: every number comes from [`quadtank::study`].
 
 mod benches;

@@ -84,12 +84,12 @@ pub struct State<B: Bench> {
     pub document: RwSignal<B::Document>,
     /// The results for charts, new in every frame.
     pub charts: B::Found,
-    /// The same for words, numbers and drawings, once the charts are on the screen.
-    pub words: B::Found,
+    /// The same for sentences, tables and drawings: throttled, and once the charts are on the screen.
+    pub throttled: B::Found,
     /// What the bench remembers besides.
     pub own: B::Own,
     results: RwSignal<ResultsOf<B>>,
-    told: RwSignal<ResultsOf<B>>,
+    throttled_results: RwSignal<ResultsOf<B>>,
 }
 
 /// The session of a bench on this page.
@@ -101,18 +101,19 @@ impl<B: Bench> Session<B> {
     /// A session that shows `document`, computed at once.
     pub(super) fn start(lab: Lab, document: B::Document) -> Self {
         let found = B::Study::update(document.setup(), document.pinned(), None);
-        let (results, told) = (RwSignal::new(found.clone()), RwSignal::new(found));
+        let (results, throttled_results) = (RwSignal::new(found.clone()), RwSignal::new(found));
         let document = RwSignal::new(document);
         let session = Self(Box::leak(Box::new(State {
             lab,
             document,
             charts: B::found(results),
-            words: B::found(told),
+            throttled: B::found(throttled_results),
             own: B::own(document),
             results,
-            told,
+            throttled_results,
         })));
-        lab.follow(document, move || session.compute(), move || session.told.set(session.results.get_untracked()));
+        let update_texts = move || session.throttled_results.set(session.results.get_untracked());
+        lab.follow(document, move || session.compute(), update_texts);
         session
     }
 
@@ -143,11 +144,11 @@ impl<B: Bench> Session<B> {
         Memo::new(move |_| self.read(&read)).into()
     }
 
-    /// A part of the setup as the page shows it: it changes with the words.
-    pub fn told_part<T>(self, read: fn(&SetupOf<B>) -> T) -> Signal<T>
+    /// A part of the setup as texts show it, see [`Lab::throttled`].
+    pub fn throttled_part<T>(self, read: fn(&SetupOf<B>) -> T) -> Signal<T>
     where
         T: Send + Sync + 'static,
     {
-        Signal::derive(move || self.told.with(|results| read(B::Study::setup_of(results))))
+        Signal::derive(move || self.throttled_results.with(|results| read(B::Study::setup_of(results))))
     }
 }

@@ -175,7 +175,7 @@ fn Header() -> impl IntoView {
     }
 }
 
-/// The way to a bench. It is an address, so it can be opened beside and bookmarked.
+/// The link to a bench. It is an address, so it can be opened beside and bookmarked.
 #[component]
 fn BenchLink(bench: &'static BenchEntry) -> impl IntoView {
     let lab = use_lab();
@@ -310,7 +310,7 @@ fn Notices() -> impl IntoView {
     }
 }
 
-/// In a course page: the way to the whole laboratory, which is this page without its query, with what is shown here.
+/// In a course page: the link to the whole laboratory, which is this page without its query, with what is shown here.
 #[component]
 fn EmbedFooter() -> impl IntoView {
     let lab = use_lab();

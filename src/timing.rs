@@ -1,4 +1,4 @@
-//! How long a change takes, told to the browser as User Timing entries (`quadtank:compute`, `quadtank:paint`,
+//! How long a change takes, reported to the browser as User Timing entries (`quadtank:compute`, `quadtank:paint`,
 //! `quadtank:words`).
 //!
 //! Always on: an entry costs a microsecond, and anybody can read them in the developer tools. `make bench` does.
@@ -10,15 +10,15 @@ use leptos::prelude::window;
 pub struct Stopwatch {
     /// What waits for its frame.
     frame: Turn,
-    /// What waits for its words.
-    words: Turn,
+    /// What waits for its texts.
+    texts: Turn,
     /// When the first change came in that waits for its frame, and when that which is being painted (ms).
     waiting_since_ms: f64,
     painting_since_ms: f64,
     /// How long the last frame took (ms).
     frame_ms: f64,
-    /// When words were told last (ms).
-    told_ms: f64,
+    /// When texts were updated last (ms).
+    texts_ms: f64,
     entries: u32,
 }
 
@@ -49,13 +49,13 @@ impl Turn {
 
 const EVENT_MARKS: [&str; 2] = ["quadtank:event-a", "quadtank:event-b"];
 const COMPUTE_MARK: &str = "quadtank:computing";
-const WORDS_MARKS: [&str; 2] = ["quadtank:untold-a", "quadtank:untold-b"];
+const TEXTS_MARKS: [&str; 2] = ["quadtank:untold-a", "quadtank:untold-b"];
 
 /// A frame of a screen of 60 Hz (ms).
 const IN_TIME_MS: f64 = 1000.0 / 60.0;
-/// Between two changes of the words while the hand moves on (ms): where frames are in time, and where they are late.
-/// Telling costs a frame or so; nobody reads numbers that change more often.
-const BETWEEN_WORDS_MS: [f64; 2] = [50.0, 1000.0];
+/// Between two updates of the texts while the hand moves on (ms): where frames are in time, and where they are late.
+/// Updating them costs a frame or so; nobody reads numbers that change more often.
+const BETWEEN_TEXTS_MS: [f64; 2] = [50.0, 1000.0];
 /// How long nothing must change for a pause of the hand (ms): two frames, within these limits.
 const PAUSE_MS: (f64, f64) = (40.0, 200.0);
 
@@ -68,7 +68,7 @@ impl Stopwatch {
         let first = self.frame.wait(EVENT_MARKS);
         if first {
             self.waiting_since_ms = now_ms();
-            self.words.wait(WORDS_MARKS);
+            self.texts.wait(TEXTS_MARKS);
         }
         first
     }
@@ -97,24 +97,24 @@ impl Stopwatch {
         (2.0 * self.frame_ms).clamp(PAUSE_MS.0, PAUSE_MS.1) as u32
     }
 
-    /// Whether words may follow the charts at once.
-    pub fn are_words_due(&self) -> bool {
+    /// Whether texts may follow the charts at once.
+    pub fn are_texts_due(&self) -> bool {
         let late = usize::from(self.frame_ms > IN_TIME_MS);
-        now_ms() - self.told_ms >= BETWEEN_WORDS_MS[late]
+        now_ms() - self.texts_ms >= BETWEEN_TEXTS_MS[late]
     }
 
-    /// The words are about to follow. Those of a change that still waits for its frame come later.
-    pub fn tell(&mut self) {
-        self.told_ms = now_ms();
-        self.words.take();
+    /// The texts are about to follow. Those of a change that still waits for its frame come later.
+    pub fn begin_texts(&mut self) {
+        self.texts_ms = now_ms();
+        self.texts.take();
         if self.frame.waiting {
-            self.words.wait(WORDS_MARKS);
+            self.texts.wait(TEXTS_MARKS);
         }
     }
 
-    /// The words are on the page.
-    pub fn told(&mut self) {
-        self.measure("quadtank:words", WORDS_MARKS[self.words.taken]);
+    /// The texts are on the page.
+    pub fn end_texts(&mut self) {
+        self.measure("quadtank:words", TEXTS_MARKS[self.texts.taken]);
     }
 
     /// The time since a mark becomes an entry; the mark goes, so that none is counted twice.

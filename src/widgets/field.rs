@@ -90,9 +90,9 @@ pub fn NumberField(
     moved: Trigger,
 ) -> impl IntoView {
     let lab = use_lab();
-    let (told, told_limits) = (lab.told_or(moved, value), lab.told(limits));
+    let (shown, shown_limits) = (lab.throttled_or(moved, value), lab.throttled(limits));
     let draft = RwSignal::new(None::<Draft>);
-    let typed = Signal::derive(move || draft.get().filter(|draft| draft.value.total_cmp(&told.get()).is_eq()));
+    let typed = Signal::derive(move || draft.get().filter(|draft| draft.value.total_cmp(&shown.get()).is_eq()));
     let refused = Signal::derive(move || typed.with(|typed| typed.as_ref().is_some_and(|draft| draft.refused)));
     let style = move || lab.number_style();
     let show = move |v: f64| match digits {
@@ -134,7 +134,7 @@ pub fn NumberField(
     };
     let problem = move || {
         refused.get().then(|| {
-            let (min, max) = told_limits.get();
+            let (min, max) = shown_limits.get();
             let lowest = if smallest > 0.0 { smallest } else { min };
             let mut text = tr!(lab, field.allowed, min = show(lowest), max = show(max));
             if grid.get() > 0.0 {
@@ -153,7 +153,7 @@ pub fn NumberField(
             aria-label=name
             aria-invalid=move || refused.get().then(|| "true".to_owned())
             aria-describedby=move || refused.get().then(|| format!("{id}-problem"))
-            prop:value=move || typed.get().map_or_else(|| show(told.get()), |draft| draft.text)
+            prop:value=move || typed.get().map_or_else(|| show(shown.get()), |draft| draft.text)
             disabled=disabled
             on:input=on_input
             on:keydown=on_key
@@ -214,10 +214,10 @@ pub fn SliderField(
 ) -> impl IntoView {
     let lab = use_lab();
     let moved = Trigger::new();
-    let (told, told_travel) = (lab.told_or(moved, value), lab.told(travel));
+    let (shown, shown_travel) = (lab.throttled_or(moved, value), lab.throttled(travel));
     let position = move || {
-        let (min, max) = told_travel.get();
-        scale.position(told.get(), min, max)
+        let (min, max) = shown_travel.get();
+        scale.position(shown.get(), min, max)
     };
     let on_input = move |event| {
         let (min, max) = travel.get_untracked();
@@ -228,12 +228,12 @@ pub fn SliderField(
         }
     };
     let range = move || match scale {
-        Scale::Linear(step) => (told_travel.get().0, told_travel.get().1, step),
+        Scale::Linear(step) => (shown_travel.get().0, shown_travel.get().1, step),
         Scale::Logarithmic => (0.0, POSITIONS, 1.0),
     };
     let spoken = move || {
         let style = lab.number_style();
-        let number = digits.map_or_else(|| style.significant(told.get(), 3), |d| style.fixed(told.get(), d));
+        let number = digits.map_or_else(|| style.significant(shown.get(), 3), |d| style.fixed(shown.get(), d));
         format!("{number} {}", unit.get())
     };
     view! {

@@ -90,7 +90,7 @@ pub fn Handle(
     children: Children,
 ) -> impl IntoView {
     let lab = use_lab();
-    let (value, limits, spoken) = (lab.told(value), lab.told(limits), lab.told(spoken));
+    let (value, limits, spoken) = (lab.throttled(value), lab.throttled(limits), lab.throttled(spoken));
     let range = Signal::derive(move || range_with(limits.get(), value.get()));
     let grabbed_at = StoredValue::new(None::<(f64, f64)>);
     let position = |event: &PointerEvent| (f64::from(event.client_x()), f64::from(event.client_y()));

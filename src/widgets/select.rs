@@ -47,7 +47,7 @@ pub fn Select<T>(
 where
     T: Clone + PartialEq + Send + Sync + 'static,
 {
-    // Both may be told without a change; the options of the page then stay as they are.
+    // Both may be updated without a change; the options of the page then stay as they are.
     let (choices, chosen) = (Memo::new(move |_| choices.get()), Memo::new(move |_| chosen.get()));
     let choose = move |event| {
         let name = event_target_value(&event);

@@ -1,4 +1,4 @@
-//! Tables of figures. Their content is made anew whenever the words are told; Leptos compares it with what stands there and
+//! Tables of figures. Their content is made anew whenever texts are updated; Leptos compares it with what stands there and
 //! touches only the cells that changed.
 
 use leptos::prelude::*;

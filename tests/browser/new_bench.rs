@@ -57,7 +57,7 @@ impl Bench for GammaSumBench {
         let open = move |event| session.edit(|setup| setup.valves[0] = event_target_value(&event).parse().unwrap());
         view! {
             <input type="range" min=0 max=1 step="any" data-testid="valve" on:input=open />
-            <p data-testid="sum">{move || format!("{:.2}", session.words.get())}</p>
+            <p data-testid="sum">{move || format!("{:.2}", session.throttled.get())}</p>
         }
         .into_any()
     }

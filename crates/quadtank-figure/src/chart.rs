@@ -152,7 +152,7 @@ pub enum Pen {
     Faded,
     /// A thin line that only guides the eye.
     Hair,
-    /// The way that a mark took: broad and pale.
+    /// The path of a mark: broad and pale.
     Trail,
 }
 

@@ -48,4 +48,4 @@ pub use table::{Summary, Table, table};
 pub use tuning::{
     CurveChart, LociChart, LoopsChart, LoopsRecord, RulePoint, characteristic_loci, critical_curve, two_loops,
 };
-pub use valve_plane::{ValvePlane, ValvePlaneTexts, valve_plane, with_way};
+pub use valve_plane::{ValvePlane, ValvePlaneTexts, valve_plane, with_valve_path};

@@ -16,7 +16,7 @@ pub struct PoleZero<'a> {
     pub poles: &'a [Complex<f64>],
     /// Transmission zeros.
     pub zeros: &'a [Complex<f64>],
-    /// The way of each zero as a valve moves.
+    /// The path of each zero as a valve moves.
     pub zero_paths: &'a [Vec<Complex<f64>>],
     /// Poles of the closed loop.
     pub closed_loop: &'a [Complex<f64>],
@@ -53,7 +53,7 @@ pub fn pole_zero(spec: &PoleZero) -> Chart<'static> {
     chart.layers.push(Layer::Region { x: (0.0, f64::INFINITY), y: everywhere, role: Role::RightHalfPlane });
     chart.layers.push(Layer::Level { y: 0.0, role: Role::Muted, pen: Pen::Hair });
     chart.layers.push(Layer::Upright { x: 0.0, role: Role::Muted, pen: Pen::Hair });
-    chart.layers.extend(spec.zero_paths.iter().flat_map(|path| ways(path)));
+    chart.layers.extend(spec.zero_paths.iter().flat_map(|path| by_half_plane(path)));
     chart.layers.extend(spec.closed_loop.iter().map(|&pole| mark(pole, Shape::Diamond, Role::ClosedLoop)));
     chart.layers.extend(spec.poles.iter().map(|&pole| mark(pole, Shape::Cross, Role::Neutral)));
     chart.layers.extend(spec.zeros.iter().map(|&zero| mark(zero, Shape::Ring, side(zero))));
@@ -100,9 +100,9 @@ fn mark(at: Complex<f64>, shape: Shape, role: Role) -> Layer<'static> {
     Layer::Marker(Marker { at: (at.re, at.im), shape, role, points_beyond: true })
 }
 
-/// The way of a zero in each half-plane, in the colour that it has there.
-fn ways(path: &[Complex<f64>]) -> Vec<Layer<'static>> {
-    let way = |role, limit: fn(f64, f64) -> f64| {
+/// The path of a zero in each half-plane, in the colour that it has there.
+fn by_half_plane(path: &[Complex<f64>]) -> Vec<Layer<'static>> {
+    let path_in = |role, limit: fn(f64, f64) -> f64| {
         Layer::Line(Series {
             name: "".into(),
             role,
@@ -113,7 +113,7 @@ fn ways(path: &[Complex<f64>]) -> Vec<Layer<'static>> {
             y_scale: 1.0,
         })
     };
-    vec![way(Role::MinimumPhase, f64::min), way(Role::RightHalfPlane, f64::max)]
+    vec![path_in(Role::MinimumPhase, f64::min), path_in(Role::RightHalfPlane, f64::max)]
 }
 
 /// The value beside each zero, in turn above and below where zeros are close together.

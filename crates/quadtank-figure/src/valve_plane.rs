@@ -53,8 +53,8 @@ pub fn valve_plane(spec: &ValvePlane) -> Chart<'static> {
     chart
 }
 
-/// The plane with the way that the valves took, γ1 and γ2 in order of time.
-pub fn with_way<'a>(mut plane: Chart<'a>, way: &[[f64; 2]]) -> Chart<'a> {
+/// The plane with the path of the valves, γ1 and γ2 in order of time.
+pub fn with_valve_path<'a>(mut plane: Chart<'a>, way: &[[f64; 2]]) -> Chart<'a> {
     plane.layers.push(Layer::Line(Series {
         name: "γ(t)".into(),
         role: Role::Neutral,

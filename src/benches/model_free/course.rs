@@ -87,7 +87,7 @@ fn readout(session: Session) -> Option<Readout> {
         pair(["v₁", "v₂"], shown.state.pump_voltage.map(|v| format!("{} V", style.fixed(v, 2)))),
         pair(["γ₁", "γ₂"], shown.plant.valves.map(|gamma| style.fixed(gamma, 2))),
     ];
-    if let Some(phi) = session.words.with_answer(|answer| answer.run.phi_at(shown.time_s)).flatten() {
+    if let Some(phi) = session.throttled.with_answer(|answer| answer.run.phi_at(shown.time_s)).flatten() {
         // The unit once: the row has to fit on a phone.
         let in_row = |[first, second]: [f64; 2]| {
             [style.fixed(in_cm(first), 3), format!("{} cm/s", style.fixed(in_cm(second), 3))]
@@ -115,7 +115,7 @@ fn table(session: Session) -> impl IntoView {
     let row = |name: String, k: usize, figures: &TrackingFigures| {
         view! { <Row class=["loop1", "loop2"][k] name figures=figures_of(session, figures) /> }.into_any()
     };
-    let rows = session.words.with_answer(|answer| {
+    let rows = session.throttled.with_answer(|answer| {
         let law = answer.figures.iter().enumerate();
         let law = law.map(|(k, figures)| row(tr!(lab, responses.row, number = k + 1), k, figures));
         let pi = answer.comparison.iter().flat_map(|(_, figures)| figures.iter().enumerate());

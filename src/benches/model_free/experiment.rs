@@ -116,13 +116,13 @@ pub fn CaseCard() -> impl IntoView {
                 <Pressed
                     id="free-long"
                     text=say!(lab, free.long)
-                    value=session.told_part(|s| s.experiment.duration_s == LONG_RUN_S)
+                    value=session.throttled_part(|s| s.experiment.duration_s == LONG_RUN_S)
                     press=|s| s.experiment.duration_s = LONG_RUN_S
                 />
                 <Pressed
                     id="free-pi"
                     text=say!(lab, free.compare)
-                    value=session.told_part(|s| s.compare.is_some())
+                    value=session.throttled_part(|s| s.compare.is_some())
                     press=compare
                 />
             </div>

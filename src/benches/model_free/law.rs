@@ -121,7 +121,7 @@ pub fn LawCard() -> impl IntoView {
                 write=set_window
                 lock
             />
-            <div hidden=session.told_part(|s| s.controller.estimator.is_none()) class="estimator"><EstimatorDetails /></div>
+            <div hidden=session.throttled_part(|s| s.controller.estimator.is_none()) class="estimator"><EstimatorDetails /></div>
             <div class="pairs">
                 <ParamRow session control=&WINDOW />
                 <ParamRow session control=&SAMPLING />

@@ -8,7 +8,7 @@ use crate::widgets::Picture;
 use quadtank::linear::Complex;
 use quadtank::study::quadruple_tank::ValveMap;
 use quadtank_figure::{
-    self, Chart, ModelFreeCourse, ModelFreeTexts, PoleZero, PoleZeroTexts, ValvePlane, ValvePlaneTexts, with_way,
+    self, Chart, ModelFreeCourse, ModelFreeTexts, PoleZero, PoleZeroTexts, ValvePlane, ValvePlaneTexts, with_valve_path,
 };
 use quadtank_scenario::model_free::{moment_to_csv, run_to_csv};
 use quadtank_scenario::valve_map_to_csv;
@@ -17,7 +17,7 @@ use quadtank_scenario::valve_map_to_csv;
 const TYPICAL_SETTING: [f64; 2] = [0.3, 0.3];
 /// Steps of each valve in the exported table of the plane.
 const CSV_STEPS: u32 = 20;
-/// How much of the way of the valves is drawn behind them (s), and the time between its points (s).
+/// How much of the path of the valves is drawn behind them (s), and the time between its points (s).
 const TRAIL_S: f64 = 60.0;
 const TRAIL_STEP_S: f64 = 0.25;
 
@@ -71,7 +71,7 @@ fn map(session: Session) -> ValveMap {
     ValveMap::at(plant, voltage).without_setting()
 }
 
-/// The plane of the valves; `whole` with the way that they go and where they stand, for files.
+/// The plane of the valves; `whole` with their path and where they stand, for files.
 pub fn plane(session: Session, whole: bool) -> Picture {
     let lab = session.lab;
     let map = Memo::new(move |_| map(session));
@@ -91,16 +91,16 @@ pub fn plane(session: Session, whole: bool) -> Picture {
                 right_half_plane: &tr!(lab, valves.right),
             },
         });
-        show(&[if whole { with_way(plane, &way(session)) } else { plane }]);
+        show(&[if whole { with_valve_path(plane, &valve_path(session)) } else { plane }]);
     };
     Picture::new(build, csv)
 }
 
 /// γ1, γ2 up to the shown moment.
-pub fn way(session: Session) -> Vec<[f64; 2]> {
+pub fn valve_path(session: Session) -> Vec<[f64; 2]> {
     let Some(end) = shown(session).map(|shown| shown.time_s) else { return Vec::new() };
     let from = (end - TRAIL_S).max(0.0);
-    session.words.setup.with(|setup| {
+    session.throttled.setup.with(|setup| {
         let times = (0u32..).map(|k| from + TRAIL_STEP_S * f64::from(k)).take_while(|&time| time < end);
         times.chain([end]).map(|time| setup.valves.map(|valve| valve.at(time))).collect()
     })

@@ -9,7 +9,7 @@ use crate::texts::{say, tr};
 use crate::widgets::{Card, ChartCanvas, ChartMenu, Sentence, first_frame, unmarked};
 use quadtank_figure::Frame;
 
-/// The plane of the valves with their way.
+/// The plane of the valves with their path.
 #[component]
 pub fn ValvePlaneCard() -> impl IntoView {
     let session = use_session();
@@ -26,18 +26,18 @@ pub fn ValvePlaneCard() -> impl IntoView {
         <Card name="valve-way" title beside>
             <div class="chart square">
                 <ChartCanvas picture=pictures::plane(session, false) frames summary name="free-valve-plane" />
-                <svg class="over handles" aria-hidden="true" data-testid="free-way">{move || way(session, frames)}</svg>
+                <svg class="over handles" aria-hidden="true" data-testid="free-way">{move || valve_path(session, frames)}</svg>
             </div>
         </Card>
     }
 }
 
-/// The way that the valves went, and where they stand.
-fn way(session: Session, frames: RwSignal<Vec<Frame>>) -> Option<impl IntoView> {
+/// The path of the valves, and where they stand.
+fn valve_path(session: Session, frames: RwSignal<Vec<Frame>>) -> Option<impl IntoView> {
     let frame = first_frame(frames);
     let at = |valves: [f64; 2]| frame.to_px(valves.into());
     let (x, y) = at(shown(session)?.plant.valves);
-    let points = pictures::way(session).into_iter().map(at).map(|(x, y)| format!("{x:.1},{y:.1}"));
+    let points = pictures::valve_path(session).into_iter().map(at).map(|(x, y)| format!("{x:.1},{y:.1}"));
     let points = points.collect::<Vec<_>>().join(" ");
     Some(view! {
         <polyline class="way" points=points />

@@ -1,4 +1,4 @@
-//! The drawing of the rig at the shown moment, and the way through time.
+//! The drawing of the rig at the shown moment, and the player.
 
 use leptos::prelude::*;
 

@@ -27,8 +27,8 @@ pub fn of_run(session: Session) -> (bool, String) {
     let style = lab.number_style();
     let seconds = |time: f64| style.fixed(time, 0);
     let cm = |metres: f64| style.fixed(in_cm(metres), 2);
-    let setup = session.words.setup.get();
-    let answer = session.words.answer.get();
+    let setup = session.throttled.setup.get();
+    let answer = session.throttled.answer.get();
     let answer = match answer.as_ref() {
         Ok(answer) => answer,
         Err(error) => {
@@ -50,7 +50,7 @@ pub fn of_run(session: Session) -> (bool, String) {
         LossBy::Pump(pump) => tr!(lab, free.by_pump, pump = pump + 1),
         LossBy::Other => String::new(),
     };
-    let verdict = session.words.analysis.with(|analysis| ModelFreeVerdict::of(&setup, answer, analysis));
+    let verdict = session.throttled.analysis.with(|analysis| ModelFreeVerdict::of(&setup, answer, analysis));
     let text = match verdict {
         ModelFreeVerdict::Lost { level, at_s, by, foretold } => {
             let lost = tr!(lab, free.is_lost, level = level + 1, time = seconds(at_s));
@@ -88,7 +88,7 @@ pub fn of_run(session: Session) -> (bool, String) {
 /// What the PI loops are that a run is compared with; nothing where it is not.
 pub fn of_comparison(session: Session) -> String {
     let lab = session.lab;
-    let Some(pi) = session.words.setup.with(|s| s.compare) else { return String::new() };
+    let Some(pi) = session.throttled.setup.with(|s| s.compare) else { return String::new() };
     let number = |value: f64| lab.number_style().significant(value, 2);
     let pairing = match pi.pairing {
         Pairing::Diagonal => tr!(lab, pi.diagonal),
@@ -129,12 +129,12 @@ pub fn of_moment(session: Session) -> String {
 pub fn of_loop(session: Session) -> (bool, String) {
     let lab = session.lab;
     let style = lab.number_style();
-    if session.words.setup.with(|s| s.valves.iter().any(|valve| !valve.is_constant())) {
+    if session.throttled.setup.with(|s| s.valves.iter().any(|valve| !valve.is_constant())) {
         return (true, tr!(lab, free.loop_moves));
     }
     let looks_good =
-        session.words.with_answer(|answer| answer.figures.iter().all(TrackingFigures::looks_settled)) == Some(true);
-    session.words.analysis.with(|analysis| {
+        session.throttled.with_answer(|answer| answer.figures.iter().all(TrackingFigures::looks_settled)) == Some(true);
+    session.throttled.analysis.with(|analysis| {
         if let Err(error) = &analysis.rest {
             let reason = of_plant_error(lab, DisplayUnit::Cm, error);
             return (false, tr!(lab, free.not_held, reason = reason));

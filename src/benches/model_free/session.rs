@@ -86,8 +86,8 @@ pub fn load(session: Session, setup: ModelFreeSetup) {
 /// The moment at the cursor, or at the end where there is none.
 pub fn shown(session: Session) -> Option<Shown> {
     let cursor = session.own.cursor.get();
-    let setup = session.words.setup.get();
-    session.words.with_answer(|answer| Shown::of(&setup, answer, cursor)).flatten()
+    let setup = session.throttled.setup.get();
+    session.throttled.with_answer(|answer| Shown::of(&setup, answer, cursor)).flatten()
 }
 
 /// Puts the cursor somewhere, or away.

@@ -174,7 +174,7 @@ fn PairingSwitch() -> impl IntoView {
     let chosen = session.part(|s| s.controller.pairing);
     let suggested = move || {
         session
-            .words
+            .throttled
             .with_analysis(|a| match a.verdict {
                 PairingVerdict::Diagonal(_) => Some(Pairing::Diagonal),
                 PairingVerdict::Swapped(_) => Some(Pairing::Swapped),
@@ -254,7 +254,7 @@ fn ManualMode(index: usize) -> impl IntoView {
     let rest = move || {
         let pump = session.document.with(|s| s.setup.controller.pairing.pump_of(index));
         let power = session.document.with(|s| s.setup.plant().power_gain);
-        session.words.with_analysis(|a| a.operating_point.pump_voltage[pump] / power).unwrap_or_default()
+        session.throttled.with_analysis(|a| a.operating_point.pump_voltage[pump] / power).unwrap_or_default()
     };
     let switch = move |on| {
         let mode =

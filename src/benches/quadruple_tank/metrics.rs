@@ -42,14 +42,14 @@ fn content(session: Session) -> impl IntoView {
 fn rows(session: Session) -> Vec<AnyView> {
     let lab = session.lab;
     let mut rows = Vec::new();
-    session.words.run.with(|outcome| {
+    session.throttled.run.with(|outcome| {
         let Ok(run) = outcome.as_ref() else { return };
         for (k, metrics) in run.metrics.iter().enumerate() {
             let name = tr!(lab, responses.row, number = k + 1);
             rows.push(row(session, name, k, metrics));
         }
     });
-    session.words.pinned.with(|runs| {
+    session.throttled.pinned.with(|runs| {
         for (at, pinned) in runs.iter().enumerate() {
             let Ok(run) = pinned.result.as_ref() else { continue };
             for (k, metrics) in run.metrics.iter().enumerate() {

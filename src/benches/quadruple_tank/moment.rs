@@ -31,14 +31,14 @@ pub fn use_moment() -> Memo<Option<Moment>> {
 }
 
 fn at_rest(session: Session) -> Option<Moment> {
-    session.words.analysis.with(|outcome| {
+    session.throttled.analysis.with(|outcome| {
         let point = outcome.as_ref().as_ref().ok()?.operating_point;
         Some(Moment { time_s: None, levels: point.levels, pump_voltage: point.pump_voltage })
     })
 }
 
 fn at_cursor(session: Session, time_s: f64) -> Option<Moment> {
-    session.words.run.with(|outcome| {
+    session.throttled.run.with(|outcome| {
         let run = &outcome.as_ref().as_ref().ok()?.nonlinear;
         let row = run.row_at(time_s)?;
         let at = |column: &Vec<f64>| column.get(row).copied();

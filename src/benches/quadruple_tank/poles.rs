@@ -51,7 +51,7 @@ fn summary(session: Session) -> String {
         if texts.is_empty() { "–".to_owned() } else { texts.join("; ") }
     };
     session
-        .words
+        .throttled
         .with_analysis(|a| {
             tr!(
                 lab,

@@ -79,7 +79,7 @@ pub fn PresetSelect() -> impl IntoView {
     let id = chosen(session);
     // What was changed is none of the choices, so that choosing the same rig again brings it back.
     let intact =
-        Signal::derive(move || id.get().filter(|&id| session.words.setup.with(|setup| **setup == setup_of(id))));
+        Signal::derive(move || id.get().filter(|&id| session.throttled.setup.with(|setup| **setup == setup_of(id))));
     let choices = Signal::derive(move || {
         let published =
             PresetId::ALL.into_iter().map(|choice| Choice::new(Some(choice), choice.name(), name_of(lab, choice)));

@@ -74,7 +74,7 @@ fn VoltageField(pump: usize) -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
     let computed =
-        move || session.words.analysis.with(|a| a.as_ref().as_ref().ok().map(|a| a.operating_point.pump_voltage));
+        move || session.throttled.analysis.with(|a| a.as_ref().as_ref().ok().map(|a| a.operating_point.pump_voltage));
     let voltages = move || match session.document.with(|s| s.setup.operating_point) {
         OperatingPointSpec::PumpVoltage(given) => Some(given),
         OperatingPointSpec::Levels(_) => computed(),

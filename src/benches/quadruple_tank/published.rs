@@ -31,7 +31,7 @@ pub fn PublishedFigures() -> impl IntoView {
             if p.printed.is_none() {
                 return tr!(lab, process.none_printed, source = p.source);
             }
-            let at_home = session.words.setup.with(|s| **s == quadtank::study::quadruple_tank::setup_of(p.id));
+            let at_home = session.throttled.setup.with(|s| **s == quadtank::study::quadruple_tank::setup_of(p.id));
             let lead = tr!(lab, process.charts_use, source = p.source, table = p.table);
             let rest = if at_home { String::new() } else { format!(" {}", tr!(lab, process.printed_for)) };
             lead + &rest
@@ -61,7 +61,7 @@ fn rows(session: Session, preset: Option<&Preset>) -> Vec<Row> {
     let printed = preset.and_then(|p| p.printed);
     let length = |m: f64| style.fixed(to_shown(m, unit), length_digits(unit));
     session
-        .words
+        .throttled
         .with_analysis(|a| {
             let mut rows: Vec<Row> = Vec::new();
             for tank in 0..4 {

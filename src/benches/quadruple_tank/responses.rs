@@ -91,7 +91,7 @@ fn Toolbar(axis: TimeAxis) -> impl IntoView {
                 type="button"
                 class="button small"
                 data-testid="unpin"
-                hidden=move || session.words.pinned.with(|p| p.is_empty())
+                hidden=move || session.throttled.pinned.with(|p| p.is_empty())
                 on:click=move |_| session.document.update(|s| s.pinned.clear())
             >
                 {say!(lab, responses.unpin)}
@@ -162,7 +162,7 @@ fn spoken(session: Session, m: &Moment) -> String {
 /// What the run says, in words: how each stepped level did, then what went wrong first.
 fn sentence(session: Session) -> String {
     let lab = session.lab;
-    session.words.run.with(|outcome| {
+    session.throttled.run.with(|outcome| {
         let run = match outcome.as_ref() {
             Ok(run) => run,
             Err(error @ StudyError { fault: StudyFault::TooMuchWork { .. }, .. }) => {
@@ -172,19 +172,19 @@ fn sentence(session: Session) -> String {
         };
         let mut parts: Vec<String> =
             run.metrics.iter().enumerate().filter_map(|(k, m)| of_metrics(session, k, m)).collect();
-        let unstable = session.words.with_analysis(|a| a.closed_loop.stability == Stability::Unstable);
+        let unstable = session.throttled.with_analysis(|a| a.closed_loop.stability == Stability::Unstable);
         if unstable == Some(true) {
             parts = vec![tr!(lab, responses.unstable)];
         } else if parts.is_empty() {
             let has_step = run.metrics.iter().any(|m| m.step_time_s.is_some());
-            let has_load = session.words.setup.with(|s| !s.experiment.load_steps.is_empty());
+            let has_load = session.throttled.setup.with(|s| !s.experiment.load_steps.is_empty());
             let text = match (has_step, has_load) {
                 (true, _) => tr!(lab, responses.not_at_rest),
                 (false, true) => tr!(lab, responses.load_alone),
                 (false, false) => tr!(lab, responses.sentence_still),
             };
             parts.push(text);
-        } else if session.words.setup.with(|s| s.experiment.is_disturbed()) {
+        } else if session.throttled.setup.with(|s| s.experiment.is_disturbed()) {
             parts.push(tr!(lab, responses.disturbed));
         }
         parts.extend(run.nonlinear.events.iter().take(MOST_EVENTS).map(|event| {

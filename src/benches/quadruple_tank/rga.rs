@@ -16,7 +16,7 @@ const LARGE: f64 = 5.0;
 pub fn RelativeGainCard() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
-    let found = move || session.words.with_analysis(|a| a.verdict);
+    let found = move || session.throttled.with_analysis(|a| a.verdict);
     let text = move || found().map_or_else(|| tr!(lab, process.no_equilibrium), |v| of_verdict(session, v));
     let warm = Signal::derive(move || matches!(found(), Some(PairingVerdict::None(_)) | None));
     let about = move || view! { <span class="remark">{say!(lab, rga.remark)}</span> };
@@ -53,8 +53,8 @@ fn gains(session: Session) -> impl IntoView {
 /// One relative gain; of the suggested pairing it is marked.
 fn gain(session: Session, row: usize, column: usize) -> impl IntoView {
     let lab = session.lab;
-    let gain = session.words.with_analysis(Analysis::rga).flatten().map(|gains| gains[row][column]);
-    let chosen = match session.words.with_analysis(|a| a.verdict) {
+    let gain = session.throttled.with_analysis(Analysis::rga).flatten().map(|gains| gains[row][column]);
+    let chosen = match session.throttled.with_analysis(|a| a.verdict) {
         Some(PairingVerdict::Diagonal(_)) => row == column,
         Some(PairingVerdict::Swapped(_)) => row != column,
         _ => false,
@@ -72,7 +72,7 @@ fn gain(session: Session, row: usize, column: usize) -> impl IntoView {
 
 /// A relative gain that there is not: beyond all bounds, or 0/0 where the plant is singular at every frequency.
 fn unbounded(session: Session) -> String {
-    let is_degenerate = session.words.with_analysis(|a| a.zeros.is_err()) == Some(true);
+    let is_degenerate = session.throttled.with_analysis(|a| a.zeros.is_err()) == Some(true);
     if is_degenerate { "–" } else { "∞" }.to_owned()
 }
 
@@ -80,8 +80,8 @@ fn unbounded(session: Session) -> String {
 fn formula(session: Session) -> impl IntoView {
     let lab = session.lab;
     let number = |v: f64| lab.number_style().at_least(v, 2);
-    let value = session.words.with_analysis(|a| a.rga_11.ok()).flatten().map_or_else(|| unbounded(session), number);
-    let [g1, g2] = session.words.setup.with(|s| s.valves);
+    let value = session.throttled.with_analysis(|a| a.rga_11.ok()).flatten().map_or_else(|| unbounded(session), number);
+    let [g1, g2] = session.throttled.setup.with(|s| s.valves);
     let [first, second] = [g1, g2].map(|gamma| lab.number_style().fixed(gamma, 2));
     let below = number(g1 + g2 - 1.0);
     let gamma = |k: &'static str| view! { <msub><mi>"γ"</mi><mn>{k}</mn></msub> };
@@ -125,7 +125,7 @@ fn of_verdict(session: Session, verdict: PairingVerdict) -> String {
         PairingReason::EqualRelativeGains => String::new(),
         PairingReason::SingularGain => tr!(lab, rga.singular),
     };
-    let is_large = session.words.with_analysis(|a| a.rga_11.is_ok_and(|gain| gain.abs() > LARGE)) == Some(true);
+    let is_large = session.throttled.with_analysis(|a| a.rga_11.is_ok_and(|gain| gain.abs() > LARGE)) == Some(true);
     format!("{lead}{rest}{}", if is_large { tr!(lab, rga.large) } else { String::new() })
 }
 
@@ -133,7 +133,7 @@ fn of_niederlinski(session: Session) -> String {
     let lab = session.lab;
     let number = |index: Option<f64>| index.map_or_else(|| "–".to_owned(), |n| lab.number_style().at_least(n, 2));
     session
-        .words
+        .throttled
         .with_analysis(|a| {
             let [diagonal, swapped] = a.niederlinski.map(number);
             tr!(lab, rga.niederlinski, diagonal = diagonal, swapped = swapped)

@@ -39,7 +39,7 @@ pub fn Rig() -> impl IntoView {
     let lab = session.lab;
     let moment = use_moment();
     let drawing = move || {
-        let plant = session.words.setup.with(|s| s.plant());
+        let plant = session.throttled.setup.with(|s| s.plant());
         drawing(lab, &plant, session.own.unit.get(), moment.get().as_ref())
     };
     let summary = move || moment.get().map(|moment| summary(lab, &moment, session.own.unit.get()));

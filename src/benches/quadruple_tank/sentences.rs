@@ -52,15 +52,15 @@ impl ZeroSituation {
 
 /// The situation of the plant in force.
 pub fn situation(session: Session) -> Option<ZeroSituation> {
-    let valves = session.words.setup.with(|s| s.valves);
-    session.words.with_analysis(|a| ZeroSituation::of(a, valves))
+    let valves = session.throttled.setup.with(|s| s.valves);
+    session.throttled.with_analysis(|a| ZeroSituation::of(a, valves))
 }
 
 /// The sentence under the drawing, and whether it is a warning.
 pub fn of_zero(session: Session) -> (String, bool) {
     let lab = session.lab;
     let style = lab.number_style();
-    let valves = session.words.setup.with(|s| s.valves);
+    let valves = session.throttled.setup.with(|s| s.valves);
     let (sum, off) = (valves[0] + valves[1], (valves[0] + valves[1] - 1.0).abs());
     // Enough digits to see on which side of 1.
     let sum = style.fixed(sum, if off < 0.005 { 5 } else { 2 });
@@ -86,7 +86,7 @@ pub fn of_zero(session: Session) -> (String, bool) {
 
 /// What walls and pumps do not allow at the operating point.
 pub fn of_equilibrium(session: Session) -> Vec<String> {
-    session.words.analysis.with(|outcome| match outcome.as_ref() {
+    session.throttled.analysis.with(|outcome| match outcome.as_ref() {
         Ok(analysis) => analysis.out_of_range.iter().map(|e| of_limit(session, e)).collect(),
         Err(StudyError { fault: StudyFault::Plant(PlantError::SingularPlant { .. }), .. }) => Vec::new(),
         Err(StudyError { fault: StudyFault::Plant(error), .. }) => vec![of_limit(session, error)],
@@ -127,7 +127,7 @@ pub fn of_direction(session: Session) -> String {
     let lab = session.lab;
     let style = lab.number_style();
     session
-        .words
+        .throttled
         .with_analysis(|analysis| match &analysis.zeros {
             Err(_) => tr!(lab, zeros.degenerate),
             Ok(_) => match analysis.rightmost_zero() {
@@ -158,7 +158,7 @@ pub fn of_stability(session: Session) -> (String, bool) {
     let lab = session.lab;
     let style = lab.number_style();
     session
-        .words
+        .throttled
         .with_analysis(|analysis| {
             let slowest = analysis.closed_loop.slowest();
             let number = |z: Complex| style.significant(z.re, 2);

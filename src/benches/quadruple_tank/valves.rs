@@ -27,7 +27,7 @@ pub fn ValvePlaneCard() -> impl IntoView {
     let for_menu = picture.clone();
     let title = say!(lab, valves.title);
     let summary = Signal::derive(move || {
-        let [g1, g2] = session.words.setup.with(|s| s.valves);
+        let [g1, g2] = session.throttled.setup.with(|s| s.valves);
         let style = lab.number_style();
         tr!(lab, valves.summary, gamma1 = style.fixed(g1, 2), gamma2 = style.fixed(g2, 2))
     });

@@ -36,8 +36,8 @@ fn integral(session: Session) -> Option<(String, String)> {
     if !matches!(situation(session), Some(ZeroSituation::Right(_))) {
         return None;
     }
-    let experiment = session.words.setup.with(|s| s.experiment.clone());
-    let integral = session.words.with_analysis(|a| a.interpolation_integral(&experiment)).flatten()?;
+    let experiment = session.throttled.setup.with(|s| s.experiment.clone());
+    let integral = session.throttled.with_analysis(|a| a.interpolation_integral(&experiment)).flatten()?;
     let unit = session.own.unit.get();
     let value = lab.number_style().significant(to_shown(integral, unit), 3);
     Some((value, format!("\u{a0}{}\u{a0}s", unit_name(unit))))

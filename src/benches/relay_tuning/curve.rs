@@ -130,14 +130,14 @@ fn CriticalHandle(frames: RwSignal<Vec<Frame>>, chosen: Signal<Option<(f64, f64)
 /// What bounds the gains in the chosen direction, and whether all is well.
 fn sentence(session: Session) -> (bool, String) {
     let lab = session.lab;
-    let study = session.words.study.get();
+    let study = session.throttled.study.get();
     let study = match study.as_ref() {
         Ok(study) => study,
         Err(error) => return (false, errors::sentence(lab, error)),
     };
     let style = lab.number_style();
-    let r = session.words.setup.with(|s| importance(s));
-    let unit = session.words.setup.with(|s| time_unit(&s.plant));
+    let r = session.throttled.setup.with(|s| importance(s));
+    let unit = session.throttled.setup.with(|s| time_unit(&s.plant));
     let mut sentence = match study.search.limit(importance_direction(&study.dc_gain, r)) {
         GainLimit::Oscillation(point) => {
             (true, tr!(lab, relay.ultimate, period = style.significant(point.period(), 4), unit = unit))
@@ -158,11 +158,11 @@ fn sentence(session: Session) -> (bool, String) {
 fn table(session: Session) -> Option<impl IntoView> {
     let lab = session.lab;
     let style = lab.number_style();
-    let unit = session.words.setup.with(|s| time_unit(&s.plant));
-    let study = session.words.study.get();
+    let unit = session.throttled.setup.with(|s| time_unit(&s.plant));
+    let study = session.throttled.study.get();
     let study = study.as_ref().as_ref().ok()?;
     let (gains, frequency, period) =
-        session.words.with_design(|design| (design.critical_gains, design.frequency, design.period()))?;
+        session.throttled.with_design(|design| (design.critical_gains, design.frequency, design.period()))?;
     let on_curve = study.search.nearest(gains);
     let number = |v: Option<f64>| v.map_or_else(|| "–".to_owned(), |v| style.significant(v, 4));
     let row = |name: String, chosen: f64, curve: Option<f64>| {

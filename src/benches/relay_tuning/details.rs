@@ -18,8 +18,8 @@ pub fn TestDetails() -> impl IntoView {
 }
 
 fn test_content(session: Session) -> AnyView {
-    let found = session.words.study.with(|study| {
-        session.words.test.with(|test| match (study.as_ref(), test.as_ref()) {
+    let found = session.throttled.study.with(|study| {
+        session.throttled.test.with(|test| match (study.as_ref(), test.as_ref()) {
             (Ok(study), Ok(Tested::Simultaneous(test, _))) => {
                 test.reading.oscillation.and_then(|of| study.recover(&of).ok())
             }
@@ -61,7 +61,7 @@ pub fn ControllerForms() -> impl IntoView {
 fn forms(session: Session) -> impl IntoView {
     let lab = session.lab;
     let columns = [&*tr!(lab, relay.col_root), "K", "Ti", "Td", "K′", "Ti′", "Td′"].map(str::to_owned).to_vec();
-    let rows = session.words.with_design(|design| {
+    let rows = session.throttled.with_design(|design| {
         let mut rows = Vec::new();
         for (k, root) in (1..).zip(&design.roots) {
             for (i, &pid) in root.controllers.iter().enumerate() {

@@ -48,7 +48,7 @@ pub fn response(session: Session, window: Signal<(f64, f64)>) -> Picture {
     let build = move |show: &mut dyn FnMut(&[quadtank_figure::Chart])| {
         let pinned = session.charts.pinned.get();
         let names: Vec<String> = (1..=pinned.len()).map(|number| tr!(lab, relay.row_pinned, number = number)).collect();
-        let rival = tr!(lab, relay.row_rival);
+        let compared = tr!(lab, relay.row_comparison);
         session.charts.design.with(|outcome| {
             let mut records: Vec<LoopsRecord> = pinned
                 .iter()
@@ -57,8 +57,8 @@ pub fn response(session: Session, window: Signal<(f64, f64)>) -> Picture {
                 .map(|(design, name)| drawn(&design.response.trace, name, Pen::Faded, false))
                 .collect();
             if let Ok(Some(Designed { response, comparison, .. })) = outcome.as_ref() {
-                let rivals = comparison.iter();
-                records.extend(rivals.map(|it| drawn(&it.response.trace, &rival, Pen::Dotted, false)));
+                let comparisons = comparison.iter();
+                records.extend(comparisons.map(|it| drawn(&it.response.trace, &compared, Pen::Dotted, false)));
                 records.push(drawn(&response.trace, "", Pen::Solid, false));
             }
             let references = session.charts.setup.with_untracked(|s| s.response.references);

@@ -175,8 +175,8 @@ fn TargetHandle(frames: RwSignal<Vec<Frame>>) -> impl IntoView {
 /// What the chosen root does, what to beware of, and whether all is well.
 fn sentence(session: Session) -> (bool, String) {
     let lab = session.lab;
-    let root = session.words.setup.with(|s| s.design.root);
-    let found = session.words.design.get();
+    let root = session.throttled.setup.with(|s| s.design.root);
+    let found = session.throttled.design.get();
     let design = match found.as_ref() {
         Ok(Some(design)) => design,
         Ok(None) => return (false, tr!(lab, relay.no_point)),
@@ -185,7 +185,7 @@ fn sentence(session: Session) -> (bool, String) {
     let chosen = &design.roots[(root - 1).min(1)];
     let style = lab.number_style();
     let mut text = match chosen.stability {
-        LoopStability::Stable => session.words.study.with(|study| {
+        LoopStability::Stable => session.throttled.study.with(|study| {
             let Ok(margins) = study.as_ref().as_ref().map_err(|&e| e).and_then(|study| study.margins(chosen)) else {
                 return String::new();
             };
@@ -230,9 +230,9 @@ fn of_warning(lab: Lab, warning: PlacementWarning) -> String {
 /// The gains of both roots.
 fn table(session: Session) -> impl IntoView {
     let lab = session.lab;
-    let chosen = session.words.setup.with(|s| s.design.root);
+    let chosen = session.throttled.setup.with(|s| s.design.root);
     let columns = [&*tr!(lab, relay.col_root), "kp", "ki", "kd"].map(str::to_owned).to_vec();
-    let rows = session.words.with_design(|design| {
+    let rows = session.throttled.with_design(|design| {
         let roots = (1..).zip(&design.roots);
         roots.flat_map(|(number, root)| rows_of_root(lab, number, root, chosen == number)).collect::<Vec<_>>()
     });

@@ -43,7 +43,7 @@ const BEHIND: ParamControl<TuningSetup> = ParamControl {
 pub fn PlantCard() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
-    let no_rig = session.told_part(|s| !matches!(s.plant, TuningPlant::QuadrupleTank { .. }));
+    let no_rig = session.throttled_part(|s| !matches!(s.plant, TuningPlant::QuadrupleTank { .. }));
     view! {
         <Card
             name="plant"
@@ -228,7 +228,7 @@ fn CaseSelect() -> impl IntoView {
     let choices = Signal::derive(move || {
         let chosen = session.own.case.get();
         let changed = chosen.is_some_and(|case| {
-            case.is_placement() && session.words.setup.with(|setup| **setup != TuningSetup::published(case))
+            case.is_placement() && session.throttled.setup.with(|setup| **setup != TuningSetup::published(case))
         });
         let one = |case: PublishedCase| {
             let text = name_of_case(lab, case);
@@ -257,13 +257,13 @@ fn CaseSelect() -> impl IntoView {
 /// What the plant is, in one line.
 fn remark(session: Session) -> String {
     let lab = session.lab;
-    let study = session.words.study.get();
+    let study = session.throttled.study.get();
     let gain = match study.as_ref() {
         Ok(study) => study.rga_11,
         Err(error) => return super::errors::sentence(lab, error),
     };
     let rga = gain.map_or_else(|| "∞".to_owned(), |gain| lab.number_style().fixed(gain, 3));
-    let source = session.words.setup.with(|s| match &s.plant {
+    let source = session.throttled.setup.with(|s| match &s.plant {
         TuningPlant::Published(PublishedPlant::WoodBerry) => tr!(lab, relay.remark_wood_berry),
         TuningPlant::Published(PublishedPlant::ProcessTwo) => tr!(lab, relay.remark_process_two),
         TuningPlant::QuadrupleTank { preset, .. } => preset.preset().source.to_owned(),
@@ -273,10 +273,10 @@ fn remark(session: Session) -> String {
     if gain.is_some_and(|gain| gain < 0.0) {
         text = text + " " + &tr!(lab, relay.negative_pairing);
     }
-    if session.words.setup.with(|s| rig(s).is_some_and(|(_, nonlinear)| nonlinear)) {
+    if session.throttled.setup.with(|s| rig(s).is_some_and(|(_, nonlinear)| nonlinear)) {
         text = text + " " + &tr!(lab, relay.nonlinear_remark);
     }
-    for warning in session.words.setup.with(|s| warnings(s)) {
+    for warning in session.throttled.setup.with(|s| warnings(s)) {
         if let TuningWarning::CoefficientOrder { field, read_as, reversed } = warning {
             let order = tr!(lab, relay.coefficient_order, field = field, read = read_as, reversed = reversed);
             text = text + " " + &order;

@@ -30,7 +30,7 @@ pub fn PrintedFigures() -> impl IntoView {
 /// Symbols across, printed and computed numbers below them.
 fn table(session: Session) -> Option<impl IntoView> {
     let (lab, case) = (session.lab, session.own.case.get()?);
-    let study = session.words.study.get();
+    let study = session.throttled.study.get();
     let figures = printed_figures(case, study.as_ref().as_ref().ok()?).ok()?;
     let style = lab.number_style();
     let symbols = figures.iter().map(|f| view! { <th scope="col">{f.printed.symbol}</th> }).collect_view();

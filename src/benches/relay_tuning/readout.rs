@@ -23,7 +23,7 @@ pub fn readout(
 
 fn at(session: Session, trace: &LoopTrace, time: f64) -> Readout {
     let style = session.lab.number_style();
-    let unit = session.words.setup.with(|s| time_unit(&s.plant));
+    let unit = session.throttled.setup.with(|s| time_unit(&s.plant));
     let row = trace.time.partition_point(|&t| t <= time).saturating_sub(1);
     let pair = |symbol: &str, columns: &[Vec<f64>; 2]| {
         [0, 1].map(|k| {

@@ -35,7 +35,7 @@ pub fn ResponseCard() -> impl IntoView {
     let picture = pictures::response(session, axis.window);
     let for_table = picture.clone();
     let values = readout(session, axis.cursor, move |show| {
-        session.words.with_design(|design| show(&design.response.trace));
+        session.throttled.with_design(|design| show(&design.response.trace));
     });
     let ids = ["response-zoom-in", "response-zoom-out", "response-zoom-reset"];
     let label = say!(lab, relay.response_cursor);
@@ -103,7 +103,7 @@ fn Settings() -> impl IntoView {
             id="decoupler"
             name=say!(lab, relay.decoupler)
             choices=Signal::derive(move || decouplers(lab))
-            chosen=Signal::derive(move || session.words.setup.with(|s| s.design.decoupler))
+            chosen=Signal::derive(move || session.throttled.setup.with(|s| s.design.decoupler))
             on_choose=move |chosen| session.edit(|s| s.design.decoupler = chosen)
             disabled=lab.locks(Control::Experiment)
         />
@@ -111,7 +111,7 @@ fn Settings() -> impl IntoView {
             id="compare"
             name=say!(lab, relay.compare)
             choices=Signal::derive(move || comparisons(session))
-            chosen=Signal::derive(move || session.words.setup.with(|s| s.response.compare))
+            chosen=Signal::derive(move || session.throttled.setup.with(|s| s.response.compare))
             on_choose=move |chosen| session.edit(|s| s.response.compare = chosen)
             disabled=lab.locks(Control::Experiment)
         />
@@ -137,7 +137,7 @@ fn comparisons(session: Session) -> Vec<Choice<CompareSpec>> {
         Choice::new(CompareSpec::TyreusLuyben, "tyreus-luyben", tr!(lab, relay.compare_tl)),
     ];
     // The full controller is known for one plant only.
-    if session.words.setup.with(|s| s.plant == TuningPlant::Published(PublishedPlant::WoodBerry)) {
+    if session.throttled.setup.with(|s| s.plant == TuningPlant::Published(PublishedPlant::WoodBerry)) {
         choices.push(Choice::new(CompareSpec::Full, "full", tr!(lab, relay.compare_full)));
     }
     choices
@@ -147,8 +147,8 @@ fn comparisons(session: Session) -> Vec<Choice<CompareSpec>> {
 fn sentence(session: Session) -> (bool, String) {
     let lab = session.lab;
     let style = lab.number_style();
-    let found = session.words.design.get();
-    let setup = session.words.setup.get();
+    let found = session.throttled.design.get();
+    let setup = session.throttled.setup.get();
     let design = match found.as_ref() {
         Ok(Some(design)) => design,
         Ok(None) => return (false, tr!(lab, relay.no_point)),
@@ -195,9 +195,9 @@ fn sentence(session: Session) -> (bool, String) {
     }
     if let Some(comparison) = &design.comparison {
         let sentence = match comparison.stability {
-            LoopStability::Stable => tr!(lab, relay.rival_stable),
-            LoopStability::NotComputed { .. } => tr!(lab, relay.rival_not_computed),
-            LoopStability::Unstable { .. } | LoopStability::Marginal { .. } => tr!(lab, relay.rival_unstable),
+            LoopStability::Stable => tr!(lab, relay.comparison_stable),
+            LoopStability::NotComputed { .. } => tr!(lab, relay.comparison_not_computed),
+            LoopStability::Unstable { .. } | LoopStability::Marginal { .. } => tr!(lab, relay.comparison_unstable),
         };
         text = text + " " + &sentence;
     }
@@ -207,7 +207,7 @@ fn sentence(session: Session) -> (bool, String) {
 /// Figures of both outputs: of the session, its comparison, and the pinned ones.
 fn table(session: Session) -> impl IntoView {
     let lab = session.lab;
-    let unit = session.words.setup.with(|s| time_unit(&s.plant));
+    let unit = session.throttled.setup.with(|s| time_unit(&s.plant));
     let columns = vec![
         tr!(lab, relay.col_output),
         tr!(lab, relay.col_overshoot),
@@ -216,14 +216,14 @@ fn table(session: Session) -> impl IntoView {
         "IAE".to_owned(),
     ];
     let mut rows = Vec::new();
-    session.words.with_design(|design| {
+    session.throttled.with_design(|design| {
         rows.extend(rows_of(session, &design.response));
         if let Some(comparison) = &design.comparison {
-            rows.push(group(tr!(lab, relay.row_rival)));
+            rows.push(group(tr!(lab, relay.row_comparison)));
             rows.extend(rows_of(session, &comparison.response));
         }
     });
-    for (k, pinned) in session.words.pinned.get().iter().enumerate() {
+    for (k, pinned) in session.throttled.pinned.get().iter().enumerate() {
         if let Ok(Some(design)) = pinned.result.as_ref() {
             rows.push(group(tr!(lab, relay.row_pinned, number = k + 1)));
             rows.extend(rows_of(session, &design.response));

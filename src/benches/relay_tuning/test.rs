@@ -123,7 +123,7 @@ pub fn TestCard() -> impl IntoView {
     let picture = pictures::test(session, axis.window);
     let for_table = picture.clone();
     let values = readout(session, axis.cursor, move |show| {
-        session.words.test.with(|outcome| {
+        session.throttled.test.with(|outcome| {
             if let Some(trace) = outcome.as_ref().as_ref().ok().and_then(record_of) {
                 show(trace);
             }
@@ -159,13 +159,14 @@ pub fn TestCard() -> impl IntoView {
 fn TakeOver() -> impl IntoView {
     let session = use_session();
     let take = move |_| {
-        let found = session.words.test.with_untracked(|outcome| outcome.as_ref().as_ref().ok().and_then(found_point));
+        let found =
+            session.throttled.test.with_untracked(|outcome| outcome.as_ref().as_ref().ok().and_then(found_point));
         if let Some(point) = found {
             session.edit(|s| s.design.critical = point);
         }
     };
     let nothing = Signal::derive(move || {
-        session.words.test.with(|outcome| outcome.as_ref().as_ref().ok().and_then(found_point).is_none())
+        session.throttled.test.with(|outcome| outcome.as_ref().as_ref().ok().and_then(found_point).is_none())
     });
     view! {
         <button
@@ -207,26 +208,26 @@ fn Settings() -> impl IntoView {
             write=|s, kind| s.test.kind = kind
             lock=Control::Test
         />
-        <div hidden=session.told_part(|s| s.test.kind != TestKind::Single)><SingleTest /></div>
-        <div hidden=session.told_part(|s| s.test.kind == TestKind::Single)><ParamRow session control=&RATIO /></div>
+        <div hidden=session.throttled_part(|s| s.test.kind != TestKind::Single)><SingleTest /></div>
+        <div hidden=session.throttled_part(|s| s.test.kind == TestKind::Single)><ParamRow session control=&RATIO /></div>
         // Amplitude of relay 1, or of relay 2 where that one is alone, and duration.
         <div class="pairs">
-            <div hidden=session.told_part(|s| is_idle(s, 1))><ParamRow session control=&AMPLITUDE index=0 /></div>
-            <div hidden=session.told_part(|s| !is_idle(s, 1))><ParamRow session control=&AMPLITUDE index=1 /></div>
+            <div hidden=session.throttled_part(|s| is_idle(s, 1))><ParamRow session control=&AMPLITUDE index=0 /></div>
+            <div hidden=session.throttled_part(|s| !is_idle(s, 1))><ParamRow session control=&AMPLITUDE index=1 /></div>
             <ParamRow session control=&DURATION />
         </div>
         <div class="pairs four">
-            <div hidden=session.told_part(|s| is_idle(s, 1))><ParamRow session control=&HYSTERESIS index=0 /></div>
-            <div hidden=session.told_part(|s| is_idle(s, 2))><ParamRow session control=&HYSTERESIS index=1 /></div>
-            <div hidden=session.told_part(|s| is_idle(s, 1))><ParamRow session control=&BIAS index=0 /></div>
-            <div hidden=session.told_part(|s| is_idle(s, 2))><ParamRow session control=&BIAS index=1 /></div>
+            <div hidden=session.throttled_part(|s| is_idle(s, 1))><ParamRow session control=&HYSTERESIS index=0 /></div>
+            <div hidden=session.throttled_part(|s| is_idle(s, 2))><ParamRow session control=&HYSTERESIS index=1 /></div>
+            <div hidden=session.throttled_part(|s| is_idle(s, 1))><ParamRow session control=&BIAS index=0 /></div>
+            <div hidden=session.throttled_part(|s| is_idle(s, 2))><ParamRow session control=&BIAS index=1 /></div>
         </div>
-        <div hidden=session.told_part(|s| !is_tuned(s.test.kind))><RuleSelect /></div>
-        <div class="pairs" hidden=session.told_part(|s| s.test.kind != TestKind::Independent)>
+        <div hidden=session.throttled_part(|s| !is_tuned(s.test.kind))><RuleSelect /></div>
+        <div class="pairs" hidden=session.throttled_part(|s| s.test.kind != TestKind::Independent)>
             <ParamRow session control=&DETUNING index=0 />
             <ParamRow session control=&DETUNING index=1 />
         </div>
-        <div class="pairs" hidden=session.told_part(|s| s.test.kind != TestKind::Sequential)>
+        <div class="pairs" hidden=session.throttled_part(|s| s.test.kind != TestKind::Sequential)>
             <ParamRow session control=&PASSES />
         </div>
         <Figures name="test-figures" caption=say!(lab, relay.test_caption)>{move || table(session)}</Figures>
@@ -255,7 +256,7 @@ fn SingleTest() -> impl IntoView {
         ]
     });
     // The modulus has a field of its own.
-    let behind = Signal::derive(move || match session.words.setup.with(|s| s.test.behind) {
+    let behind = Signal::derive(move || match session.throttled.setup.with(|s| s.test.behind) {
         Behind::Modulus(_) => Behind::Modulus(FIRST_MODULUS),
         other => other,
     });
@@ -276,7 +277,7 @@ fn SingleTest() -> impl IntoView {
             on_choose=move |behind| session.edit(|s| s.test.behind = behind)
             disabled=lab.locks(Control::Test)
         />
-        <div hidden=session.told_part(|s| !matches!(s.test.behind, Behind::Modulus(_)))>
+        <div hidden=session.throttled_part(|s| !matches!(s.test.behind, Behind::Modulus(_)))>
             <ParamRow session control=&MODULUS />
         </div>
     }
@@ -293,7 +294,7 @@ fn RuleSelect() -> impl IntoView {
             id="test-rule"
             name=say!(lab, relay.rule)
             choices=Signal::stored(choices)
-            chosen=Signal::derive(move || session.words.setup.with(|s| s.test.rule))
+            chosen=Signal::derive(move || session.throttled.setup.with(|s| s.test.rule))
             on_choose=move |rule| session.edit(|s| s.test.rule = rule)
             disabled=lab.locks(Control::Test)
         />

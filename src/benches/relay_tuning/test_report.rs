@@ -29,8 +29,8 @@ fn readings(test: &Tested) -> Vec<(String, RelayReading, Option<IsaPid>)> {
 pub fn sentence(session: Session) -> (bool, String) {
     let lab = session.lab;
     let style = lab.number_style();
-    let unit = session.words.setup.with(|s| time_unit(&s.plant));
-    session.words.test.with(|outcome| {
+    let unit = session.throttled.setup.with(|s| time_unit(&s.plant));
+    session.throttled.test.with(|outcome| {
         let test = match outcome.as_ref() {
             Ok(test) => test,
             Err(error) => return (false, errors::sentence(lab, error)),
@@ -87,9 +87,9 @@ pub fn sentence(session: Session) -> (bool, String) {
 /// Amplitudes and gains of every experiment, how far they are from the curve, and the settings that follow.
 pub fn table(session: Session) -> Option<impl IntoView> {
     let lab = session.lab;
-    let outcome = session.words.test.get();
+    let outcome = session.throttled.test.get();
     let test = outcome.as_ref().as_ref().ok()?;
-    let unit = session.words.setup.with(|s| time_unit(&s.plant));
+    let unit = session.throttled.setup.with(|s| time_unit(&s.plant));
     let columns = vec![
         tr!(lab, relay.col_loop),
         tr!(lab, relay.col_period, unit = unit),
@@ -115,7 +115,7 @@ pub fn table(session: Session) -> Option<impl IntoView> {
 fn rows(session: Session, test: &Tested) -> (Vec<AnyView>, Vec<AnyView>) {
     let style = session.lab.number_style();
     let number = |v: Option<f64>| v.map_or_else(|| "–".to_owned(), |v| style.significant(v, 4));
-    let second = session.words.setup.with(|s| s.test.kind == TestKind::Single && s.test.number == 2);
+    let second = session.throttled.setup.with(|s| s.test.kind == TestKind::Single && s.test.number == 2);
     let (mut rows, mut rules) = (Vec::new(), Vec::new());
     for (name, reading, settings) in readings(test) {
         let Some(oscillation) = reading.oscillation else { continue };

@@ -48,7 +48,7 @@ impl ValveMap {
         [t3, t4].map(|time_constant| time_constant.unwrap_or(0.0))
     }
 
-    /// The ways of both zeros (1/s) while both valves open by the same amount, along the line through the present
+    /// The paths of both zeros (1/s) while both valves open by the same amount, along the line through the present
     /// setting from edge to edge of the valve plane, in `points` steps. What has gone to infinity is left out.
     pub fn zero_paths(&self, points: usize) -> [Vec<Complex>; 2] {
         let [gamma_1, gamma_2] = self.plant.valves;
