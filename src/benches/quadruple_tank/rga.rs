@@ -8,9 +8,6 @@ use crate::widgets::{Caption, Card, Verdict, marked};
 use quadtank::interaction::{PairingReason, PairingVerdict};
 use quadtank::study::quadruple_tank::Analysis;
 
-/// Relative gains above this make a plant hard to control: some directions need far more input than others.
-const LARGE: f64 = 5.0;
-
 /// The relative gain array.
 #[component]
 pub fn RelativeGainCard() -> impl IntoView {
@@ -125,7 +122,7 @@ fn of_verdict(session: Session, verdict: PairingVerdict) -> String {
         PairingReason::EqualRelativeGains => String::new(),
         PairingReason::SingularGain => tr!(lab, rga.singular),
     };
-    let is_large = session.throttled.with_analysis(|a| a.rga_11.is_ok_and(|gain| gain.abs() > LARGE)) == Some(true);
+    let is_large = session.throttled.with_analysis(Analysis::has_large_relative_gains) == Some(true);
     format!("{lead}{rest}{}", if is_large { tr!(lab, rga.large) } else { String::new() })
 }
 

@@ -5,50 +5,10 @@ use leptos::prelude::*;
 use super::session::Session;
 use crate::errors::of_plant_error;
 use crate::texts::tr;
-use quadtank::linear::{Complex, LinearError, Stability};
+use quadtank::linear::{Complex, Stability};
 use quadtank::plant::PlantError;
-use quadtank::study::quadruple_tank::Analysis;
+use quadtank::study::quadruple_tank::{ZeroEffect, ZeroSituation};
 use quadtank::study::{StudyError, StudyFault};
-
-/// Which of its situations a plant is in, for the sentences and the colours.
-#[derive(Clone, Debug, PartialEq)]
-pub enum ZeroSituation {
-    /// Both finite zeros are in the left half-plane.
-    Left(f64),
-    /// One is in the right half-plane.
-    Right(f64),
-    /// One is at the origin.
-    Origin,
-    /// There is no finite zero.
-    NoFinite,
-    /// The two lower tanks do not interact, or nothing couples them.
-    Uncoupled,
-    /// det G(s) ≡ 0.
-    Degenerate,
-}
-
-impl ZeroSituation {
-    /// Reads the situation off an analysis.
-    pub fn of(analysis: &Analysis, valves: [f64; 2]) -> Self {
-        if valves == [1.0, 1.0] {
-            return Self::Uncoupled;
-        }
-        match &analysis.zeros {
-            Err(_) => Self::Degenerate,
-            Ok(_) => match (analysis.rightmost_zero(), &analysis.rga_11) {
-                (None, _) => Self::NoFinite,
-                (Some(_), Err(LinearError::SingularGain { .. })) => Self::Origin,
-                (Some(z), _) if z.value.re > 0.0 => Self::Right(z.value.re),
-                (Some(z), _) => Self::Left(z.value.re),
-            },
-        }
-    }
-
-    /// Whether this situation limits what control can do.
-    pub fn is_hard(&self) -> bool {
-        matches!(self, Self::Right(_) | Self::Origin | Self::Degenerate)
-    }
-}
 
 /// The situation of the plant in force.
 pub fn situation(session: Session) -> Option<ZeroSituation> {
@@ -81,7 +41,7 @@ pub fn of_zero(session: Session) -> (String, bool) {
             tr!(lab, process.degenerate, tank = tank, other = other)
         }
     };
-    (text, situation.is_hard())
+    (text, situation.limits_control())
 }
 
 /// What walls and pumps do not allow at the operating point.
@@ -119,9 +79,6 @@ pub fn of_rightmost(session: Session) -> String {
     }
 }
 
-/// A component below this share of a unit vector counts as none.
-const NO_PART: f64 = 0.05;
-
 /// The direction of the right-most zero, in words.
 pub fn of_direction(session: Session) -> String {
     let lab = session.lab;
@@ -135,16 +92,11 @@ pub fn of_direction(session: Session) -> String {
                 Some(zero) => {
                     let y: [f64; 2] = [zero.output_direction[0].re, zero.output_direction[1].re];
                     let lead = tr!(lab, zeros.direction, y1 = style.fixed(y[0], 2), y2 = style.fixed(y[1], 2));
-                    let rest = if zero.value.re < 0.0 {
-                        tr!(lab, zeros.easy)
-                    } else if y[1].abs() < NO_PART {
-                        tr!(lab, zeros.single, level = 1)
-                    } else if y[0].abs() < NO_PART {
-                        tr!(lab, zeros.single, level = 2)
-                    } else if y[0] * y[1] < 0.0 {
-                        tr!(lab, zeros.opposed)
-                    } else {
-                        tr!(lab, zeros.together)
+                    let rest = match ZeroEffect::of(zero) {
+                        ZeroEffect::Harmless => tr!(lab, zeros.easy),
+                        ZeroEffect::OneLevel { level } => tr!(lab, zeros.single, level = level + 1),
+                        ZeroEffect::Opposed => tr!(lab, zeros.opposed),
+                        ZeroEffect::Together => tr!(lab, zeros.together),
                     };
                     lead + &rest
                 }

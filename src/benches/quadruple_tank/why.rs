@@ -2,11 +2,12 @@
 
 use leptos::prelude::*;
 
-use super::sentences::{ZeroSituation, situation};
+use super::sentences::situation;
 use super::session::{Session, use_session};
 use crate::shown::{to_shown, unit_name};
 use crate::texts::{say, tr};
 use crate::widgets::{Card, Sentence};
+use quadtank::study::quadruple_tank::ZeroSituation;
 
 /// ∫ ηᵀe(t) e^(−zt) dt = ηᵀr/z for every stabilising controller.
 #[component]

@@ -13,7 +13,7 @@ use crate::start::Control;
 use crate::texts::{say, tr};
 use crate::widgets::{Figures, Nudge, PointHandle, Row, Scale, TableContent, first_frame};
 use quadtank::study::relay_tuning::{CriticalSpec, TuningSetup};
-use quadtank::tuning::{GainLimit, importance_direction};
+use quadtank::tuning::GainLimit;
 use quadtank_figure::Frame;
 
 /// Importances that the slider covers.
@@ -130,22 +130,21 @@ fn CriticalHandle(frames: RwSignal<Vec<Frame>>, chosen: Signal<Option<(f64, f64)
 /// What bounds the gains in the chosen direction, and whether all is well.
 fn sentence(session: Session) -> (bool, String) {
     let lab = session.lab;
-    let study = session.throttled.study.get();
-    let study = match study.as_ref() {
-        Ok(study) => study,
-        Err(error) => return (false, errors::sentence(lab, error)),
+    let reading = match session.throttled.critical.get() {
+        Ok(reading) => reading,
+        Err(error) => return (false, errors::sentence(lab, &error)),
     };
     let style = lab.number_style();
-    let r = session.throttled.setup.with(|s| importance(s));
     let unit = session.throttled.setup.with(|s| time_unit(&s.plant));
-    let mut sentence = match study.search.limit(importance_direction(&study.dc_gain, r)) {
+    let mut sentence = match reading.limit {
         GainLimit::Oscillation(point) => {
             (true, tr!(lab, relay.ultimate, period = style.significant(point.period(), 4), unit = unit))
         }
         GainLimit::RealPole { .. } => (false, tr!(lab, relay.real_pole)),
         GainLimit::None => (false, tr!(lab, relay.no_ultimate)),
     };
-    if let Some(corner) = study.curve.corners.first() {
+    let study = session.throttled.study.get();
+    if let Some(corner) = study.as_ref().as_ref().ok().and_then(|study| study.curve.corners.first()) {
         let [slow, quick] = corner.points.map(|point| style.significant(point.period(), 4));
         let importance = style.significant(corner.importance, 3);
         sentence.1 += " ";
@@ -159,11 +158,9 @@ fn table(session: Session) -> Option<impl IntoView> {
     let lab = session.lab;
     let style = lab.number_style();
     let unit = session.throttled.setup.with(|s| time_unit(&s.plant));
-    let study = session.throttled.study.get();
-    let study = study.as_ref().as_ref().ok()?;
+    let on_curve = session.throttled.critical.with(|reading| reading.as_ref().ok()?.on_curve);
     let (gains, frequency, period) =
         session.throttled.with_design(|design| (design.critical_gains, design.frequency, design.period()))?;
-    let on_curve = study.search.nearest(gains);
     let number = |v: Option<f64>| v.map_or_else(|| "–".to_owned(), |v| style.significant(v, 4));
     let row = |name: String, chosen: f64, curve: Option<f64>| {
         view! { <Row name figures=[number(Some(chosen)), number(curve)] /> }.into_any()

@@ -5,9 +5,8 @@ use leptos::prelude::*;
 use super::session::{Session, use_session};
 use crate::texts::{say, tr};
 use crate::widgets::{Folded, Row, TableContent};
-use quadtank::control::{IsaPid, ParallelPid, SeriesPid};
 use quadtank::linear::Complex;
-use quadtank::study::relay_tuning::{Recovered, Tested};
+use quadtank::study::relay_tuning::{ControllerForms, Recovered, Tested};
 
 /// What the test tells besides.
 #[component]
@@ -52,7 +51,7 @@ fn responses(session: Session, found: &Recovered) -> impl IntoView + use<> {
 
 /// The controllers of both roots in ISA and in series form (Campestrini 2006, eqs. 9 to 11).
 #[component]
-pub fn ControllerForms() -> impl IntoView {
+pub fn OtherForms() -> impl IntoView {
     let session = use_session();
     let summary = say!(session.lab, relay.forms);
     view! { <Folded id="gains-forms" summary caption=summary content=move || forms(session) /> }
@@ -64,9 +63,9 @@ fn forms(session: Session) -> impl IntoView {
     let rows = session.throttled.with_design(|design| {
         let mut rows = Vec::new();
         for (k, root) in (1..).zip(&design.roots) {
-            for (i, &pid) in root.controllers.iter().enumerate() {
+            for (i, &forms) in root.forms.iter().enumerate() {
                 let name = format!("{k}, p{}", ["₁", "₂"][i]);
-                let figures = figures_of_forms(session, pid);
+                let figures = figures_of_forms(session, forms);
                 rows.push(view! { <Row class=["loop1", "loop2"][i] name figures /> }.into_any());
             }
         }
@@ -76,10 +75,8 @@ fn forms(session: Session) -> impl IntoView {
 }
 
 /// K, Ti, Td of the ISA form, then of the series form.
-fn figures_of_forms(session: Session, pid: ParallelPid) -> Vec<String> {
+fn figures_of_forms(session: Session, ControllerForms { isa, series }: ControllerForms) -> Vec<String> {
     let style = session.lab.number_style();
-    let isa = IsaPid::from_parallel(pid);
-    let series = isa.and_then(SeriesPid::from_isa);
     let isa = isa.map(|isa| [isa.gain, isa.integral_time, isa.derivative_time]);
     let series = series.map(|series| [series.gain, series.integral_time, series.derivative_time]);
     let text = |value: Option<f64>| {

@@ -3,7 +3,7 @@
 use leptos::prelude::*;
 
 use super::controls::symbol;
-use super::details::ControllerForms;
+use super::details::OtherForms;
 use super::errors;
 use super::pictures::{self, short_name};
 use super::session::{Session, use_session};
@@ -15,7 +15,7 @@ use crate::texts::{say, tr};
 use crate::widgets::{Choice, Figures, Nudge, PointHandle, Row, Scale, Select, TableContent};
 use quadtank::linear::{Closure, LoopStability};
 use quadtank::study::relay_tuning::{DesignRoot, TuningSetup, rule_targets};
-use quadtank::tuning::{Action, PlacementMethod, PlacementWarning, TuningRule, dynamic_relative_gain};
+use quadtank::tuning::{Action, PlacementMethod, PlacementWarning, TuningRule};
 use quadtank_figure::Frame;
 
 /// Step of the arrow keys, and the grid of dragging.
@@ -52,7 +52,7 @@ pub fn PlacementCard() -> impl IntoView {
             place="chart square"
             overlay=move || view! { <svg class="over"><TargetHandle frames /></svg> }
             verdict=Signal::derive(move || sentence(session))
-            below=|| view! { <ControllerForms /> }
+            below=|| view! { <OtherForms /> }
         >
             <Settings />
         </Step>
@@ -185,11 +185,9 @@ fn sentence(session: Session) -> (bool, String) {
     let chosen = &design.roots[(root - 1).min(1)];
     let style = lab.number_style();
     let mut text = match chosen.stability {
-        LoopStability::Stable => session.throttled.study.with(|study| {
-            let Ok(margins) = study.as_ref().as_ref().map_err(|&e| e).and_then(|study| study.margins(chosen)) else {
-                return String::new();
-            };
-            let Some(margins) = margins else { return tr!(lab, relay.margins_not_computed) };
+        LoopStability::Stable => session.throttled.critical.with(|reading| {
+            let Ok(reading) = reading else { return String::new() };
+            let Some(margins) = reading.margins else { return tr!(lab, relay.margins_not_computed) };
             let distance = style.significant(margins.distance, 3);
             let degrees = margins.phase.map_or_else(|| "–".to_owned(), |p| style.fixed(p.to_degrees(), 0));
             let gain = margins.gain_up.map_or_else(|| "∞".to_owned(), |g| style.significant(g, 3));
@@ -205,7 +203,7 @@ fn sentence(session: Session) -> (bool, String) {
     for &warning in &chosen.warnings {
         text = text + " " + &of_warning(lab, warning);
     }
-    let gain = dynamic_relative_gain(&design.g);
+    let gain = design.dynamic_relative_gain_11;
     let sign = if gain.im < 0.0 { "−" } else { "+" };
     let gain = format!("{} {sign} {}j", style.fixed(gain.re, 3), style.fixed(gain.im.abs(), 3));
     text = text + " " + &tr!(lab, relay.dynamic_gain, gain = gain);

@@ -6,7 +6,7 @@ use leptos::prelude::*;
 use quadtank::literature::campestrini::{PublishedCase, PublishedPlant};
 use quadtank::study::PinnedResults;
 use quadtank::study::relay_tuning::{
-    DesignOutcome, Designed, PlantStudy, RelayTuningStudy, Results, Tested, TuningPlant, TuningSetup,
+    CriticalReading, DesignOutcome, Designed, PlantStudy, RelayTuningStudy, Results, Tested, TuningPlant, TuningSetup,
 };
 use quadtank::tuning::TuningError;
 use quadtank_scenario::tuning::TuningScenario;
@@ -34,6 +34,8 @@ pub struct Found {
     pub design: Memo<Arc<DesignOutcome>>,
     /// The pinned sessions, in the order of the document.
     pub pinned: Memo<PinnedResults<TuningSetup, DesignOutcome>>,
+    /// What is sought for texts: computed only where it is read.
+    pub critical: Memo<Result<CriticalReading, TuningError>>,
 }
 
 impl Found {
@@ -65,6 +67,7 @@ impl Bench for RelayTuning {
             test: part_of(results, |results| &results.test),
             design: part_of(results, |results| &results.design),
             pinned: part_of(results, |results| &results.pinned),
+            critical: Memo::new(move |_| results.with(CriticalReading::of)),
         }
     }
 

@@ -11,6 +11,9 @@ use crate::sim::Experiment;
 use super::{Prepared, Setup};
 use crate::study::StudyError;
 
+/// Relative gains above 5 to 10 make a plant hard to control (Skogestad and Postlethwaite 2005, §3.4).
+const LARGE_RELATIVE_GAIN: f64 = 5.0;
+
 /// All that linear theory says about a setup, at the exact equilibrium of its inputs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Analysis {
@@ -95,6 +98,11 @@ impl Analysis {
     pub fn rga(&self) -> Option<[[f64; 2]; 2]> {
         let lambda = *self.rga_11.as_ref().ok()?;
         Some([[lambda, 1.0 - lambda], [1.0 - lambda, lambda]])
+    }
+
+    /// Whether relative gains are so large that some directions need far more input than others: the plant is hard to control.
+    pub fn has_large_relative_gains(&self) -> bool {
+        self.rga_11.is_ok_and(|gain| gain.abs() > LARGE_RELATIVE_GAIN)
     }
 
     /// The right-most transmission zero, which limits the loops.

@@ -8,6 +8,7 @@ mod results;
 mod run;
 mod setup;
 mod valve_map;
+mod zero_situation;
 
 pub use analysis::{Analysis, analyse};
 pub use guaranteed_margins::GuaranteedMargins;
@@ -17,3 +18,4 @@ pub use results::{QuadrupleTankStudy, Results};
 pub use run::{Run, run};
 pub use setup::{OperatingPointSpec, PlantSpec, Setup};
 pub use valve_map::ValveMap;
+pub use zero_situation::{ZeroEffect, ZeroSituation};

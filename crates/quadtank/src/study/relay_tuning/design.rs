@@ -2,14 +2,14 @@ use std::f64::consts::TAU;
 
 use nalgebra::Matrix2;
 
-use crate::control::{ParallelPid, PidMatrix};
+use crate::control::{IsaPid, ParallelPid, PidMatrix, SeriesPid};
 use crate::interaction::{Decoupling, decoupled_paths, static_decoupler};
 use crate::linear::{Closure, Complex, DelayedPlant, Loci, LoopStability, Path};
 use crate::literature::campestrini::{PublishedPlant, wood_berry_full_controller};
 use crate::sim::{HeldPlant, LoopTrace, MAX_WORK, StepFigures, TwoLoops, run_two_loops_within};
 use crate::tuning::{
-    Action, Design, GainLimit, PlacementWarning, TuningError, TuningRule, UltimatePoint, importance_direction, propose,
-    response_at,
+    Action, Design, GainLimit, PlacementWarning, TuningError, TuningRule, UltimatePoint, dynamic_relative_gain,
+    importance_direction, propose, response_at,
 };
 
 use super::rig::nonlinear;
@@ -24,6 +24,8 @@ pub struct Designed {
     pub frequency: f64,
     /// G(jω) there.
     pub g: Matrix2<Complex>,
+    /// Relative gain λ11(jω) there.
+    pub dynamic_relative_gain_11: Complex,
     /// Root 1, with the larger controller in loop 1, and root 2.
     pub roots: [DesignRoot; 2],
     /// Characteristic loci at the critical gains, and with the chosen root, around the critical frequency.
@@ -39,12 +41,30 @@ pub struct Designed {
 pub struct DesignRoot {
     /// The controllers.
     pub controllers: [ParallelPid; 2],
+    /// The same in other forms.
+    pub forms: [ControllerForms; 2],
     /// What to beware of.
     pub warnings: Vec<PlacementWarning>,
     /// Whether the loop is stable.
     pub stability: LoopStability,
     /// How its loci close.
     pub closure: Closure,
+}
+
+/// A controller in the forms of other textbooks (Campestrini 2006, eqs. 9 to 11).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ControllerForms {
+    /// ISA; `None` where the proportional gain is 0.
+    pub isa: Option<IsaPid>,
+    /// Series; `None` where its zeros are complex.
+    pub series: Option<SeriesPid>,
+}
+
+impl From<ParallelPid> for ControllerForms {
+    fn from(pid: ParallelPid) -> Self {
+        let isa = IsaPid::from_parallel(pid);
+        Self { isa, series: isa.and_then(SeriesPid::from_isa) }
+    }
 }
 
 /// A response and the figures of both outputs in it.
@@ -105,7 +125,8 @@ impl PlantStudy {
         let root = |controllers: [ParallelPid; 2], warnings: Vec<PlacementWarning>| {
             let design = Design::new(&self.plant, PidMatrix::decentralised(controllers))?;
             let (stability, closure) = (design.stability(), design.closure());
-            Ok::<_, TuningError>(DesignRoot { controllers, warnings, stability, closure })
+            let forms = controllers.map(ControllerForms::from);
+            Ok::<_, TuningError>(DesignRoot { controllers, forms, warnings, stability, closure })
         };
         let roots = [root(one.controllers, one.warnings)?, root(two.controllers, two.warnings)?];
         let proportional = critical_gains.map(|proportional| ParallelPid { proportional, ..ParallelPid::default() });
@@ -118,7 +139,16 @@ impl PlantStudy {
         response.is_bounded &=
             may_stay_bounded(roots[spec.root - 1].stability) || spec.decoupler != DecouplerSpec::None;
         let comparison = self.comparison(setup, critical_gains, frequency)?;
-        Ok(Some(Designed { critical_gains, frequency, g, roots, loci, response, comparison }))
+        Ok(Some(Designed {
+            critical_gains,
+            frequency,
+            g,
+            dynamic_relative_gain_11: dynamic_relative_gain(&g),
+            roots,
+            loci,
+            response,
+            comparison,
+        }))
     }
 
     /// The response of the session with these controllers and its decoupler.

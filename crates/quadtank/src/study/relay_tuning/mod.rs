@@ -1,5 +1,6 @@
 //! The study of the relay-tuning bench: relay test, critical curve, placement of the critical point, response (Campestrini 2006).
 
+mod critical_reading;
 mod design;
 mod details;
 mod element;
@@ -12,7 +13,8 @@ mod setup;
 mod start;
 mod steady_state;
 
-pub use design::{Comparison, DesignRoot, Designed, StepResponse};
+pub use critical_reading::CriticalReading;
+pub use design::{Comparison, ControllerForms, DesignRoot, Designed, StepResponse};
 pub use details::Recovered;
 pub use element::{Element, ElementFault};
 pub use plant::TuningPlant;
