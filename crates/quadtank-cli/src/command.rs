@@ -15,10 +15,12 @@ use quadtank::study::quadruple_tank::{Setup, analyse, run, setup_of};
 use quadtank::study::relay_tuning::TuningSetup;
 use quadtank::tuning::TuningError;
 use quadtank_scenario::model_free::ModelFreeScenario;
+use quadtank_scenario::report::quadruple::AnalysisReport;
+use quadtank_scenario::report::tuning::TuningAnalysisReport;
 use quadtank_scenario::tuning::{TuningScenario, warnings};
 use quadtank_scenario::{
-    AnalysisReport, DOCUMENT_LIMIT, Document, Scenario, ScenarioError, check_length, document_from_bytes,
-    model_free_to_json, run_to_csv, schema_of, to_json, tuning_to_json,
+    DOCUMENT_LIMIT, Document, Scenario, ScenarioError, check_length, document_from_bytes, model_free_to_json,
+    run_to_csv, schema_of, to_json, tuning_to_json,
 };
 use serde::Serialize;
 use serde_json::Value;
@@ -210,8 +212,8 @@ fn execute(command: Command) -> Result<(), Failure> {
         Command::Analyse { source } => answer(
             &source,
             |setup| print_json(&AnalysisReport::from(&studied(&source.file, "setup", analyse(setup))?)),
-            |session| print_json(&tuned(&source.file, tune::analysis(session))?),
-            |setup| print_json(&model_free::analysis(setup)),
+            |session| print_by_key(&tuned(&source.file, TuningAnalysisReport::of(session))?),
+            |setup| print_by_key(&model_free::analysis(setup)),
         ),
         Command::Simulate { source, format } => answer(
             &source,
@@ -224,11 +226,11 @@ fn execute(command: Command) -> Result<(), Failure> {
             },
             |session| match format {
                 Format::Csv => print(&tuned(&source.file, tune::response_csv(session))?),
-                Format::Json => print_json(&tuned(&source.file, tune::report(session))?),
+                Format::Json => print_by_key(&tuned(&source.file, tune::report(session))?),
             },
             |setup| match format {
                 Format::Csv => print(&studied(&source.file, "model_free", model_free::csv(setup))?),
-                Format::Json => print_json(&studied(&source.file, "model_free", model_free::report(setup))?),
+                Format::Json => print_by_key(&studied(&source.file, "model_free", model_free::report(setup))?),
             },
         ),
         Command::Plot { source, svg, chart, picture, theme } => {
@@ -247,7 +249,7 @@ fn execute(command: Command) -> Result<(), Failure> {
             &source,
             |_| Err(Failure::NoTuning { file: file_name(&source.file) }),
             |session| match format {
-                Format::Json => print_json(&tuned(&source.file, tune::report(session))?),
+                Format::Json => print_by_key(&tuned(&source.file, tune::report(session))?),
                 Format::Csv => print(&tuned(&source.file, tune::test_csv(session))?),
             },
             |_| Err(Failure::NoTuning { file: file_name(&source.file) }),
@@ -346,6 +348,11 @@ fn file_name(file: &Path) -> String {
 fn print_json<T: Serialize>(value: &T) -> Result<(), Failure> {
     let text = serde_json::to_string_pretty(value).map_err(|error| cannot_print(error.into()))?;
     print(&(text + "\n"))
+}
+
+/// Prints a report of version 2 or 3, whose keys have always been in alphabetical order.
+fn print_by_key<T: Serialize>(report: &T) -> Result<(), Failure> {
+    print_json(&serde_json::to_value(report).map_err(|error| cannot_print(error.into()))?)
 }
 
 fn print_document(name: &str, text: Result<String, ScenarioError>) -> Result<(), Failure> {
