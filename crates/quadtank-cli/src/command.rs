@@ -29,6 +29,7 @@ use thiserror::Error;
 mod message;
 mod model_free;
 mod plot;
+mod report;
 mod tune;
 
 /// The quadruple-tank laboratory without a screen.
@@ -102,11 +103,19 @@ enum Command {
         #[arg(value_parser = case_of)]
         name: Option<Case>,
     },
-    /// Print the JSON Schema of the scenario
+    /// Print the JSON Schema of the scenario, or of what a command reports about it
     Schema {
-        /// Version of the document: 1 for the quadruple tank, 2 for relay tuning, 3 for model-free control
-        #[arg(long, default_value_t = Scenario::VERSION, value_parser = clap::value_parser!(u32).range(1..=3))]
+        /// Version of the document: 1 for the quadruple tank, 2 for relay tuning (all that tune knows), 3 for model-free control
+        #[arg(
+            long,
+            default_value_t = Scenario::VERSION,
+            default_value_if("report", "tune", "2"),
+            value_parser = clap::value_parser!(u32).range(1..=3)
+        )]
         version: u32,
+        /// The JSON that this command prints, in place of the scenario
+        #[arg(long, value_enum, value_name = "COMMAND")]
+        report: Option<report::Report>,
     },
 }
 
@@ -165,6 +174,8 @@ enum Failure {
     Tuning { file: String, error: TuningError },
     #[error("{file}: this command needs a relay-tuning session, version 2; a run of the quadruple tank is version 1")]
     NoTuning { file: String },
+    #[error("schema: tune reports on relay-tuning sessions alone, version 2; this is version {version}")]
+    NoReport { version: u32 },
     #[error("{file}: {error}")]
     File { file: String, error: io::Error },
 }
@@ -172,8 +183,8 @@ enum Failure {
 impl Failure {
     fn exit_code(&self) -> ExitCode {
         match self {
-            Self::Scenario { .. } | Self::Tuning { .. } | Self::NoTuning { .. } => ExitCode::from(2),
             Self::File { .. } => ExitCode::from(1),
+            _ => ExitCode::from(2),
         }
     }
 }
@@ -263,7 +274,10 @@ fn execute(command: Command) -> Result<(), Failure> {
         }
         Command::Presets { name: None } => print(&list_of_presets()),
         Command::Presets { name: Some(id) } => print_document(id.name(), to_json(&Scenario::from(setup_of(id)))),
-        Command::Schema { version } => print_json(&schema_of(version)),
+        Command::Schema { version, report: None } => print_json(&schema_of(version)),
+        Command::Schema { version, report: Some(report) } => {
+            print_json(&report.schema(version).ok_or(Failure::NoReport { version })?)
+        }
     }
 }
 

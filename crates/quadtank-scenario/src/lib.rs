@@ -35,4 +35,4 @@ pub use error::ScenarioError;
 pub use limits::Limits;
 pub use link::{LINK_LIMIT, document_from_link, model_free_to_link, to_link, tuning_to_link};
 #[cfg(feature = "schema")]
-pub use schema::schema_of;
+pub use schema::{schema_of, schema_of_report};
