@@ -22,7 +22,7 @@ const startAgain = () => {
   location.reload();
 };
 
-/** After a trap nothing of the page reacts; the notice that it keeps for this (src/app/stopped.rs) needs no program. */
+/** After a trap nothing of the page reacts; the notice that it keeps for this (src/stopped.rs) needs no program. */
 const stop = (error) => {
   if (!isFatal(error)) return;
   const notice = document.getElementById('stopped');

@@ -71,7 +71,7 @@ fn a_seed_gives_the_same_run_as_on_the_host() {
 
 #[wasm_bindgen_test]
 fn model_free_control_does_here_what_it_does_on_the_host() {
-    // Junqueira, Neves and Angelico from empty tanks, IAE of tank 1 (cm s), as in tests/junqueira/.
+    // Junqueira, Neves and Angelico from empty tanks, IAE of tank 1 (cm s), as in crates/quadtank/tests/published/junqueira.rs.
     for (valves, iae) in PublishedValves::ALL.into_iter().zip([190.3, 269.1, 207.2]) {
         let answer = run_model_free(&ModelFreeSetup::published(valves, PublishedExperiment::S1)).expect("empty tanks");
         let found = 100.0 * answer.figures[0].iae;

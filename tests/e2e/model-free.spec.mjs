@@ -157,8 +157,8 @@ test('every setting changes the run, and what cannot be is explained with nothin
   // T < 2 Ts; T no multiple of Ts; α̂ ≤ 0; γ(t) leaving [0, 1].
   await refused('free-window', '0.5', '1.00 to');
   await refused('free-window', '7.3', 'a multiple of 0.500');
-  await refused('free-alpha-number', '0', '0.000100 to 100');
-  await refused('free-alpha-number', '-0.1', '0.000100 to 100');
+  await refused('free-alpha-number', '0', '0.0000100 to 100');
+  await refused('free-alpha-number', '-0.1', '0.0000100 to 100');
   await lab.id('free-c').click();
   await lab.settle();
   last = await all();

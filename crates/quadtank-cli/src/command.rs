@@ -15,10 +15,12 @@ use quadtank::study::quadruple_tank::{Setup, analyse, run, setup_of};
 use quadtank::study::relay_tuning::TuningSetup;
 use quadtank::tuning::TuningError;
 use quadtank_scenario::model_free::ModelFreeScenario;
+use quadtank_scenario::report::quadruple::AnalysisReport;
+use quadtank_scenario::report::tuning::TuningAnalysisReport;
 use quadtank_scenario::tuning::{TuningScenario, warnings};
 use quadtank_scenario::{
-    AnalysisReport, BenchDocument, DOCUMENT_LIMIT, Document, Scenario, ScenarioError, check_length,
-    document_from_bytes, run_to_csv, schema_of, to_json,
+    BenchDocument, DOCUMENT_LIMIT, Document, Scenario, ScenarioError, check_length, document_from_bytes, run_to_csv,
+    schema_of, to_json,
 };
 use serde::Serialize;
 use serde_json::Value;
@@ -27,6 +29,7 @@ use thiserror::Error;
 mod message;
 mod model_free;
 mod plot;
+mod report;
 mod tune;
 
 /// The quadruple-tank laboratory without a screen.
@@ -100,11 +103,19 @@ enum Command {
         #[arg(value_parser = case_of)]
         name: Option<Case>,
     },
-    /// Print the JSON Schema of the scenario
+    /// Print the JSON Schema of the scenario, or of what a command reports about it
     Schema {
-        /// Version of the document: 1 for the quadruple tank, 2 for relay tuning, 3 for model-free control
-        #[arg(long, default_value_t = Scenario::VERSION, value_parser = clap::value_parser!(u32).range(1..=3))]
+        /// Version of the document: 1 for the quadruple tank, 2 for relay tuning (all that tune knows), 3 for model-free control
+        #[arg(
+            long,
+            default_value_t = Scenario::VERSION,
+            default_value_if("report", "tune", "2"),
+            value_parser = clap::value_parser!(u32).range(1..=3)
+        )]
         version: u32,
+        /// The JSON that this command prints, in place of the scenario
+        #[arg(long, value_enum, value_name = "COMMAND")]
+        report: Option<report::Report>,
     },
 }
 
@@ -163,6 +174,8 @@ enum Failure {
     Tuning { file: String, error: TuningError },
     #[error("{file}: this command needs a relay-tuning session, version 2; a run of the quadruple tank is version 1")]
     NoTuning { file: String },
+    #[error("schema: tune reports on relay-tuning sessions alone, version 2; this is version {version}")]
+    NoReport { version: u32 },
     #[error("{file}: {error}")]
     File { file: String, error: io::Error },
 }
@@ -170,8 +183,8 @@ enum Failure {
 impl Failure {
     fn exit_code(&self) -> ExitCode {
         match self {
-            Self::Scenario { .. } | Self::Tuning { .. } | Self::NoTuning { .. } => ExitCode::from(2),
             Self::File { .. } => ExitCode::from(1),
+            _ => ExitCode::from(2),
         }
     }
 }
@@ -210,8 +223,8 @@ fn execute(command: Command) -> Result<(), Failure> {
         Command::Analyse { source } => answer(
             &source,
             |setup| print_json(&AnalysisReport::from(&studied(&source.file, "setup", analyse(setup))?)),
-            |session| print_json(&tuned(&source.file, tune::analysis(session))?),
-            |setup| print_json(&model_free::analysis(setup)),
+            |session| print_by_key(&tuned(&source.file, TuningAnalysisReport::of(session))?),
+            |setup| print_by_key(&model_free::analysis(setup)),
         ),
         Command::Simulate { source, format } => answer(
             &source,
@@ -224,11 +237,11 @@ fn execute(command: Command) -> Result<(), Failure> {
             },
             |session| match format {
                 Format::Csv => print(&tuned(&source.file, tune::response_csv(session))?),
-                Format::Json => print_json(&tuned(&source.file, tune::report(session))?),
+                Format::Json => print_by_key(&tuned(&source.file, tune::report(session))?),
             },
             |setup| match format {
                 Format::Csv => print(&studied(&source.file, "model_free", model_free::csv(setup))?),
-                Format::Json => print_json(&studied(&source.file, "model_free", model_free::report(setup))?),
+                Format::Json => print_by_key(&studied(&source.file, "model_free", model_free::report(setup))?),
             },
         ),
         Command::Plot { source, svg, chart, picture, theme } => {
@@ -247,7 +260,7 @@ fn execute(command: Command) -> Result<(), Failure> {
             &source,
             |_| Err(Failure::NoTuning { file: file_name(&source.file) }),
             |session| match format {
-                Format::Json => print_json(&tuned(&source.file, tune::report(session))?),
+                Format::Json => print_by_key(&tuned(&source.file, tune::report(session))?),
                 Format::Csv => print(&tuned(&source.file, tune::test_csv(session))?),
             },
             |_| Err(Failure::NoTuning { file: file_name(&source.file) }),
@@ -261,7 +274,10 @@ fn execute(command: Command) -> Result<(), Failure> {
         }
         Command::Presets { name: None } => print(&list_of_presets()),
         Command::Presets { name: Some(id) } => print_document(id.name(), to_json(&Scenario::from(setup_of(id)))),
-        Command::Schema { version } => print_json(&schema_of(version)),
+        Command::Schema { version, report: None } => print_json(&schema_of(version)),
+        Command::Schema { version, report: Some(report) } => {
+            print_json(&report.schema(version).ok_or(Failure::NoReport { version })?)
+        }
     }
 }
 
@@ -346,6 +362,11 @@ fn file_name(file: &Path) -> String {
 fn print_json<T: Serialize>(value: &T) -> Result<(), Failure> {
     let text = serde_json::to_string_pretty(value).map_err(|error| cannot_print(error.into()))?;
     print(&(text + "\n"))
+}
+
+/// Prints a report of version 2 or 3, whose keys have always been in alphabetical order.
+fn print_by_key<T: Serialize>(report: &T) -> Result<(), Failure> {
+    print_json(&serde_json::to_value(report).map_err(|error| cannot_print(error.into()))?)
 }
 
 fn print_document(name: &str, text: Result<String, ScenarioError>) -> Result<(), Failure> {

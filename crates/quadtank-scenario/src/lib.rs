@@ -16,7 +16,7 @@ mod pack;
 pub mod params;
 mod path;
 mod reader;
-mod report;
+pub mod report;
 #[cfg(feature = "schema")]
 mod schema;
 mod setting;
@@ -31,6 +31,5 @@ pub use document::{BenchDocument, Scenario, View};
 pub use error::ScenarioError;
 pub use limits::Limits;
 pub use link::{LINK_LIMIT, document_from_link, to_link};
-pub use report::AnalysisReport;
 #[cfg(feature = "schema")]
-pub use schema::schema_of;
+pub use schema::{schema_of, schema_of_report};

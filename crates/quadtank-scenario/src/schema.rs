@@ -1,4 +1,5 @@
-//! The JSON Schema of documents: the shape from their types, what numbers are from their [rows](super::params).
+//! The JSON Schema of documents and [reports](super::report): the shape from their types, what numbers of documents are from their
+//! [rows](super::params).
 
 use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
@@ -14,10 +15,11 @@ type Object = Map<String, Value>;
 
 /// The JSON Schema of the documents of a version; `None` for one that is not known.
 pub fn schema_of(version: u32) -> Option<Value> {
+    let settings = SchemaSettings::draft2020_12();
     let mut schema = match version {
-        Scenario::VERSION => shape_of::<Scenario>(),
-        TuningScenario::VERSION => shape_of::<TuningScenario>(),
-        ModelFreeScenario::VERSION => shape_of::<ModelFreeScenario>(),
+        Scenario::VERSION => shape_of::<Scenario>(settings),
+        TuningScenario::VERSION => shape_of::<TuningScenario>(settings),
+        ModelFreeScenario::VERSION => shape_of::<ModelFreeScenario>(settings),
         _ => return None,
     };
     describe(&mut schema, "");
@@ -26,9 +28,17 @@ pub fn schema_of(version: u32) -> Option<Value> {
     Some(schema)
 }
 
-fn shape_of<T: JsonSchema>() -> Value {
+/// The JSON Schema of the [report](super::report) of a type.
+pub fn schema_of_report<R: JsonSchema>() -> Value {
+    let mut schema = shape_of::<R>(SchemaSettings::draft2020_12().for_serialize());
+    // No number of a report has a row: none is at this path.
+    describe(&mut schema, "report");
+    schema
+}
+
+fn shape_of<T: JsonSchema>(settings: SchemaSettings) -> Value {
     // Without references: one type stands at several places, whose numbers may have rows of their own.
-    let settings = SchemaSettings::draft2020_12().with(|settings| settings.inline_subschemas = true);
+    let settings = settings.with(|settings| settings.inline_subschemas = true);
     settings.into_generator().into_root_schema_for::<T>().to_value()
 }
 
@@ -36,6 +46,7 @@ fn shape_of<T: JsonSchema>() -> Value {
 fn describe(schema: &mut Value, path: &str) {
     let Some(object) = schema.as_object_mut() else { return };
     join_names(object);
+    name_null(object);
     limit(object, path);
     let described = object.get("description").cloned();
     if let Some(Value::Object(properties)) = object.get_mut("properties") {
@@ -81,6 +92,13 @@ fn limit(object: &mut Object, path: &str) {
     }
     if let Some(List { max, .. }) = List::at(path) {
         object.insert("maxItems".to_owned(), json!(max));
+    }
+}
+
+/// What documentation of Rust calls `None` is null in JSON.
+fn name_null(object: &mut Object) {
+    if let Some(Value::String(description)) = object.get_mut("description") {
+        *description = description.replace("`None`", "null");
     }
 }
 

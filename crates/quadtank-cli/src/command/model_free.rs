@@ -1,16 +1,11 @@
-//! The model-free law without a screen: what theory says of a run and what happens in it, as JSON, CSV or a picture.
+//! The model-free law without a screen: what theory says of a run and what happens in it, as a report, CSV or a picture.
 
-use quadtank::linear::Complex;
 use quadtank::literature::junqueira::{PublishedExperiment, PublishedValves};
-use quadtank::sim::{TrackingFigures, ZeroDynamicsEnd};
 use quadtank::study::StudyError;
-use quadtank::study::model_free::{ModelFreeSetup, Moment, analyse_model_free, run_model_free};
+use quadtank::study::model_free::{ModelFreeSetup, analyse_model_free, run_model_free};
 use quadtank_figure::{ModelFreeCourse, ModelFreeTexts, Size, Style, model_free_course, to_svg};
 use quadtank_scenario::model_free::run_to_csv;
-use serde_json::{Value, json};
-
-/// Steps along each side of the outline of the levels that can be held.
-const OUTLINE_STEPS: u32 = 8;
+use quadtank_scenario::report::model_free::{ModelFreeAnalysisReport, ModelFreeReport};
 
 /// The published cases by name: `junqueira-a-s1` and so on.
 pub fn published() -> impl Iterator<Item = (String, PublishedValves, PublishedExperiment)> {
@@ -22,63 +17,14 @@ pub fn published() -> impl Iterator<Item = (String, PublishedValves, PublishedEx
     })
 }
 
-fn complex(value: &Complex) -> Value {
-    json!({ "re": value.re, "im": value.im })
+/// What theory says at the references that the run ends with.
+pub fn analysis(setup: &ModelFreeSetup) -> ModelFreeAnalysisReport {
+    ModelFreeAnalysisReport::of(setup, &analyse_model_free(setup))
 }
 
-fn moment(of: &Moment) -> Value {
-    json!({
-        "valves": of.valves,
-        "zeros": of.zeros.as_ref().map_or_else(|error| json!(error), |zeros| zeros.iter().map(complex).collect()),
-        "rga_11": of.rga_11,
-        "niederlinski_diagonal": of.niederlinski[0],
-        "niederlinski_swapped": of.niederlinski[1],
-    })
-}
-
-/// What theory says at the references that the run ends with, with the valves where they come to rest.
-pub fn analysis(setup: &ModelFreeSetup) -> Value {
-    let found = analyse_model_free(setup);
-    json!({
-        "rest": found.rest.as_ref().map_or_else(|error| json!(error), |rest| json!(rest)),
-        "at_rest": found.moment.as_ref().map(moment),
-        "closed_loop": found.poles.map(|poles| match poles {
-            Ok(poles) => json!({
-                "stability": poles.stability,
-                "poles": poles.poles_s.iter().map(complex).collect::<Vec<_>>(),
-            }),
-            Err(error) => json!(error),
-        }),
-        "continuous_poles_without_estimator": found.continuous_poles.map(|poles| match poles {
-            Ok(poles) => json!(poles.iter().map(complex).collect::<Vec<_>>()),
-            Err(error) => json!(error),
-        }),
-        "smallest_model_gain": found.smallest_model_gain,
-        "smallest_model_gain_of_integrators": found.smallest_of_integrators,
-        "levels_in_range_of_the_pumps": setup.plant_at(setup.valves_rest_from_s()).feasible_outline(OUTLINE_STEPS),
-    })
-}
-
-fn ends(end: ZeroDynamicsEnd) -> Value {
-    match end {
-        ZeroDynamicsEnd::Pump { pump, after_s } => json!({ "pump_at_its_limit": pump + 1, "after_s": after_s }),
-        ZeroDynamicsEnd::Overflow { tank, after_s } => json!({ "tank_runs_over": tank + 1, "after_s": after_s }),
-    }
-}
-
-/// Figures of both loops, events, and what the zero dynamics foretell.
-pub fn report(setup: &ModelFreeSetup) -> Result<Value, StudyError> {
-    let found = run_model_free(setup)?;
-    let figures = |of: &[TrackingFigures; 2]| json!(of);
-    Ok(json!({
-        "figures": figures(&found.figures),
-        "comparison": found.comparison.as_ref().map(|(_, of)| figures(of)),
-        "predicted": found.predicted.map(|predicted| json!({
-            "from_s": predicted.from_s,
-            "ends": predicted.ends.map(ends),
-        })),
-        "events": found.run.trajectory.events,
-    }))
+/// What happens in the run.
+pub fn report(setup: &ModelFreeSetup) -> Result<ModelFreeReport, StudyError> {
+    Ok(ModelFreeReport::from(&run_model_free(setup)?))
 }
 
 /// The run, one row per sample.

@@ -1,22 +1,16 @@
-//! Relay tuning without a screen: what a session finds, as JSON, CSV or a picture.
+//! Relay tuning without a screen: what a session finds, as a report, CSV or a picture.
 
 use clap::ValueEnum;
-use quadtank::control::{IsaPid, ParallelPid};
-use quadtank::linear::{Closure, Complex, LinearError, Loci, LoopStability};
-use quadtank::sim::{Halt, LoopTrace, StepFigures};
-use quadtank::study::relay_tuning::{
-    Comparison, DesignRoot, Designed, PlantStudy, SteadyState, TestSpec, Tested, Tuning, TuningSetup, tune,
-};
-use quadtank::tuning::{
-    Corner, CurveDistance, CurvePoint, GainLimit, RelayReading, RelayVerdict, TestAndSettings, TuningError,
-    dynamic_relative_gain,
-};
+use quadtank::linear::Loci;
+use quadtank::sim::LoopTrace;
+use quadtank::study::relay_tuning::{Tested, Tuning, TuningSetup, tune};
+use quadtank::tuning::{GainLimit, TuningError};
 use quadtank_figure::{
     Chart, CurveChart, LociChart, LoopsChart, LoopsRecord, Pen, Size, Style, characteristic_loci, critical_curve,
     to_svg, two_loops,
 };
-use quadtank_scenario::tuning::{record_to_csv, response_to_csv, warnings};
-use serde_json::{Value, json};
+use quadtank_scenario::report::tuning::TuningReport;
+use quadtank_scenario::tuning::{record_to_csv, response_to_csv};
 
 /// What can be drawn of a session.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -31,218 +25,9 @@ pub enum Picture {
     Response,
 }
 
-/// Why a record ends before its time.
-const TOO_MUCH_WORK: &str = "not computed to its end, because the plant is too quick for so long a record: shorten the \
-                             duration, lengthen the step, or leave out quick poles";
-
-fn complex(value: Complex) -> Value {
-    json!({ "re": value.re, "im": value.im })
-}
-
-/// A 2 × 2 matrix by rows.
-fn rows<T>(entry: impl Fn(usize, usize) -> T) -> [[T; 2]; 2] {
-    [[entry(0, 0), entry(0, 1)], [entry(1, 0), entry(1, 1)]]
-}
-
-/// What follows from the plant alone.
-pub fn analysis(setup: &TuningSetup) -> Result<Value, TuningError> {
-    let steady_state = SteadyState::of(&setup.plant.transfer_matrix()?);
-    let curve = match PlantStudy::of(&setup.plant) {
-        // A loop without a gain of its own: the axes of the curve have no unit.
-        Err(TuningError::Linear(error @ LinearError::SingularGain { .. })) => Err(error),
-        study => Ok(study?.curve),
-    };
-    Ok(json!({
-        "dc_gain": rows(|row, column| steady_state.dc_gain[(row, column)]),
-        "rga_11": in_place(steady_state.rga_11.as_ref(), |gain| json!(gain)),
-        "niederlinski_diagonal": steady_state.niederlinski_diagonal,
-        "critical_curve": in_place(curve.as_ref(), |curve| curve.points.iter().map(point).collect()),
-        "corners": in_place(curve.as_ref(), |curve| curve.corners.iter().map(corner).collect()),
-        "warnings": warnings(setup),
-    }))
-}
-
-/// An answer, or the typed reason why there is none.
-fn in_place<T>(answer: Result<&T, &LinearError>, write: impl FnOnce(&T) -> Value) -> Value {
-    answer.map_or_else(|error| json!(error), write)
-}
-
-fn point(point: &CurvePoint) -> Value {
-    json!({ "angle_rad": point.angle, "limit": limit(&point.limit) })
-}
-
-fn corner(corner: &Corner) -> Value {
-    let [slow, quick] = corner.points;
-    json!({ "importance": corner.importance, "gains": slow.gains, "periods": [slow.period(), quick.period()] })
-}
-
-fn limit(limit: &GainLimit) -> Value {
-    match limit {
-        GainLimit::Oscillation(point) => {
-            json!({ "kind": "oscillation", "gains": point.gains, "period": point.period() })
-        }
-        GainLimit::RealPole { gains, .. } => json!({ "kind": "real-pole", "gains": gains }),
-        GainLimit::None => json!({ "kind": "none" }),
-    }
-}
-
 /// What test and design find.
-pub fn report(setup: &TuningSetup) -> Result<Value, TuningError> {
-    let found = tune(setup)?;
-    let design = found.design.as_ref().map(|design| designed(&found.study, design, setup)).transpose()?;
-    let test = tested(&found.study, &found.test, &setup.test)?;
-    Ok(json!({ "test": test, "design": design, "warnings": warnings(setup) }))
-}
-
-fn tested(study: &PlantStudy, test: &Tested, spec: &TestSpec) -> Result<Value, TuningError> {
-    Ok(match test {
-        Tested::Single(test, found) => {
-            let cycle = match test.reading.oscillation {
-                Some(oscillation) => study.exact_limit_cycle(spec, oscillation.period)?,
-                None => None,
-            };
-            let found = found.map(|point| {
-                json!({ "frequency": point.frequency, "modulus": point.modulus, "response": complex(point.response) })
-            });
-            let cycle = cycle.map(|c| json!({ "period": c.period, "amplitude": c.amplitude, "stable": c.is_stable() }));
-            json!({
-                "kind": "single",
-                "reading": reading(&test.reading),
-                "found": found,
-                "exact_limit_cycle": cycle,
-            })
-        }
-        Tested::Simultaneous(test, [by_peak, by_harmonic]) => {
-            let recovered = test.reading.oscillation.map(|of| study.recover(&of)).transpose()?;
-            json!({
-                "kind": "simultaneous",
-                "reading": reading(&test.reading),
-                "distance_by_peak": by_peak.map(distance),
-                "distance_by_harmonic": by_harmonic.map(distance),
-                "recovered_g": recovered.map(|g| rows(|row, column| complex(g.measured[(row, column)]))),
-                "exact_g": recovered.map(|g| rows(|row, column| complex(g.exact[(row, column)]))),
-            })
-        }
-        Tested::Independent(loops) => {
-            let of_loop = |(test, settings): &TestAndSettings| json!({ "reading": reading(&test.reading), "settings": settings.map(isa) });
-            json!({ "kind": "independent", "loops": loops.iter().map(of_loop).collect::<Vec<_>>() })
-        }
-        Tested::Sequential(steps) => {
-            let steps: Vec<Value> = steps
-                .iter()
-                .map(|step| {
-                    json!({
-                        "pass": step.pass,
-                        "loop": step.index + 1,
-                        "reading": reading(&step.test.reading),
-                        "settings": step.settings.map(isa),
-                    })
-                })
-                .collect();
-            json!({ "kind": "sequential", "steps": steps })
-        }
-    })
-}
-
-fn reading(reading: &RelayReading) -> Value {
-    let (verdict, detail) = match reading.verdict {
-        RelayVerdict::Unimodal => ("unimodal", Value::Null),
-        RelayVerdict::Multimodal { switches } => ("multimodal", json!({ "switches_per_period": switches })),
-        RelayVerdict::NotPeriodic => ("not-periodic", Value::Null),
-        RelayVerdict::Chattering { relay } => ("chattering", json!({ "loop": relay + 1 })),
-        RelayVerdict::NoOscillation => ("none", Value::Null),
-        RelayVerdict::Diverged => ("diverged", Value::Null),
-        RelayVerdict::Unfinished { time } => ("unfinished", json!({ "time": time, "reason": TOO_MUCH_WORK })),
-    };
-    let oscillation = reading.oscillation.map(|o| {
-        json!({
-            "period": o.period,
-            "amplitudes": o.loops.map(|l| l.amplitude),
-            "gains_by_peak": o.loops.map(|l| l.gain_by_peak),
-            "gains_by_harmonic": o.loops.map(|l| l.gain_by_harmonic),
-            "turn_rad": o.loops.map(|l| l.turn),
-            "is_proportional": o.is_proportional(),
-        })
-    });
-    json!({ "verdict": verdict, "detail": detail, "oscillation": oscillation })
-}
-
-fn distance(distance: CurveDistance) -> Value {
-    json!({ "excess": distance.excess, "curve_period": distance.period, "same_branch": distance.same_branch })
-}
-
-fn isa(pid: IsaPid) -> Value {
-    let integral_time = pid.integral_time.is_finite().then_some(pid.integral_time);
-    json!({ "gain": pid.gain, "integral_time": integral_time, "derivative_time": pid.derivative_time })
-}
-
-fn designed(study: &PlantStudy, design: &Designed, setup: &TuningSetup) -> Result<Value, TuningError> {
-    let [one, two] = &design.roots;
-    Ok(json!({
-        "frequency": design.frequency,
-        "g": rows(|row, column| complex(design.g[(row, column)])),
-        "dynamic_relative_gain_11": complex(dynamic_relative_gain(&design.g)),
-        "roots": [root(study, one)?, root(study, two)?],
-        "chosen": setup.design.root,
-        "figures": design.response.figures.map(figures),
-        "response_halted": design.response.trace.halt.map(halt),
-        "comparison": design.comparison.as_ref().map(comparison),
-    }))
-}
-
-/// The controllers that the design is compared with, row by input, and what they do.
-fn comparison(of: &Comparison) -> Value {
-    json!({
-        "controllers": of.controllers.0.map(|row| row.map(gains)),
-        "stability": stability(of.stability),
-        "figures": of.response.figures.map(figures),
-        "response_halted": of.response.trace.halt.map(halt),
-    })
-}
-
-fn gains(pid: ParallelPid) -> Value {
-    json!({ "kp": pid.proportional, "ki": pid.integral, "kd": pid.derivative })
-}
-
-/// Why stability or margins are not computed.
-const NOT_COMPUTED: &str = "the loci turn too often before the gain of the loop becomes small";
-
-fn stability(of: LoopStability) -> Value {
-    match of {
-        LoopStability::Stable => json!({ "stable": true }),
-        LoopStability::Unstable { poles } => json!({ "stable": false, "right_half_plane_poles": poles }),
-        LoopStability::Marginal { frequency } => json!({ "stable": false, "marginal_at": frequency }),
-        LoopStability::NotComputed { frequency } => {
-            json!({ "stable": null, "not_computed": NOT_COMPUTED, "gain_up_to": frequency })
-        }
-    }
-}
-
-fn root(study: &PlantStudy, root: &DesignRoot) -> Result<Value, TuningError> {
-    let margins = study.margins(root)?;
-    Ok(json!({
-        "controllers": root.controllers.map(gains),
-        "warnings": root.warnings,
-        "stability": stability(root.stability),
-        "margins_not_computed": margins.is_none().then_some(NOT_COMPUTED),
-        "distance_from_minus_one": margins.map(|m| m.distance),
-        "gain_margin": margins.and_then(|m| m.gain_up),
-        "lower_gain_margin": margins.and_then(|m| m.gain_down),
-        "phase_margin_rad": margins.and_then(|m| m.phase),
-        "closure": match root.closure { Closure::Separate => "separate", Closure::Joint => "joint" },
-    }))
-}
-
-fn figures(of: StepFigures) -> Value {
-    json!({ "overshoot": of.overshoot, "settling_time_2_percent": of.settling_time, "peak": of.peak, "iae": of.iae })
-}
-
-fn halt(halt: Halt) -> Value {
-    match halt {
-        Halt::Chattering { relay, time } => json!({ "kind": "chattering", "loop": relay + 1, "time": time }),
-        Halt::Diverged { time } => json!({ "kind": "diverged", "time": time }),
-        Halt::Full { time } => json!({ "kind": "full", "time": time, "reason": TOO_MUCH_WORK }),
-    }
+pub fn report(setup: &TuningSetup) -> Result<TuningReport, TuningError> {
+    TuningReport::of(setup, &tune(setup)?)
 }
 
 /// The record of the relay test; of several tests the last.

@@ -4,6 +4,7 @@ mod documents;
 mod elements;
 mod model_free;
 mod quadruple;
+mod reports;
 mod schema;
 mod set;
 mod tuning;

@@ -28,17 +28,23 @@ fn is_of(schema: &Value, name: &str) -> bool {
     schema["type"] == name || schema["type"].as_array().is_some_and(|names| names.iter().any(|of| of == name))
 }
 
+/// Asserts that every property of a schema has a description; how many there are.
+pub fn described(schema: &Value) -> usize {
+    let mut described = 0;
+    walk(schema, "", &mut |path, schema| {
+        for (name, property) in schema["properties"].as_object().into_iter().flatten() {
+            let words = property["description"].as_str().unwrap_or_default();
+            assert!(words.len() > 5, "{path}.{name} has no description");
+            described += 1;
+        }
+    });
+    described
+}
+
 #[test]
 fn every_property_is_described() {
     for schema in schemas() {
-        let mut described = 0;
-        walk(&schema, "", &mut |path, schema| {
-            for (name, property) in schema["properties"].as_object().into_iter().flatten() {
-                let words = property["description"].as_str().unwrap_or_default();
-                assert!(words.len() > 5, "{path}.{name} has no description");
-                described += 1;
-            }
-        });
+        let described = described(&schema);
         assert!(described > 30, "{described}");
     }
 }

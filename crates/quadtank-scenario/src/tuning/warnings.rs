@@ -7,6 +7,7 @@ use quadtank::study::relay_tuning::{Behind, CompareSpec, DecouplerSpec, Element,
 
 /// What a session may not have been meant to say. Nothing is refused for it.
 #[derive(Clone, Debug, PartialEq, Error, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(tag = "warning", rename_all = "kebab-case")]
 pub enum TuningWarning {
     /// The elements look as if the highest power of s had been written first.

@@ -11,7 +11,8 @@ use quadtank::plant::PlantError;
 use quadtank::sim::{Settling, Trajectory};
 use quadtank::study::quadruple_tank::{Analysis, OperatingPointSpec, Setup, ValveMap, analyse, run, setup_of};
 use quadtank::study::{StudyError, StudyFault};
-use quadtank_scenario::{AnalysisReport, BenchDocument, Scenario, from_json, limits};
+use quadtank_scenario::report::quadruple::AnalysisReport;
+use quadtank_scenario::{BenchDocument, Scenario, from_json, limits};
 use serde_json::Value;
 
 /// Bar of the project for zeros, poles, gains and relative gains (relative).

@@ -8,6 +8,7 @@ const ROUNDING: f64 = 1e-12;
 
 /// Which pairing the rules suggest, and why.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(tag = "pairing", content = "reason", rename_all = "kebab-case")]
 pub enum PairingVerdict {
     /// Level 1 – pump 1, level 2 – pump 2.
@@ -20,6 +21,7 @@ pub enum PairingVerdict {
 
 /// The rule that decided.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(tag = "rule", rename_all = "kebab-case")]
 pub enum PairingReason {
     /// The other pairing has a negative relative gain (Cocota 2009, §4.2.3: never pair on a negative relative gain).

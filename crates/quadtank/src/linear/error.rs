@@ -4,6 +4,7 @@ use thiserror::Error;
 
 /// What can be wrong with a linear model. Every variant carries the offending value.
 #[derive(Clone, Copy, Debug, PartialEq, Error, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(tag = "error", rename_all = "kebab-case")]
 pub enum LinearError {
     /// Matrices whose sizes do not fit together.

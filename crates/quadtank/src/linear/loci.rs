@@ -3,6 +3,7 @@
 //! A loop is given by its return ratio `L(jω) = G(jω) K(jω)` at real frequencies (rad per unit of time of the plant).
 
 use nalgebra::Matrix2;
+use serde::Serialize;
 
 use super::Complex;
 use crate::numeric::{root, square_root};
@@ -16,7 +17,9 @@ pub fn locus_values(ratio: &Matrix2<Complex>) -> [Complex; 2] {
 }
 
 /// How the loci close over all frequencies, from −∞ to ∞ (Campestrini 2006, Figs. 11 to 13).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case")]
 pub enum Closure {
     /// Each locus is a closed curve of its own.
     Separate,

@@ -12,6 +12,7 @@ pub const UNIT_CIRCLE_TOLERANCE: f64 = 1e-9;
 ///
 /// [`LoopStability`](super::LoopStability) is the verdict on loops with dead time in continuous time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum Stability {
     /// Every pole is inside the unit circle.

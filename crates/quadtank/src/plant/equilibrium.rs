@@ -11,6 +11,7 @@ pub const SINGULAR_MARGIN: f64 = 1e-9;
 
 /// Where the plant rests: the levels that given pump voltages hold, or the voltages that hold given lower levels.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct OperatingPoint {
     /// Levels h1…h4 (m).
     pub levels: [f64; 4],

@@ -3,6 +3,7 @@ use thiserror::Error;
 
 /// What can be wrong with a plant, an operating point or an input. Every variant carries the offending value, in SI.
 #[derive(Clone, Copy, Debug, PartialEq, Error, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(tag = "error", rename_all = "kebab-case")]
 pub enum PlantError {
     /// γ1 + γ2 = 1: the flows into the lower tanks are proportional, so no unique input holds two given levels

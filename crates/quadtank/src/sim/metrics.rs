@@ -9,9 +9,9 @@ use super::experiment::Experiment;
 use super::response::{NoResponse, Response, Settling};
 use super::trajectory::Trajectory;
 
-/// How one loop answered its first set-point step, within the window that [`loop_metrics`] describes; sums over the
-/// whole run.
+/// How one loop answered its first set-point step, within its window; sums over the whole run.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct LoopMetrics {
     /// Time of the step that the response figures refer to (s); `None` when this reference never moves.
     pub step_time_s: Option<f64>,

@@ -8,6 +8,7 @@ use super::trajectory::Trajectory;
 
 /// When a response stays within its band.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Settling {
     /// It settled this long after the step (s).
@@ -15,12 +16,13 @@ pub enum Settling {
         /// Seconds after the step.
         time_s: f64,
     },
-    /// It is still outside the band at the end of its window (see [`loop_metrics`](super::loop_metrics)).
+    /// It is still outside the band at the end of its window.
     Never,
 }
 
 /// Why a loop has no figures of a step response.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum NoResponse {
     /// The reference never moves.

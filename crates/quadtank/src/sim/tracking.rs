@@ -20,6 +20,7 @@ const HELD: usize = 20;
 /// How one level followed its reference, from samples: sums over all of them, the last included; figures of the response from
 /// the last step of this reference by more than 1 nm on.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct TrackingFigures {
     /// Σ |r − h| Ts (m s).
     pub iae: f64,

@@ -2,36 +2,39 @@ use serde::Serialize;
 
 /// Something that happened to a tank or a pump.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum EventKind {
     /// The level reached the top of the walls: water is lost.
     Overflow {
-        /// Index of the tank.
+        /// Index of the tank, from 0.
         tank: usize,
     },
     /// The tank ran dry.
     Empty {
-        /// Index of the tank.
+        /// Index of the tank, from 0.
         tank: usize,
     },
     /// The controller asked for more than the pump can do.
     Saturated {
-        /// Index of the pump.
+        /// Index of the pump, from 0.
         pump: usize,
     },
 }
 
 /// An event and when it first began.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Event {
     /// When (s).
     pub time_s: f64,
-    /// What.
+    /// What happened.
     pub kind: EventKind,
 }
 
 /// A run, by columns of equal length. Row k is at `time_s[k]`; inputs are those that hold from that time on.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Trajectory {
     /// Time (s).
     pub time_s: Vec<f64>,

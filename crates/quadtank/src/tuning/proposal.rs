@@ -32,6 +32,7 @@ pub enum Action {
 
 /// What to beware of with a pair of controllers (Campestrini 2006, §5.4 and its tables).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", tag = "warning")]
 pub enum PlacementWarning {
     /// A proportional gain has the sign that its loop alone does not want.

@@ -6,6 +6,7 @@ use serde::Serialize;
 ///
 /// A loop may well tolerate more. Ms = 2 gives 0.67 to 2 and 29°.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct GuaranteedMargins {
     /// Smallest factor on the gain.
     pub gain_min: f64,

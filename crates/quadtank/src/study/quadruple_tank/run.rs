@@ -9,6 +9,7 @@ use crate::study::{StudyError, whole};
 
 /// What happens in the experiment of a setup: the nonlinear plant, its linear model, and how the loops did.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Run {
     /// Metrics of loops 1 and 2 of the nonlinear run.
     pub metrics: [LoopMetrics; 2],

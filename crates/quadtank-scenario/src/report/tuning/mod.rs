@@ -1,0 +1,155 @@
+//! What a relay-tuning session finds, version 2. Times are in the unit of the plant, frequencies in rad per unit of time.
+
+mod design;
+mod test;
+
+use quadtank::linear::LinearError;
+use quadtank::study::relay_tuning::{PlantStudy, SteadyState, Tuning, TuningSetup};
+use quadtank::tuning::{Corner, CurvePoint, GainLimit, TuningError};
+use serde::Serialize;
+
+pub use design::{ComparisonReport, DesignReport, FiguresReport, Gains, HaltReport, LoopStabilityReport, RootReport};
+pub use test::{
+    DistanceReport, Found, LimitCycleReport, LoopTestReport, OscillationReport, ReadingReport, SequentialStepReport,
+    Settings, TestReport, Verdict, VerdictDetail,
+};
+
+use super::{Answer, rows};
+use crate::tuning::{TuningWarning, warnings};
+
+/// Why a record ends before its time.
+const TOO_MUCH_WORK: &str = "not computed to its end, because the plant is too quick for so long a record: shorten the \
+                             duration, lengthen the step, or leave out quick poles";
+
+/// What follows from the plant of a session alone.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct TuningAnalysisReport {
+    /// G(0), by rows (outputs per input).
+    pub dc_gain: [[f64; 2]; 2],
+    /// λ11 of the relative gain array at steady state (no unit); an error where G(0) is singular.
+    pub rga_11: Answer<f64>,
+    /// Niederlinski index of the diagonal pairing (no unit); null where it is not defined.
+    pub niederlinski_diagonal: Option<f64>,
+    /// The boundary of the stable gains of two proportional loops, from loop 1 alone to loop 2 alone; an error where a loop has
+    /// no gain of its own.
+    pub critical_curve: Answer<Vec<CurvePointReport>>,
+    /// Corners of that curve, in the same order.
+    pub corners: Answer<Vec<CornerReport>>,
+    /// What the session may not have been meant to say.
+    pub warnings: Vec<TuningWarning>,
+}
+
+/// One direction of the critical curve.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct CurvePointReport {
+    /// Angle in the plane of the normalised gains k1 g11(0), k2 g22(0) (rad, 0 to π/2).
+    pub angle_rad: f64,
+    /// What bounds the gains there.
+    pub limit: LimitReport,
+}
+
+/// What bounds the stable gains in a direction.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+pub enum LimitReport {
+    /// A pair of poles on the imaginary axis: an ultimate point.
+    Oscillation {
+        /// Gains kc1, kc2 of the loops (inputs per output).
+        gains: [f64; 2],
+        /// Period Tc of the oscillation (units of time).
+        period: f64,
+    },
+    /// A real pole at the origin: beyond it the loop drifts away without an oscillation.
+    RealPole {
+        /// Gains k1, k2 of the loops (inputs per output).
+        gains: [f64; 2],
+    },
+    /// Nothing: every gain is stable.
+    None,
+}
+
+/// Where both loci pass −1 at different frequencies.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct CornerReport {
+    /// Importance r2 of loop 2 (no unit).
+    pub importance: f64,
+    /// Gains kc1, kc2 of the loops (inputs per output).
+    pub gains: [f64; 2],
+    /// Both periods of the oscillation (units of time), the longer one first.
+    pub periods: [f64; 2],
+}
+
+/// What test and design of a session find.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct TuningReport {
+    /// The relay test.
+    pub test: TestReport,
+    /// The controllers; null where the critical curve has no ultimate point in the direction asked for.
+    pub design: Option<DesignReport>,
+    /// What the session may not have been meant to say.
+    pub warnings: Vec<TuningWarning>,
+}
+
+impl TuningAnalysisReport {
+    /// What the plant of a session says.
+    ///
+    /// # Errors
+    /// What is wrong with the plant. A loop without a gain of its own is told in place of the curve.
+    pub fn of(setup: &TuningSetup) -> Result<Self, TuningError> {
+        let steady_state = SteadyState::of(&setup.plant.transfer_matrix()?);
+        let curve = match PlantStudy::of(&setup.plant) {
+            // A loop without a gain of its own: the axes of the curve have no unit.
+            Err(TuningError::Linear(error @ LinearError::SingularGain { .. })) => Err(error),
+            study => Ok(study?.curve),
+        };
+        Ok(Self {
+            dc_gain: rows(&steady_state.dc_gain),
+            rga_11: Answer::of(&steady_state.rga_11, |gain| *gain),
+            niederlinski_diagonal: steady_state.niederlinski_diagonal,
+            critical_curve: Answer::of(&curve, |curve| curve.points.iter().map(CurvePointReport::from).collect()),
+            corners: Answer::of(&curve, |curve| curve.corners.iter().map(CornerReport::from).collect()),
+            warnings: warnings(setup),
+        })
+    }
+}
+
+impl From<&CurvePoint> for CurvePointReport {
+    fn from(point: &CurvePoint) -> Self {
+        Self { angle_rad: point.angle, limit: point.limit.into() }
+    }
+}
+
+impl From<GainLimit> for LimitReport {
+    fn from(limit: GainLimit) -> Self {
+        match limit {
+            GainLimit::Oscillation(point) => Self::Oscillation { gains: point.gains, period: point.period() },
+            GainLimit::RealPole { gains, .. } => Self::RealPole { gains },
+            GainLimit::None => Self::None,
+        }
+    }
+}
+
+impl From<&Corner> for CornerReport {
+    fn from(corner: &Corner) -> Self {
+        let [slow, quick] = corner.points;
+        Self { importance: corner.importance, gains: slow.gains, periods: [slow.period(), quick.period()] }
+    }
+}
+
+impl TuningReport {
+    /// The report of what a session finds.
+    ///
+    /// # Errors
+    /// As [`PlantStudy::margins`], [`PlantStudy::recover`] and [`PlantStudy::exact_limit_cycle`].
+    pub fn of(setup: &TuningSetup, found: &Tuning) -> Result<Self, TuningError> {
+        let design = |design| DesignReport::of(&found.study, design, setup.design.root);
+        let design = found.design.as_ref().map(design).transpose()?;
+        let test = TestReport::of(&found.study, &found.test, &setup.test)?;
+        Ok(Self { test, design, warnings: warnings(setup) })
+    }
+}
