@@ -2,6 +2,7 @@
 
 use clap::ValueEnum;
 use quadtank::study::quadruple_tank::Run;
+use quadtank_scenario::BenchDocument;
 use quadtank_scenario::model_free::ModelFreeScenario;
 use quadtank_scenario::report::model_free::{ModelFreeAnalysisReport, ModelFreeReport};
 use quadtank_scenario::report::quadruple::AnalysisReport;
