@@ -28,11 +28,11 @@ fn every_published_rig_is_analysed() {
         let setup = setup_of(id);
         let analysis = analyse(&setup).expect("a published rig has an operating point");
         let expected = relative_gain(setup.valves);
-        let found = analysis.rga_11.expect("no published rig is singular");
+        let found = analysis.linear.rga_11.expect("no published rig is singular");
         assert!((found - expected).abs() <= 1e-9 * expected.abs(), "{id:?}: λ11 = {found}, by hand {expected}");
 
         let gamma_sum: f64 = setup.valves.iter().sum();
-        let zero = analysis.rightmost_zero().expect("a published rig has two zeros").value.re;
+        let zero = analysis.linear.rightmost_zero().expect("a published rig has two zeros").value.re;
         assert_eq!(zero < 0.0, gamma_sum > 1.0, "{id:?}: right-most zero {zero}, γ1 + γ2 = {gamma_sum}");
     }
 }

@@ -45,8 +45,8 @@ fn numbered<'a>(name: &str, unit: &str, series: &'a [Vec<f64>]) -> impl Iterator
 
 /// Poles and zeros (1/s), one row each.
 pub fn roots_to_csv(analysis: &Analysis) -> String {
-    let poles = analysis.poles.iter().map(|&s| ("pole", s));
-    let zeros = analysis.zeros.iter().flatten().map(|z| ("transmission_zero", z.value));
+    let poles = analysis.linear.poles.iter().map(|&s| ("pole", s));
+    let zeros = analysis.linear.zeros.iter().flatten().map(|z| ("transmission_zero", z.value));
     let closed = analysis.closed_loop.poles_s.iter().map(|&s| ("closed_loop_pole", s));
     let row = |(kind, s): Root| format!("{kind},{},{}\n", s.re, s.im);
     "kind,real_per_s,imaginary_per_s\n".to_owned() + &poles.chain(zeros).chain(closed).map(row).collect::<String>()
@@ -86,7 +86,7 @@ mod tests {
     fn the_zeros_of_the_table_are_those_of_the_analysis() -> Result<(), Box<dyn std::error::Error>> {
         let analysis = analyse(&setup_of(PresetId::JohanssonNonMinimumPhase))?;
         let text = roots_to_csv(&analysis);
-        let zero = analysis.rightmost_zero().map_or(f64::NAN, |z| z.value.re);
+        let zero = analysis.linear.rightmost_zero().map_or(f64::NAN, |z| z.value.re);
         assert!(text.contains(&format!("transmission_zero,{zero},0\n")), "{text}");
         Ok(())
     }

@@ -10,7 +10,7 @@ use quadtank::study::quadruple_tank::ValveMap;
 use quadtank_figure::{
     self, Chart, ModelFreeCourse, ModelFreeTexts, PoleZero, PoleZeroTexts, ValvePlane, ValvePlaneTexts, with_valve_path,
 };
-use quadtank_scenario::model_free::{moment_to_csv, run_to_csv};
+use quadtank_scenario::model_free::{roots_to_csv, run_to_csv};
 use quadtank_scenario::valve_map_to_csv;
 
 /// The setting whose zero is shaded half way to the full colour.
@@ -109,13 +109,14 @@ pub fn valve_path(session: Session) -> Vec<[f64; 2]> {
 /// Poles and zeros as they are at the shown moment.
 pub fn zeros(session: Session) -> Picture {
     let lab = session.lab;
-    let csv = move || shown(session).map(|shown| moment_to_csv(&shown.theory)).unwrap_or_default();
+    let csv = move || {
+        shown(session).and_then(|shown| shown.theory.ok()).map(|plant| roots_to_csv(&plant)).unwrap_or_default()
+    };
     let build = move |show: &mut dyn FnMut(&[Chart])| {
-        let Some(shown) = shown(session) else { return show(&[]) };
-        let poles: Vec<Complex> = shown.theory.poles.iter().map(|&pole| Complex::new(pole, 0.0)).collect();
-        let zeros = shown.theory.zeros.unwrap_or_default();
+        let Some(Ok(plant)) = shown(session).map(|shown| shown.theory) else { return show(&[]) };
+        let zeros: Vec<Complex> = plant.zeros.iter().flatten().map(|zero| zero.value).collect();
         show(&[quadtank_figure::pole_zero(&PoleZero {
-            poles: &poles,
+            poles: &plant.poles,
             zeros: &zeros,
             zero_paths: &[],
             closed_loop: &[],

@@ -105,9 +105,9 @@ pub fn of_moment(session: Session) -> String {
     let style = lab.number_style();
     let Some(shown) = shown(session) else { return String::new() };
     let number = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |value| style.significant(value, 3));
-    let theory = &shown.theory;
-    let [diagonal, swapped] = theory.niederlinski.map(number);
-    let zero = match theory.rightmost_zero() {
+    let plant = shown.theory.as_ref().ok();
+    let [diagonal, swapped] = plant.map_or([None; 2], |plant| plant.niederlinski).map(number);
+    let zero = match plant.and_then(|plant| Some(plant.rightmost_zero()?.value.re)) {
         Some(zero) if zero > 0.0 => tr!(lab, free.zero_right, zero = style.significant(zero, 3)),
         Some(zero) if zero < 0.0 => tr!(lab, free.zero_left, zero = style.significant(zero, 3)),
         Some(_) => tr!(lab, free.zero_origin),
@@ -119,7 +119,7 @@ pub fn of_moment(session: Session) -> String {
         time = style.fixed(shown.time_s, 0),
         sum = style.fixed(shown.plant.valves.iter().sum(), 2),
         zero = zero,
-        rga = number(theory.rga_11),
+        rga = number(plant.and_then(|plant| plant.rga_11.ok())),
         diagonal = diagonal,
         swapped = swapped
     )

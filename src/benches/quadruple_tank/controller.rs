@@ -175,7 +175,7 @@ fn PairingSwitch() -> impl IntoView {
     let suggested = move || {
         session
             .throttled
-            .with_analysis(|a| match a.verdict {
+            .with_analysis(|a| match a.linear.verdict {
                 PairingVerdict::Diagonal(_) => Some(Pairing::Diagonal),
                 PairingVerdict::Swapped(_) => Some(Pairing::Swapped),
                 PairingVerdict::None(_) => None,

@@ -22,7 +22,7 @@ mod why;
 use leptos::prelude::*;
 
 use crate::start::Panel;
-pub use moment::Moment;
+pub use moment::RigState;
 use moment::provide_moment;
 pub use preset::name_of;
 pub use rig::{drawing, summary};

@@ -53,9 +53,9 @@ pub fn pole_zero(session: Session) -> Picture {
         let map = session.charts.setup.with_untracked(|setup| ValveMap::of(setup));
         let zero_paths = map.map(|m| m.zero_paths(PATH_POINTS)).unwrap_or_default();
         session.charts.with_analysis(|a| {
-            let zeros: Vec<Complex> = a.zeros.iter().flatten().map(|z| z.value).collect();
+            let zeros: Vec<Complex> = a.linear.zeros.iter().flatten().map(|z| z.value).collect();
             visit(&[quadtank_figure::pole_zero(&PoleZero {
-                poles: &a.poles,
+                poles: &a.linear.poles,
                 zeros: &zeros,
                 zero_paths: &zero_paths,
                 closed_loop: &a.closed_loop.poles_s,

@@ -56,8 +56,8 @@ fn summary(session: Session) -> String {
             tr!(
                 lab,
                 zeros.summary,
-                poles = list(&mut a.poles.iter().copied()),
-                zeros = list(&mut a.zeros.iter().flatten().map(|z| z.value)),
+                poles = list(&mut a.linear.poles.iter().copied()),
+                zeros = list(&mut a.linear.zeros.iter().flatten().map(|z| z.value)),
                 closed = list(&mut a.closed_loop.poles_s.iter().copied().filter(|z| z.im >= 0.0))
             )
         })

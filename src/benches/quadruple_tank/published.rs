@@ -73,14 +73,14 @@ fn rows(session: Session, preset: Option<&Preset>) -> Vec<Row> {
                 let exact = a.time_constants_s[tank].map_or_else(|| "0".to_owned(), |t| style.fixed(t, 2));
                 rows.push((name, exact, printed.map(|p| style.fixed(p.time_constants_s[tank], 0))));
             }
-            if let Ok(zeros) = &a.zeros {
+            if let Ok(zeros) = &a.linear.zeros {
                 for (k, zero) in zeros.iter().enumerate() {
                     let text = style.significant(zero.value.re, 4);
                     let source = printed.and_then(|p| p.zeros.get(k).map(|&z| style.significant(z, 2)));
                     rows.push((format!("z{} (1/s)", ["₁", "₂"].get(k).unwrap_or(&"")), text, source));
                 }
             }
-            let rga = a.rga_11.as_ref().map_or_else(|_| "∞".to_owned(), |l| style.fixed(*l, 4));
+            let rga = a.linear.rga_11.as_ref().map_or_else(|_| "∞".to_owned(), |l| style.fixed(*l, 4));
             rows.push(("λ₁₁".to_owned(), rga, printed.map(|p| style.significant(p.rga_11, 3))));
             rows
         })

@@ -3,7 +3,7 @@
 use leptos::prelude::*;
 
 use super::metrics::MetricsTable;
-use super::moment::{Moment, use_moment};
+use super::moment::{RigState, use_moment};
 use super::pictures;
 use super::session::{Session, use_session};
 use super::set_points::SetPoints;
@@ -135,7 +135,7 @@ fn time_axis(session: Session) -> TimeAxis {
 }
 
 /// A moment as it is shown at the cursor: time, both levels without their unit, both pump voltages.
-fn numbers(session: Session, m: &Moment) -> (String, [String; 2], [String; 2]) {
+fn numbers(session: Session, m: &RigState) -> (String, [String; 2], [String; 2]) {
     let lab = session.lab;
     let style = lab.number_style();
     let unit = session.own.unit.get();
@@ -144,7 +144,7 @@ fn numbers(session: Session, m: &Moment) -> (String, [String; 2], [String; 2]) {
     (style.fixed(m.time_s.unwrap_or(0.0), 0), [level(0), level(1)], [pump(0), pump(1)])
 }
 
-fn readout(session: Session, m: &Moment) -> Readout {
+fn readout(session: Session, m: &RigState) -> Readout {
     let (time, [h1, h2], [v1, v2]) = numbers(session, m);
     let u = unit_name(session.own.unit.get());
     Readout {
@@ -153,7 +153,7 @@ fn readout(session: Session, m: &Moment) -> Readout {
     }
 }
 
-fn spoken(session: Session, m: &Moment) -> String {
+fn spoken(session: Session, m: &RigState) -> String {
     let (time, [h1, h2], [v1, v2]) = numbers(session, m);
     let u = unit_name(session.own.unit.get());
     format!("t = {time} s: h₁ {h1} {u}, h₂ {h2} {u}, v₁ {v1} V, v₂ {v2} V")

@@ -6,14 +6,13 @@ use super::session::{Session, use_session};
 use crate::texts::{say, tr};
 use crate::widgets::{Caption, Card, Verdict, marked};
 use quadtank::interaction::{PairingReason, PairingVerdict};
-use quadtank::study::quadruple_tank::Analysis;
 
 /// The relative gain array.
 #[component]
 pub fn RelativeGainCard() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
-    let found = move || session.throttled.with_analysis(|a| a.verdict);
+    let found = move || session.throttled.with_analysis(|a| a.linear.verdict);
     let text = move || found().map_or_else(|| tr!(lab, process.no_equilibrium), |v| of_verdict(session, v));
     let warm = Signal::derive(move || matches!(found(), Some(PairingVerdict::None(_)) | None));
     let about = move || view! { <span class="remark">{say!(lab, rga.remark)}</span> };
@@ -50,8 +49,8 @@ fn gains(session: Session) -> impl IntoView {
 /// One relative gain; of the suggested pairing it is marked.
 fn gain(session: Session, row: usize, column: usize) -> impl IntoView {
     let lab = session.lab;
-    let gain = session.throttled.with_analysis(Analysis::rga).flatten().map(|gains| gains[row][column]);
-    let chosen = match session.throttled.with_analysis(|a| a.verdict) {
+    let gain = session.throttled.with_analysis(|a| a.linear.rga()).flatten().map(|gains| gains[row][column]);
+    let chosen = match session.throttled.with_analysis(|a| a.linear.verdict) {
         Some(PairingVerdict::Diagonal(_)) => row == column,
         Some(PairingVerdict::Swapped(_)) => row != column,
         _ => false,
@@ -69,7 +68,7 @@ fn gain(session: Session, row: usize, column: usize) -> impl IntoView {
 
 /// A relative gain that there is not: beyond all bounds, or 0/0 where the plant is singular at every frequency.
 fn unbounded(session: Session) -> String {
-    let is_degenerate = session.throttled.with_analysis(|a| a.zeros.is_err()) == Some(true);
+    let is_degenerate = session.throttled.with_analysis(|a| a.linear.zeros.is_err()) == Some(true);
     if is_degenerate { "–" } else { "∞" }.to_owned()
 }
 
@@ -77,7 +76,8 @@ fn unbounded(session: Session) -> String {
 fn formula(session: Session) -> impl IntoView {
     let lab = session.lab;
     let number = |v: f64| lab.number_style().at_least(v, 2);
-    let value = session.throttled.with_analysis(|a| a.rga_11.ok()).flatten().map_or_else(|| unbounded(session), number);
+    let value =
+        session.throttled.with_analysis(|a| a.linear.rga_11.ok()).flatten().map_or_else(|| unbounded(session), number);
     let [g1, g2] = session.throttled.setup.with(|s| s.valves);
     let [first, second] = [g1, g2].map(|gamma| lab.number_style().fixed(gamma, 2));
     let below = number(g1 + g2 - 1.0);
@@ -122,7 +122,7 @@ fn of_verdict(session: Session, verdict: PairingVerdict) -> String {
         PairingReason::EqualRelativeGains => String::new(),
         PairingReason::SingularGain => tr!(lab, rga.singular),
     };
-    let is_large = session.throttled.with_analysis(Analysis::has_large_relative_gains) == Some(true);
+    let is_large = session.throttled.with_analysis(|a| a.linear.has_large_relative_gains()) == Some(true);
     format!("{lead}{rest}{}", if is_large { tr!(lab, rga.large) } else { String::new() })
 }
 
@@ -132,7 +132,7 @@ fn of_niederlinski(session: Session) -> String {
     session
         .throttled
         .with_analysis(|a| {
-            let [diagonal, swapped] = a.niederlinski.map(number);
+            let [diagonal, swapped] = a.linear.niederlinski.map(number);
             tr!(lab, rga.niederlinski, diagonal = diagonal, swapped = swapped)
         })
         .unwrap_or_default()

@@ -3,7 +3,7 @@
 use crate::lab::Lab;
 use leptos::prelude::*;
 
-use super::moment::{Moment, use_moment};
+use super::moment::{RigState, use_moment};
 use super::session::use_session;
 use super::valves::{STEP, on_grid};
 use crate::shown::{length_digits, to_shown, unit_name};
@@ -53,7 +53,7 @@ pub fn Rig() -> impl IntoView {
 }
 
 /// The drawing in words.
-pub fn summary(lab: Lab, moment: &Moment, unit: DisplayUnit) -> String {
+pub fn summary(lab: Lab, moment: &RigState, unit: DisplayUnit) -> String {
     let style = lab.number_style();
     let [h1, h2, h3, h4] = moment.levels.map(|level| style.fixed(to_shown(level, unit), length_digits(unit)));
     let [v1, v2] = moment.pump_voltage.map(|voltage| style.fixed(voltage, 2));
@@ -64,7 +64,7 @@ pub fn summary(lab: Lab, moment: &Moment, unit: DisplayUnit) -> String {
 ///
 /// One view of the whole moment rather than a signal for each of its sixty attributes: all of them change together, and Leptos
 /// touches only those that do.
-pub fn drawing(lab: Lab, plant: &QuadrupleTank, unit: DisplayUnit, moment: Option<&Moment>) -> impl IntoView + use<> {
+pub fn drawing(lab: Lab, plant: &QuadrupleTank, unit: DisplayUnit, moment: Option<&RigState>) -> impl IntoView + use<> {
     let levels = moment.map_or([0.0; 4], |m| m.levels);
     view! {
         {PIPES.map(|d| view! { <path class="pipe" d=d /> })}
@@ -118,7 +118,7 @@ fn share(tank: &Tank, level: f64) -> f64 {
 }
 
 /// The water that runs: into each tank from its pump, and out of each tank.
-fn streams(plant: &QuadrupleTank, moment: &Moment) -> impl IntoView + use<> {
+fn streams(plant: &QuadrupleTank, moment: &RigState) -> impl IntoView + use<> {
     let most = plant.pumps.iter().map(|p| p.gain * p.voltage_max).fold(f64::MIN_POSITIVE, f64::max);
     let inflow = plant.valve_flows(&moment.pump_voltage, &Disturbance::default());
     let outflow = plant.outflows(&moment.levels);

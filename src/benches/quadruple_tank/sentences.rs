@@ -13,7 +13,7 @@ use quadtank::study::{StudyError, StudyFault};
 /// The situation of the plant in force.
 pub fn situation(session: Session) -> Option<ZeroSituation> {
     let valves = session.throttled.setup.with(|s| s.valves);
-    session.throttled.with_analysis(|a| ZeroSituation::of(a, valves))
+    session.throttled.with_analysis(|a| ZeroSituation::of(&a.linear, valves))
 }
 
 /// The sentence under the drawing, and whether it is a warning.
@@ -85,9 +85,9 @@ pub fn of_direction(session: Session) -> String {
     let style = lab.number_style();
     session
         .throttled
-        .with_analysis(|analysis| match &analysis.zeros {
+        .with_analysis(|analysis| match &analysis.linear.zeros {
             Err(_) => tr!(lab, zeros.degenerate),
-            Ok(_) => match analysis.rightmost_zero() {
+            Ok(_) => match analysis.linear.rightmost_zero() {
                 None => tr!(lab, zeros.none),
                 Some(zero) => {
                     let y: [f64; 2] = [zero.output_direction[0].re, zero.output_direction[1].re];

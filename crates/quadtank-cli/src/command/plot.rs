@@ -122,9 +122,9 @@ fn pole_zero(setup: &Setup, style: &Style) -> Result<String, StudyError> {
     /// Points along the way of a zero.
     const POINTS: usize = 200;
     let analysis = analyse(setup)?;
-    let zeros: Vec<_> = analysis.zeros.iter().flatten().map(|zero| zero.value).collect();
+    let zeros: Vec<_> = analysis.linear.zeros.iter().flatten().map(|zero| zero.value).collect();
     let chart = quadtank_figure::pole_zero(&PoleZero {
-        poles: &analysis.poles,
+        poles: &analysis.linear.poles,
         zeros: &zeros,
         zero_paths: &ValveMap::of(setup)?.zero_paths(POINTS),
         closed_loop: &analysis.closed_loop.poles_s,

@@ -1,17 +1,18 @@
 use std::fmt::Write as _;
 
 use quadtank::plant::OperatingPoint;
-use quadtank::study::model_free::{ModelFreeAnswer, ModelFreeSetup, Moment};
+use quadtank::study::LinearPlant;
+use quadtank::study::model_free::{ModelFreeAnswer, ModelFreeSetup};
 
-/// Poles and zeros of the moment (1/s).
-pub fn moment_to_csv(moment: &Moment) -> String {
+/// Poles and zeros of a plant (1/s).
+pub fn roots_to_csv(plant: &LinearPlant) -> String {
     let mut text = "kind,real_per_s,imaginary_per_s\n".to_owned();
     // Writing to a String cannot fail.
-    for pole in &moment.poles {
-        let _ = writeln!(text, "pole,{pole},0");
+    for pole in &plant.poles {
+        let _ = writeln!(text, "pole,{},{}", pole.re, pole.im);
     }
-    for zero in moment.zeros.iter().flatten() {
-        let _ = writeln!(text, "zero,{},{}", zero.re, zero.im);
+    for zero in plant.zeros.iter().flatten() {
+        let _ = writeln!(text, "zero,{},{}", zero.value.re, zero.value.im);
     }
     text
 }
@@ -40,8 +41,9 @@ pub fn run_to_csv(answer: &ModelFreeAnswer, setup: &ModelFreeSetup) -> String {
             levels: trajectory.levels.each_ref().map(of),
             pump_voltage: trajectory.pump_voltage.each_ref().map(of),
         };
-        let _ = match Moment::of(&setup.plant_at(time), &point).rightmost_zero() {
-            Some(zero) => writeln!(text, ",{zero}"),
+        let linear = LinearPlant::of(&setup.plant_at(time).linearise(&point)).ok();
+        let _ = match linear.as_ref().and_then(LinearPlant::rightmost_zero) {
+            Some(zero) => writeln!(text, ",{}", zero.value.re),
             None => writeln!(text, ","),
         };
     }

@@ -4,5 +4,5 @@ mod csv;
 mod document;
 mod validate;
 
-pub use csv::{moment_to_csv, run_to_csv};
+pub use csv::{roots_to_csv, run_to_csv};
 pub use document::ModelFreeScenario;

@@ -1,10 +1,12 @@
 //! What theory says of a setup of the model-free bench and what happens in its run, version 3.
 
 use quadtank::control::ModelFreePoles;
+use quadtank::linear::LinearError;
 use quadtank::linear::Stability;
 use quadtank::plant::{OperatingPoint, PlantError};
 use quadtank::sim::{Event, TrackingFigures, ZeroDynamicsEnd};
-use quadtank::study::model_free::{ModelFreeAnalysis, ModelFreeAnswer, ModelFreeSetup, Moment, PredictedLoss};
+use quadtank::study::LinearPlant;
+use quadtank::study::model_free::{ModelFreeAnalysis, ModelFreeAnswer, ModelFreeSetup, PredictedLoss};
 use serde::Serialize;
 
 use super::{Answer, ComplexNumber, complex_numbers};
@@ -110,7 +112,7 @@ impl ModelFreeAnalysisReport {
         let plant = setup.plant_at(setup.valves_rest_from_s());
         Self {
             rest: Answer::of(&found.rest, |rest| *rest),
-            at_rest: found.moment.as_ref().map(MomentReport::from),
+            at_rest: found.linear.as_ref().map(|linear| MomentReport::of(plant.valves, linear)),
             closed_loop: found.poles.as_ref().map(|poles| Answer::of(poles, LoopPoles::from)),
             continuous_poles_without_estimator: found
                 .continuous_poles
@@ -123,13 +125,15 @@ impl ModelFreeAnalysisReport {
     }
 }
 
-impl From<&Moment> for MomentReport {
-    fn from(moment: &Moment) -> Self {
-        let [niederlinski_diagonal, niederlinski_swapped] = moment.niederlinski;
+impl MomentReport {
+    fn of(valves: [f64; 2], linear: &Result<LinearPlant, LinearError>) -> Self {
+        let plant = linear.as_ref().ok();
+        let [niederlinski_diagonal, niederlinski_swapped] = plant.map_or([None; 2], |plant| plant.niederlinski);
+        let zeros = linear.as_ref().map_err(|&error| error).and_then(|plant| plant.zeros.clone());
         Self {
-            valves: moment.valves,
-            zeros: Answer::of(&moment.zeros, |zeros| complex_numbers(zeros)),
-            rga_11: moment.rga_11,
+            valves,
+            zeros: Answer::of(&zeros, |zeros| zeros.iter().map(|zero| zero.value.into()).collect()),
+            rga_11: plant.and_then(|plant| plant.rga_11.ok()),
             niederlinski_diagonal,
             niederlinski_swapped,
         }

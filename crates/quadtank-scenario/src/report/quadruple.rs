@@ -91,18 +91,18 @@ pub struct ClosedLoopReport {
 
 impl From<&Analysis> for AnalysisReport {
     fn from(analysis: &Analysis) -> Self {
-        let [diagonal, swapped] = analysis.niederlinski;
+        let [diagonal, swapped] = analysis.linear.niederlinski;
         Self {
             operating_point: analysis.operating_point,
             out_of_range: analysis.out_of_range.clone(),
             time_constants_s: analysis.time_constants_s,
-            model: LinearModel::from(&analysis.model),
-            poles: complex_numbers(&analysis.poles),
-            zeros: Answer::of(&analysis.zeros, |zeros| zeros.iter().map(Zero::from).collect()),
-            dc_gain: analysis.dc_gain,
-            rga_11: Answer::of(&analysis.rga_11, |gain| *gain),
+            model: LinearModel::from(&analysis.linear.model),
+            poles: complex_numbers(&analysis.linear.poles),
+            zeros: Answer::of(&analysis.linear.zeros, |zeros| zeros.iter().map(Zero::from).collect()),
+            dc_gain: analysis.linear.dc_gain,
+            rga_11: Answer::of(&analysis.linear.rga_11, |gain| *gain),
             niederlinski: ByPairing { diagonal, swapped },
-            suggestion: analysis.verdict,
+            suggestion: analysis.linear.verdict,
             closed_loop: ClosedLoopReport::from(&analysis.closed_loop),
         }
     }

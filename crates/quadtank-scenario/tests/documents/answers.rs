@@ -48,16 +48,16 @@ fn the_presets_are_analysed_as_the_oracle_does() {
         assert_all_close(&analysis.operating_point.levels, &expected["levels"], tolerance);
         assert_all_close(&analysis.operating_point.pump_voltage, &expected["pump_voltage"], tolerance);
         assert_all_close(&analysis.time_constants_s.map(Option::unwrap), &expected["time_constants"], tolerance);
-        let zeros: Vec<f64> = analysis.zeros.unwrap().iter().map(|zero| zero.value.re).collect();
+        let zeros: Vec<f64> = analysis.linear.zeros.unwrap().iter().map(|zero| zero.value.re).collect();
         assert_all_close(&zeros, &expected["zeros"], tolerance);
-        let mut poles: Vec<f64> = analysis.poles.iter().map(|pole| pole.re).collect();
+        let mut poles: Vec<f64> = analysis.linear.poles.iter().map(|pole| pole.re).collect();
         poles.sort_by(f64::total_cmp);
         let mut expected_poles = numbers(&expected["poles"]);
         expected_poles.sort_by(f64::total_cmp);
         assert_all_close(&poles, &expected_poles.into(), tolerance);
-        assert_all_close(analysis.dc_gain.as_flattened(), &expected["dc_gain"], tolerance);
-        assert_all_close(&[analysis.rga_11.unwrap()], &expected["rga_11"], tolerance);
-        let niederlinski = analysis.niederlinski.map(Option::unwrap);
+        assert_all_close(analysis.linear.dc_gain.as_flattened(), &expected["dc_gain"], tolerance);
+        assert_all_close(&[analysis.linear.rga_11.unwrap()], &expected["rga_11"], tolerance);
+        let niederlinski = analysis.linear.niederlinski.map(Option::unwrap);
         assert_all_close(&niederlinski[..1], &expected["niederlinski_diagonal"], tolerance);
         assert_all_close(&niederlinski[1..], &expected["niederlinski_swapped"], tolerance);
     }
@@ -67,7 +67,7 @@ fn the_presets_are_analysed_as_the_oracle_does() {
 #[test]
 fn the_presets_are_analysed_as_printed() {
     let close = |found: f64, printed: f64, unit: f64| assert!((found - printed).abs() <= unit, "{found} for {printed}");
-    let rga = |id: PresetId| analyse(&setup_of(id)).unwrap().rga_11.unwrap();
+    let rga = |id: PresetId| analyse(&setup_of(id)).unwrap().linear.rga_11.unwrap();
     close(rga(PresetId::JohanssonMinimumPhase), 1.40, 0.005);
     close(rga(PresetId::JohanssonNonMinimumPhase), -0.64, 0.005);
     close(rga(PresetId::CocotaMinimumPhase), 1.125, 0.0005);
@@ -82,7 +82,7 @@ fn the_presets_are_analysed_as_printed() {
         (PresetId::JunqueiraA, [-0.04597, -0.00919], 0.5e-5),
         (PresetId::JunqueiraB, [-0.04597, 0.00919], 0.5e-5),
     ] {
-        let zeros = analyse(&setup_of(id)).unwrap().zeros.unwrap();
+        let zeros = analyse(&setup_of(id)).unwrap().linear.zeros.unwrap();
         for (zero, printed) in zeros.iter().zip(printed) {
             close(zero.value.re, printed, unit);
         }
@@ -99,7 +99,7 @@ fn the_pairing_follows_the_line_between_the_phases() {
         (PresetId::JunqueiraA, Pairing::Diagonal),
         (PresetId::JunqueiraB, Pairing::Swapped),
     ] {
-        let verdict = analyse(&setup_of(id)).unwrap().verdict;
+        let verdict = analyse(&setup_of(id)).unwrap().linear.verdict;
         let reason = match (verdict, pairing) {
             (PairingVerdict::Diagonal(reason), Pairing::Diagonal)
             | (PairingVerdict::Swapped(reason), Pairing::Swapped) => reason,
@@ -182,9 +182,9 @@ fn johansson(valves: [f64; 2]) -> Setup {
 #[test]
 fn on_the_line_the_gain_is_singular_and_a_zero_is_at_the_origin() {
     let analysis = analyse(&johansson([0.625, 0.375])).unwrap();
-    assert!(matches!(analysis.rga_11, Err(LinearError::SingularGain { .. })), "{:?}", analysis.rga_11);
-    assert_eq!(analysis.verdict, PairingVerdict::None(PairingReason::SingularGain));
-    let rightmost = analysis.zeros.unwrap().last().unwrap().value;
+    assert!(matches!(analysis.linear.rga_11, Err(LinearError::SingularGain { .. })), "{:?}", analysis.linear.rga_11);
+    assert_eq!(analysis.linear.verdict, PairingVerdict::None(PairingReason::SingularGain));
+    let rightmost = analysis.linear.zeros.unwrap().last().unwrap().value;
     assert!(rightmost.norm() < 1e-12, "{rightmost}");
     let at_levels = Setup { operating_point: OperatingPointSpec::Levels([0.1, 0.1]), ..johansson([0.625, 0.375]) };
     let expected =
@@ -196,7 +196,7 @@ fn on_the_line_the_gain_is_singular_and_a_zero_is_at_the_origin() {
 #[test]
 fn in_two_corners_the_plant_is_singular_for_every_s() {
     for valves in [[1.0, 0.0], [0.0, 1.0]] {
-        let zeros = analyse(&johansson(valves)).unwrap().zeros;
+        let zeros = analyse(&johansson(valves)).unwrap().linear.zeros;
         assert_eq!(zeros, Err(LinearError::DegenerateRank { rank: 1, size: 2 }), "{valves:?}");
         assert_eq!(ValveMap::of(&johansson(valves)).unwrap().rightmost_zero(valves), None);
     }
@@ -225,7 +225,7 @@ fn an_operating_point_given_by_levels_is_that_of_its_voltages() {
 fn the_valve_map_has_the_zeros_of_the_model() {
     let map = ValveMap::of(&johansson([0.7, 0.6])).unwrap();
     for valves in [[0.7, 0.6], [0.43, 0.34], [0.9, 0.2], [0.05, 0.3]] {
-        let zeros = analyse(&johansson(valves)).unwrap().zeros.unwrap();
+        let zeros = analyse(&johansson(valves)).unwrap().linear.zeros.unwrap();
         let rightmost = map.rightmost_zero(valves).unwrap();
         assert_relative_eq!(rightmost, zeros.last().unwrap().value.re, max_relative = ORACLE);
     }
@@ -234,7 +234,7 @@ fn the_valve_map_has_the_zeros_of_the_model() {
 #[test]
 fn the_zero_paths_pass_through_the_present_zeros_and_the_origin() {
     let setup = johansson([0.7, 0.6]);
-    let zeros = analyse(&setup).unwrap().zeros.unwrap();
+    let zeros = analyse(&setup).unwrap().linear.zeros.unwrap();
     let paths = ValveMap::of(&setup).unwrap().zero_paths(2001);
     for (path, zero) in paths.iter().zip(zeros) {
         let nearest = path.iter().map(|point| (point - zero.value).norm()).fold(f64::INFINITY, f64::min);
@@ -253,13 +253,13 @@ fn columns(trajectory: &Trajectory) -> impl Iterator<Item = &f64> {
 
 /// The report has no NaN and no infinity: JSON would show them as null, and only optional values may be null.
 fn assert_finite(analysis: &Analysis) {
-    let model = &analysis.model;
+    let model = &analysis.linear.model;
     assert!([&model.a, &model.b, &model.c].iter().all(|matrix| matrix.iter().all(|value| value.is_finite())));
-    assert!(analysis.poles.iter().all(|pole| pole.is_finite()));
-    assert!(analysis.zeros.iter().flatten().all(|zero| zero.value.is_finite()));
+    assert!(analysis.linear.poles.iter().all(|pole| pole.is_finite()));
+    assert!(analysis.linear.zeros.iter().flatten().all(|zero| zero.value.is_finite()));
     assert!(analysis.closed_loop.poles_s.iter().all(|pole| pole.is_finite()));
-    assert!(analysis.dc_gain.as_flattened().iter().all(|gain| gain.is_finite()));
-    assert!(analysis.rga_11.iter().all(|gain| gain.is_finite()));
+    assert!(analysis.linear.dc_gain.as_flattened().iter().all(|gain| gain.is_finite()));
+    assert!(analysis.linear.rga_11.iter().all(|gain| gain.is_finite()));
     assert!(serde_json::to_string(&AnalysisReport::from(analysis)).is_ok());
 }
 

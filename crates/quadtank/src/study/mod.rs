@@ -1,11 +1,13 @@
 //! What a bench computes: from a setup, which its document holds, to results. One module per bench.
 
 mod error;
+mod linear_plant;
 pub mod model_free;
 pub mod quadruple_tank;
 pub mod relay_tuning;
 
 pub use error::{StudyError, StudyFault};
+pub use linear_plant::LinearPlant;
 
 use std::sync::Arc;
 

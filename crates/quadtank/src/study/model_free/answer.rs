@@ -2,63 +2,15 @@ use crate::control::{
     DecentralisedPi, ModelFree, ModelFreePoles, Pairing, continuous_model_free_poles, model_free_poles,
     smallest_model_gain, smallest_model_gain_of_integrator,
 };
-use crate::interaction::{niederlinski, relative_gain_array};
-use crate::linear::{Complex, LinearError, Stability, StateSpace, place_nearest_at_origin, transmission_zeros};
+use crate::linear::{Complex, LinearError, Stability};
 use crate::plant::{OperatingPoint, PlantError, QuadrupleTank, ValveSchedule};
 use crate::sim::{
     Experiment, ModelFreeRun, TrackingFigures, Trajectory, ZeroDynamics, ZeroDynamicsEnd, simulate_model_free,
     simulate_with_valves, tracking_figures,
 };
-use crate::study::{StudyError, whole};
+use crate::study::{LinearPlant, StudyError, whole};
 
 use super::{ModelFreeSetup, StartSpec};
-
-/// What linear theory says of the plant as it is at one moment of a run.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Moment {
-    /// Valve fractions γ1, γ2.
-    pub valves: [f64; 2],
-    /// Poles (1/s), those of the tanks that hold water.
-    pub poles: Vec<f64>,
-    /// Transmission zeros (1/s), one of them exactly zero where G(0) is singular.
-    pub zeros: Result<Vec<Complex>, LinearError>,
-    /// Relative gain λ11; `None` where G(0) is singular.
-    pub rga_11: Option<f64>,
-    /// Niederlinski index of both pairings, diagonal first; `None` where it is not defined.
-    pub niederlinski: [Option<f64>; 2],
-}
-
-impl Moment {
-    /// The moment at which the plant has these levels (m) and voltages (V). It need not be at rest.
-    pub fn of(plant: &QuadrupleTank, point: &OperatingPoint) -> Self {
-        let (a, b, c) = plant.linearise(point).reduced();
-        let model = StateSpace::strictly_proper(a, b, c);
-        let poles: Vec<f64> = plant.time_constants_s(point).into_iter().flatten().map(|time| -time.recip()).collect();
-        let gain = model.as_ref().ok().and_then(|model| model.dc_gain().ok());
-        let relative_gains = gain.as_ref().map(relative_gain_array);
-        let zeros = model.and_then(|model| {
-            let mut zeros = transmission_zeros(&model)?;
-            if matches!(relative_gains, Some(Err(LinearError::SingularGain { .. }))) {
-                place_nearest_at_origin(&mut zeros);
-            }
-            Ok(zeros.iter().map(|zero| zero.value).collect())
-        });
-        let rga_11 = relative_gains.and_then(|array| Some(array.ok()?[(0, 0)]));
-        Self {
-            valves: plant.valves,
-            poles,
-            zeros,
-            rga_11,
-            // On the singular line its sign is rounding.
-            niederlinski: rga_11.and(gain).map_or([None; 2], |gain| niederlinski(&gain)),
-        }
-    }
-
-    /// The right-most zero (1/s), where there are any.
-    pub fn rightmost_zero(&self) -> Option<f64> {
-        self.zeros.as_ref().ok()?.iter().map(|zero| zero.re).max_by(f64::total_cmp)
-    }
-}
 
 /// What theory says of a setup at the references that it ends with, and with its valves as they stand after their last step or
 /// ramp; where they swing, as at the start.
@@ -66,8 +18,8 @@ impl Moment {
 pub struct ModelFreeAnalysis {
     /// Where the loops should end, or why nothing holds those levels.
     pub rest: Result<OperatingPoint, PlantError>,
-    /// Zeros, relative gain and Niederlinski index there.
-    pub moment: Option<Moment>,
+    /// The linear plant there.
+    pub linear: Option<Result<LinearPlant, LinearError>>,
     /// Poles of the linear loop there.
     pub poles: Option<Result<ModelFreePoles, LinearError>>,
     /// Poles of the loop in continuous time without estimator there (1/s).
@@ -85,7 +37,7 @@ pub fn analyse_model_free(setup: &ModelFreeSetup) -> ModelFreeAnalysis {
     let jacobian = rest.as_ref().ok().map(|rest| plant.linearise(rest));
     let gain = plant.power_gain;
     ModelFreeAnalysis {
-        moment: rest.as_ref().ok().map(|rest| Moment::of(&plant, rest)),
+        linear: jacobian.as_ref().map(LinearPlant::of),
         poles: jacobian.map(|jacobian| model_free_poles(&jacobian, &setup.controller, gain)),
         continuous_poles: jacobian.map(|jacobian| continuous_model_free_poles(&jacobian, &setup.controller, gain)),
         smallest_of_integrators: jacobian.map(|jacobian| {

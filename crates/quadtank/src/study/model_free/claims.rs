@@ -144,7 +144,7 @@ fn any_zero() -> Result<CheckedClaim, StudyError> {
     let lost_s = lost_at(&run(case, None)?.0);
     let setup = ModelFreeSetup::published(case.0, case.1);
     let theory = analyse_model_free(&setup);
-    let moment = theory.moment.as_ref();
+    let plant = theory.linear.as_ref().and_then(|plant| plant.as_ref().ok());
     let poles = theory.continuous_poles.and_then(Result::ok).unwrap_or_default();
     let step_s = setup.experiment.set_point_steps.first().map_or(0.0, |step| step.time_s);
     Ok(CheckedClaim {
@@ -152,8 +152,8 @@ fn any_zero() -> Result<CheckedClaim, StudyError> {
         standing: if lost_s.is_some() { Standing::Refuted } else { Standing::Reproduced },
         figures: [
             lost_s.unwrap_or(f64::INFINITY) - step_s,
-            moment.and_then(|m| m.rga_11).unwrap_or(f64::NAN),
-            moment.and_then(|m| m.niederlinski[0]).unwrap_or(f64::NAN),
+            plant.and_then(|plant| plant.rga_11.ok()).unwrap_or(f64::NAN),
+            plant.and_then(|plant| plant.niederlinski[0]).unwrap_or(f64::NAN),
             poles.iter().map(|pole| pole.re).fold(f64::NEG_INFINITY, f64::max),
         ],
         case,

@@ -6,9 +6,7 @@ mod results;
 mod setup;
 mod verdict;
 
-pub use answer::{
-    ModelFreeAnalysis, ModelFreeAnswer, Moment, PredictedLoss, analyse_model_free, run_analysed, run_model_free,
-};
+pub use answer::{ModelFreeAnalysis, ModelFreeAnswer, PredictedLoss, analyse_model_free, run_analysed, run_model_free};
 pub use claims::{CheckedClaim, Claim, LONG_RUN_S, Standing, check_claims};
 pub use results::{ModelFreeStudy, Results};
 pub use setup::{ModelFreeSetup, StartSpec};

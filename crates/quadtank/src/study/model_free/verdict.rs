@@ -84,7 +84,8 @@ impl ModelFreeVerdict {
         let late = [0, 1].map(|level| late_error(run, level));
         let within = |share: f64| late.iter().all(|&(error, reference)| error <= share * reference);
         if let Some((by, ends_s)) = foretold.filter(|_| within(SETTLED)) {
-            let zero = analysis.moment.as_ref().and_then(super::Moment::rightmost_zero).filter(|&zero| zero > 0.0);
+            let plant = analysis.linear.as_ref().and_then(|plant| plant.as_ref().ok());
+            let zero = plant.and_then(|plant| Some(plant.rightmost_zero()?.value.re)).filter(|&zero| zero > 0.0);
             return Self::Leaving { ends_s, by, e_folding_s: zero.map(f64::recip) };
         }
         let error = late.map(|(error, _)| error);

@@ -1,6 +1,6 @@
 use crate::linear::{LinearError, TransmissionZero};
 
-use super::Analysis;
+use crate::study::LinearPlant;
 
 /// Where the right-most transmission zero of a plant is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,12 +20,12 @@ pub enum ZeroSituation {
 }
 
 impl ZeroSituation {
-    /// The situation of an analysis with these valve fractions.
-    pub fn of(analysis: &Analysis, valves: [f64; 2]) -> Self {
+    /// The situation of a plant with these valve fractions.
+    pub fn of(plant: &LinearPlant, valves: [f64; 2]) -> Self {
         if valves == [1.0, 1.0] {
             return Self::Uncoupled;
         }
-        match (&analysis.zeros, analysis.rightmost_zero(), &analysis.rga_11) {
+        match (&plant.zeros, plant.rightmost_zero(), &plant.rga_11) {
             (Err(_), ..) => Self::Degenerate,
             (Ok(_), None, _) => Self::NoFinite,
             (Ok(_), Some(_), Err(LinearError::SingularGain { .. })) => Self::Origin,
@@ -84,8 +84,8 @@ mod tests {
     fn at(valves: [f64; 2]) -> (ZeroSituation, Option<ZeroEffect>) {
         let mut setup = setup_of(PresetId::JohanssonMinimumPhase);
         setup.valves = valves;
-        let analysis = analyse(&setup).unwrap();
-        (ZeroSituation::of(&analysis, valves), analysis.rightmost_zero().map(ZeroEffect::of))
+        let plant = analyse(&setup).unwrap().linear;
+        (ZeroSituation::of(&plant, valves), plant.rightmost_zero().map(ZeroEffect::of))
     }
 
     #[test]
