@@ -10,7 +10,7 @@ use crate::widgets::{
     Card, ChartCanvas, ChartMenu, DataTable, Figures, Readout, Row, Sentence, TableContent, TimeAxis, TimeSurface,
     Verdict, ZoomButtons, marked, unmarked,
 };
-use quadtank::sim::TrackingFigures;
+use quadtank::sim::TrackingMetrics;
 use quadtank_figure::Frame;
 
 /// The shortest stretch of time that can be shown (s).
@@ -112,7 +112,7 @@ fn table(session: Session) -> impl IntoView {
         tr!(lab, responses.saturated),
         tr!(lab, free.lost),
     ];
-    let row = |name: String, k: usize, figures: &TrackingFigures| {
+    let row = |name: String, k: usize, figures: &TrackingMetrics| {
         view! { <Row class=["loop1", "loop2"][k] name figures=figures_of(session, figures) /> }.into_any()
     };
     let rows = session.throttled.with_answer(|answer| {
@@ -125,7 +125,7 @@ fn table(session: Session) -> impl IntoView {
     view! { <TableContent caption=tr!(lab, responses.metrics) columns rows=rows.unwrap_or_default() /> }
 }
 
-fn figures_of(session: Session, figures: &TrackingFigures) -> [String; 7] {
+fn figures_of(session: Session, figures: &TrackingMetrics) -> [String; 7] {
     let style = session.lab.number_style();
     let never = || "–".to_owned();
     [

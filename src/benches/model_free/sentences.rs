@@ -9,7 +9,7 @@ use crate::texts::tr;
 use quadtank::control::Pairing;
 use quadtank::linear::Stability;
 use quadtank::literature::DisplayUnit;
-use quadtank::sim::{TrackingFigures, ZeroDynamicsEnd};
+use quadtank::sim::{TrackingMetrics, ZeroDynamicsEnd};
 use quadtank::study::model_free::{LossBy, ModelFreeVerdict};
 use quadtank::study::{StudyError, StudyFault};
 
@@ -133,7 +133,7 @@ pub fn of_loop(session: Session) -> (bool, String) {
         return (true, tr!(lab, free.loop_moves));
     }
     let looks_good =
-        session.throttled.with_answer(|answer| answer.figures.iter().all(TrackingFigures::looks_settled)) == Some(true);
+        session.throttled.with_answer(|answer| answer.figures.iter().all(TrackingMetrics::looks_settled)) == Some(true);
     session.throttled.analysis.with(|analysis| {
         if let Err(error) = &analysis.rest {
             let reason = of_plant_error(lab, DisplayUnit::Cm, error);

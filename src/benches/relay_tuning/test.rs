@@ -14,7 +14,7 @@ use crate::controls::{ParamControl, ParamRow, Switch};
 use crate::start::Control;
 use crate::texts::{say, tr};
 use crate::widgets::{Choice, DataTable, Figures, Scale, Select, ZoomButtons};
-use quadtank::study::relay_tuning::{Behind, CriticalSpec, TestKind, Tested, TuningSetup};
+use quadtank::study::relay_tuning::{CriticalSpec, SeriesElement, TestKind, Tested, TuningSetup};
 use quadtank::tuning::TuningRule;
 use quadtank_figure::Frame;
 use quadtank_scenario::Limits;
@@ -65,8 +65,8 @@ const MODULUS: ParamControl<TuningSetup> = ParamControl {
     ids: [("", "test-modulus"); 2],
     label: |_, _| "r".to_owned(),
     name: |lab, _| tr!(lab, relay.modulus),
-    read: |s, _| if let Behind::Modulus(r) = s.test.behind { r } else { FIRST_MODULUS },
-    write: |s, _, r| s.test.behind = Behind::Modulus(r),
+    read: |s, _| if let SeriesElement::Modulus(r) = s.test.behind { r } else { FIRST_MODULUS },
+    write: |s, _, r| s.test.behind = SeriesElement::Modulus(r),
     path: |_, _| "test.behind.modulus",
     ..OF_TEST
 };
@@ -250,14 +250,14 @@ fn SingleTest() -> impl IntoView {
     ];
     let behinds = Signal::derive(move || {
         vec![
-            Choice::new(Behind::Nothing, "nothing", tr!(lab, relay.behind_nothing)),
-            Choice::new(Behind::Integrator, "integrator", tr!(lab, relay.behind_integrator)),
-            Choice::new(Behind::Modulus(FIRST_MODULUS), "modulus", tr!(lab, relay.behind_modulus)),
+            Choice::new(SeriesElement::Nothing, "nothing", tr!(lab, relay.behind_nothing)),
+            Choice::new(SeriesElement::Integrator, "integrator", tr!(lab, relay.behind_integrator)),
+            Choice::new(SeriesElement::Modulus(FIRST_MODULUS), "modulus", tr!(lab, relay.behind_modulus)),
         ]
     });
     // The modulus has a field of its own.
     let behind = Signal::derive(move || match session.throttled.setup.with(|s| s.test.behind) {
-        Behind::Modulus(_) => Behind::Modulus(FIRST_MODULUS),
+        SeriesElement::Modulus(_) => SeriesElement::Modulus(FIRST_MODULUS),
         other => other,
     });
     view! {
@@ -277,7 +277,7 @@ fn SingleTest() -> impl IntoView {
             on_choose=move |behind| session.edit(|s| s.test.behind = behind)
             disabled=lab.locks(Control::Test)
         />
-        <div hidden=session.throttled_part(|s| !matches!(s.test.behind, Behind::Modulus(_)))>
+        <div hidden=session.throttled_part(|s| !matches!(s.test.behind, SeriesElement::Modulus(_)))>
             <ParamRow session control=&MODULUS />
         </div>
     }

@@ -4,7 +4,7 @@ use quadtank::control::ModelFreePoles;
 use quadtank::linear::LinearError;
 use quadtank::linear::Stability;
 use quadtank::plant::{OperatingPoint, PlantError};
-use quadtank::sim::{Event, TrackingFigures, ZeroDynamicsEnd};
+use quadtank::sim::{Event, TrackingMetrics, ZeroDynamicsEnd};
 use quadtank::study::LinearPlant;
 use quadtank::study::model_free::{ModelFreeAnalysis, ModelFreeAnswer, ModelFreeSetup, PredictedLoss};
 use serde::Serialize;
@@ -65,9 +65,9 @@ pub struct LoopPoles {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ModelFreeReport {
     /// How loops 1 and 2 did.
-    pub figures: [TrackingFigures; 2],
+    pub figures: [TrackingMetrics; 2],
     /// The same of two PI loops in the same experiment; null where none are asked for.
-    pub comparison: Option<[TrackingFigures; 2]>,
+    pub comparison: Option<[TrackingMetrics; 2]>,
     /// What the zero dynamics foretell once both levels are held; null where they never are, while valves move, and where the
     /// linear loop is stable.
     pub predicted: Option<PredictedLossReport>,

@@ -3,7 +3,9 @@ use thiserror::Error;
 
 use quadtank::literature::campestrini::PublishedPlant;
 
-use quadtank::study::relay_tuning::{Behind, CompareSpec, DecouplerSpec, Element, TestKind, TuningPlant, TuningSetup};
+use quadtank::study::relay_tuning::{
+    CompareSpec, DecouplerSpec, Element, SeriesElement, TestKind, TuningPlant, TuningSetup,
+};
 
 /// What a session may not have been meant to say. Nothing is refused for it.
 #[derive(Clone, Debug, PartialEq, Error, Serialize)]
@@ -53,7 +55,7 @@ fn settings_without_effect(setup: &TuningSetup) -> impl Iterator<Item = TuningWa
     let dynamic = !matches!(setup.design.decoupler, DecouplerSpec::None | DecouplerSpec::Static);
     [
         (!is_single && test.number != 1, "tuning.test.number", "in a single test"),
-        (!is_single && test.behind != Behind::Nothing, "tuning.test.behind", "in a single test"),
+        (!is_single && test.behind != SeriesElement::Nothing, "tuning.test.behind", "in a single test"),
         (idle(0) && test.hysteresis[0] != 0.0, "tuning.test.hysteresis[0]", "with a relay in loop 1"),
         (idle(1) && test.hysteresis[1] != 0.0, "tuning.test.hysteresis[1]", "with a relay in loop 2"),
         (idle(0) && test.bias[0] != 0.0, "tuning.test.bias[0]", "with a relay in loop 1"),

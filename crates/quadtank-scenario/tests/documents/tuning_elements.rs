@@ -5,7 +5,7 @@ use quadtank::linear::LinearError;
 use quadtank::literature::PresetId;
 use quadtank::literature::campestrini::PublishedCase;
 use quadtank::study::relay_tuning::{
-    Behind, CompareSpec, DecouplerSpec, Element, ElementFault, PlantStudy, SteadyState, TestKind, TuningPlant,
+    CompareSpec, DecouplerSpec, Element, ElementFault, PlantStudy, SeriesElement, SteadyState, TestKind, TuningPlant,
     TuningSetup, tune,
 };
 use quadtank_scenario::tuning::{TuningScenario, TuningWarning, warnings};
@@ -159,7 +159,7 @@ fn a_singular_gain_leaves_everything_else_known() {
 fn a_setting_without_effect_is_told() {
     let cases: [(Change, &str); 9] = [
         (|s| s.test.number = 2, "tuning.test.number"),
-        (|s| s.test.behind = Behind::Integrator, "tuning.test.behind"),
+        (|s| s.test.behind = SeriesElement::Integrator, "tuning.test.behind"),
         (|s| s.test.detuning = [1.0, 2.0], "tuning.test.detuning"),
         (|s| s.test.passes = 3, "tuning.test.passes"),
         (
@@ -213,7 +213,7 @@ fn a_setting_has_an_effect_where_no_warning_says_otherwise() {
     let found = |setup: &TuningSetup| format!("{:?}", tune(setup).unwrap().test);
     let changes: [Change; 6] = [
         |s| s.test.number = 2,
-        |s| s.test.behind = Behind::Integrator,
+        |s| s.test.behind = SeriesElement::Integrator,
         |s| s.test.detuning = [2.0, 3.0],
         |s| s.test.passes = 2,
         |s| s.test.bias = [0.0, 0.2],

@@ -1,6 +1,6 @@
 //! Simplified decoupling of two loops: `u1 = v1 + g_I1 v2`, `u2 = v2 + g_I2 v1` (Campestrini 2006, eq. 72).
 
-use crate::linear::{LinearError, Path, TransferFunction, TransferMatrix};
+use crate::linear::{LinearError, SignalPath, TransferFunction, TransferMatrix};
 
 /// Which cross paths a dynamic decoupler removes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,7 +35,7 @@ pub fn static_decoupler(plant: &TransferMatrix) -> Result<[f64; 2], LinearError>
 /// # Errors
 /// [`LinearError::OutOfRange`] for `dead_time` when the decoupler would have to know the future, and for a diagonal element
 /// that is zero.
-pub fn decoupled_paths(plant: &TransferMatrix, decoupling: Decoupling) -> Result<Vec<Path>, LinearError> {
+pub fn decoupled_paths(plant: &TransferMatrix, decoupling: Decoupling) -> Result<Vec<SignalPath>, LinearError> {
     let g = &plant.0;
     // The element that takes the input of loop `other` to output `own`, divided by what undoes it.
     let element =
@@ -48,16 +48,16 @@ pub fn decoupled_paths(plant: &TransferMatrix, decoupling: Decoupling) -> Result
     let mut paths = Vec::new();
     for output in [0, 1] {
         let other = 1 - output;
-        paths.push(Path { input: output, output, element: g[output][output].clone() });
+        paths.push(SignalPath { input: output, output, element: g[output][output].clone() });
         if removes(output) {
             // Refused here when it knows the future, though its path is gone from the sum.
             element(output)?;
         } else {
-            paths.push(Path { input: other, output, element: g[output][other].clone() });
+            paths.push(SignalPath { input: other, output, element: g[output][other].clone() });
         }
         if removes(other) {
             // v of this loop reaches this output also through the other input.
-            paths.push(Path { input: output, output, element: g[output][other].times(&element(other)?) });
+            paths.push(SignalPath { input: output, output, element: g[output][other].times(&element(other)?) });
         }
     }
     Ok(paths)
@@ -75,7 +75,7 @@ mod tests {
         TransferMatrix([[g(12.8, 16.7, 1.0), g(-18.9, 21.0, 3.0)], [g(6.6, 10.9, 7.0), g(-19.4, 14.4, 3.0)]])
     }
 
-    fn at(paths: &[Path], output: usize, input: usize, s: Complex) -> Complex {
+    fn at(paths: &[SignalPath], output: usize, input: usize, s: Complex) -> Complex {
         let between = paths.iter().filter(|path| (path.output, path.input) == (output, input));
         between.map(|path| path.element.at(s)).sum()
     }

@@ -5,7 +5,7 @@ use super::{LinearError, TransferFunction, TransferMatrix};
 
 /// One way from an input to an output; several between the same two add up.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Path {
+pub struct SignalPath {
     /// Index of the input, 0 or 1.
     pub input: usize,
     /// Index of the output, 0 or 1.
@@ -65,8 +65,8 @@ impl DelayedPlant {
     ///
     /// # Panics
     /// Never for indices of inputs and outputs of 0 and 1.
-    pub fn new(paths: &[Path]) -> Result<Self, LinearError> {
-        let moving = |path: &Path| {
+    pub fn new(paths: &[SignalPath]) -> Result<Self, LinearError> {
+        let moving = |path: &SignalPath| {
             let motion = Motion::new(&path.element)?;
             let dead_time = path.element.dead_time();
             let (input, output) = (path.input, path.output);
@@ -206,8 +206,8 @@ impl DelayedPlant {
 
 impl TransferMatrix {
     /// The four elements as paths.
-    pub fn paths(&self) -> Vec<Path> {
-        let path = |output: usize, input: usize| Path { input, output, element: self.0[output][input].clone() };
+    pub fn paths(&self) -> Vec<SignalPath> {
+        let path = |output: usize, input: usize| SignalPath { input, output, element: self.0[output][input].clone() };
         vec![path(0, 0), path(0, 1), path(1, 0), path(1, 1)]
     }
 }
@@ -218,8 +218,8 @@ mod tests {
 
     use super::*;
 
-    fn one(dead_time: f64) -> Path {
-        Path { input: 0, output: 0, element: TransferFunction::lags(2.0, &[3.0], dead_time).unwrap() }
+    fn one(dead_time: f64) -> SignalPath {
+        SignalPath { input: 0, output: 0, element: TransferFunction::lags(2.0, &[3.0], dead_time).unwrap() }
     }
 
     /// Response of `2/(3 s + 1)` to a unit step.

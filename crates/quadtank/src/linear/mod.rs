@@ -26,7 +26,7 @@ mod zeros;
 
 pub use crate::numeric::Complex;
 pub use closed_loop::ClosedLoop;
-pub use delayed::{DelayedPlant, Path};
+pub use delayed::{DelayedPlant, SignalPath};
 pub use discrete::DiscreteStateSpace;
 pub use encirclements::LoopStability;
 pub use error::LinearError;

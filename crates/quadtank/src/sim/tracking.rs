@@ -21,7 +21,7 @@ const HELD: usize = 20;
 /// the last step of this reference by more than 1 nm on.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct TrackingFigures {
+pub struct TrackingMetrics {
     /// Σ |r − h| Ts (m s).
     pub iae: f64,
     /// Σ (r − h)² Ts (m² s).
@@ -40,7 +40,7 @@ pub struct TrackingFigures {
     pub lost_at_s: Option<f64>,
 }
 
-impl TrackingFigures {
+impl TrackingMetrics {
     /// Whether the level is where it should be, as far as a plot of it shows; so is one that was never asked to move.
     pub fn looks_settled(&self) -> bool {
         self.lost_at_s.is_none() && (self.overshoot.is_none() || self.settling_s.is_some())
@@ -49,12 +49,12 @@ impl TrackingFigures {
 
 /// The figures of both loops of a run whose samples are every `rows_per_sample` rows. A level that starts away from its first
 /// reference has stepped at the start.
-pub fn tracking_figures(
+pub fn tracking_metrics(
     run: &Trajectory,
     rows_per_sample: usize,
     plant: &QuadrupleTank,
     pairing: Pairing,
-) -> [TrackingFigures; 2] {
+) -> [TrackingMetrics; 2] {
     let limits = pairing.by_loop(plant.controller_limits());
     std::array::from_fn(|i| {
         let column = |values: &[f64]| values.iter().copied().step_by(rows_per_sample).collect();
@@ -77,13 +77,13 @@ struct Samples {
 }
 
 impl Samples {
-    fn figures(&self, (min, max): (f64, f64)) -> TrackingFigures {
+    fn figures(&self, (min, max): (f64, f64)) -> TrackingMetrics {
         let sampling_time = self.time.get(1).copied().unwrap_or(0.0);
         let error = |k: usize| self.reference[k] - self.level[k];
         let sum = |f: &dyn Fn(usize) -> f64| (0..self.time.len()).map(f).sum::<f64>();
         let limited = |k: usize| self.output[k] <= min || self.output[k] >= max;
         let step = self.last_step();
-        TrackingFigures {
+        TrackingMetrics {
             iae: sampling_time * sum(&|k| error(k).abs()),
             ise: sampling_time * sum(&|k| error(k).powi(2)),
             overshoot: step.map(|(first, size)| (first..self.time.len()).map(|k| -error(k) / size).fold(0.0, f64::max)),

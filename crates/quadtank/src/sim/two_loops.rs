@@ -328,10 +328,10 @@ mod tests {
 
     use super::*;
     use crate::control::ParallelPid;
-    use crate::linear::{Path, TransferFunction};
+    use crate::linear::{SignalPath, TransferFunction};
 
     fn single(element: TransferFunction) -> DelayedPlant {
-        DelayedPlant::new(&[Path { input: 0, output: 0, element }]).unwrap()
+        DelayedPlant::new(&[SignalPath { input: 0, output: 0, element }]).unwrap()
     }
 
     fn relay_loop(relay: Relay, duration: f64, step: f64) -> TwoLoops {

@@ -1,7 +1,7 @@
 //! Relay tests on a plant with two loops: single, independent, sequential and simultaneous (Campestrini 2006, §3.5 to 3.7).
 
 use crate::control::{IsaPid, ParallelPid, PidMatrix, Relay};
-use crate::linear::{DelayedPlant, Path, TransferFunction, TransferMatrix};
+use crate::linear::{DelayedPlant, SignalPath, TransferFunction, TransferMatrix};
 use crate::sim::{HeldPlant, LoopTrace, MAX_WORK, TwoLoops, run_two_loops_within};
 
 use super::error::positive;
@@ -257,6 +257,6 @@ pub fn modulus_estimator(element: &TransferFunction, r: f64) -> Result<TransferF
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn single_loop_test(element: &TransferFunction, relay: Relay, time: TestTime) -> Result<RelayTest, TuningError> {
-    let path = Path { input: 0, output: 0, element: element.clone() };
+    let path = SignalPath { input: 0, output: 0, element: element.clone() };
     relay_test(&mut DelayedPlant::new(&[path])?, [Some(relay), None], PidMatrix::default(), time)
 }

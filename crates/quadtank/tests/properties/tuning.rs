@@ -3,7 +3,7 @@
 use nalgebra::Matrix2;
 use proptest::prelude::*;
 use quadtank::control::{ParallelPid, PidMatrix};
-use quadtank::linear::{Complex, DelayedPlant, LoopStability, Path, TransferFunction, TransferMatrix};
+use quadtank::linear::{Complex, DelayedPlant, LoopStability, SignalPath, TransferFunction, TransferMatrix};
 use quadtank::sim::{Halt, TwoLoops, run_two_loops};
 use quadtank::tuning::{
     Action, CriticalSearch, Design, GainLimit, PlacementMethod, TestTime, frequency_range, importance_direction,
@@ -106,7 +106,7 @@ proptest! {
     #[test]
     fn a_dead_time_shifts_the_response(element in element(prop_oneof![Just(0.0), 0.1..6.0_f64]), later in 0.0..5.0_f64, times in prop::collection::vec(0.01..3.0_f64, 1..12)) {
         let delay = TransferFunction::new(vec![1.0], vec![1.0], later).unwrap();
-        let held = |element: TransferFunction| DelayedPlant::new(&[Path { input: 0, output: 0, element }]).unwrap();
+        let held = |element: TransferFunction| DelayedPlant::new(&[SignalPath { input: 0, output: 0, element }]).unwrap();
         let (mut plain, mut delayed) = (held(element.clone()), held(element.times(&delay)));
         let mut along = held(element.times(&delay));
         for (k, &time) in times.iter().enumerate() {

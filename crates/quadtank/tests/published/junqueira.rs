@@ -9,8 +9,8 @@ use quadtank::linear::{Stability, StateSpace, transmission_zeros};
 use quadtank::literature::PresetId;
 use quadtank::plant::{OperatingPoint, QuadrupleTank, ValveSchedule};
 use quadtank::sim::{
-    EventKind, Experiment, Measurement, ModelFreeRun, SetPointStep, TrackingFigures, ZeroDynamics, ZeroDynamicsEnd,
-    simulate_model_free, tracking_figures,
+    EventKind, Experiment, Measurement, ModelFreeRun, SetPointStep, TrackingMetrics, ZeroDynamics, ZeroDynamicsEnd,
+    simulate_model_free, tracking_metrics,
 };
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
@@ -44,17 +44,17 @@ fn experiment(duration_s: f64, steps: &[(usize, f64, f64)]) -> Experiment {
 
 const EMPTY: OperatingPoint = OperatingPoint { levels: [0.0; 4], pump_voltage: [0.0; 2] };
 
-fn s1(valves: &[ValveSchedule; 2], law: &ModelFree) -> (ModelFreeRun, [TrackingFigures; 2]) {
+fn s1(valves: &[ValveSchedule; 2], law: &ModelFree) -> (ModelFreeRun, [TrackingMetrics; 2]) {
     let experiment = experiment(300.0, &[(0, 0.0, 10.0), (1, 0.0, 10.0)]);
     let run = simulate_model_free(&plant(), valves, &EMPTY, law, &experiment).unwrap();
-    let figures = tracking_figures(&run.trajectory, run.rows_per_sample, &plant(), Pairing::Diagonal);
+    let figures = tracking_metrics(&run.trajectory, run.rows_per_sample, &plant(), Pairing::Diagonal);
     (run, figures)
 }
 
 /// Figures of a run with their printed digits: IAE (cm s), ISE (cm² s), overshoot (%), settling (s), total variation (V).
 type Row = [f64; 5];
 
-fn assert_row(name: char, figures: &TrackingFigures, [iae, ise, overshoot, settling, variation]: Row) {
+fn assert_row(name: char, figures: &TrackingMetrics, [iae, ise, overshoot, settling, variation]: Row) {
     within(figures.iae / CM, iae, 0.05, name);
     within(figures.ise / (CM * CM), ise, 0.05, name);
     within(figures.overshoot.unwrap() * 100.0, overshoot, 0.05, name);
@@ -88,8 +88,8 @@ fn from_rest(name: char, law: &ModelFree, duration_s: f64, steps: &[(usize, f64,
     simulate_model_free(&plant, &case(name), &rest, law, &experiment(duration_s, steps)).unwrap()
 }
 
-fn figures(run: &ModelFreeRun) -> [TrackingFigures; 2] {
-    tracking_figures(&run.trajectory, run.rows_per_sample, &plant(), Pairing::Diagonal)
+fn figures(run: &ModelFreeRun) -> [TrackingMetrics; 2] {
+    tracking_metrics(&run.trajectory, run.rows_per_sample, &plant(), Pairing::Diagonal)
 }
 
 /// Both set-points from 10 to 15 cm.

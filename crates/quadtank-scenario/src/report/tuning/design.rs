@@ -1,6 +1,6 @@
 use quadtank::control::ParallelPid;
 use quadtank::linear::{Closure, LoopStability};
-use quadtank::sim::{Halt, StepFigures};
+use quadtank::sim::{Halt, StepMetrics};
 use quadtank::study::relay_tuning::{Comparison, DesignRoot, Designed, PlantStudy};
 use quadtank::tuning::{PlacementWarning, TuningError, dynamic_relative_gain};
 use serde::Serialize;
@@ -224,8 +224,8 @@ impl From<LoopStability> for LoopStabilityReport {
     }
 }
 
-impl From<StepFigures> for FiguresReport {
-    fn from(figures: StepFigures) -> Self {
+impl From<StepMetrics> for FiguresReport {
+    fn from(figures: StepMetrics) -> Self {
         Self {
             overshoot: figures.overshoot,
             settling_time_2_percent: figures.settling_time,

@@ -12,7 +12,7 @@ use quadtank::sim::{Experiment, Load, LoadStep, Measurement, SetPointStep};
 use quadtank::study::model_free::{ModelFreeSetup, StartSpec};
 use quadtank::study::quadruple_tank::{OperatingPointSpec, PlantSpec, Setup};
 use quadtank::study::relay_tuning::{
-    Behind, CompareSpec, CriticalSpec, DecouplerSpec, DesignSpec, Element, ResponseSpec, TestKind, TestSpec,
+    CompareSpec, CriticalSpec, DecouplerSpec, DesignSpec, Element, ResponseSpec, SeriesElement, TestKind, TestSpec,
     TuningPlant, TuningSetup,
 };
 use quadtank::tuning::{Action, PlacementMethod, TuningRule};
@@ -299,9 +299,9 @@ impl Draw {
                 ]),
                 number: 1 + self.index(2),
                 behind: match self.index(3) {
-                    0 => Behind::Nothing,
-                    1 => Behind::Integrator,
-                    _ => Behind::Modulus(self.number(size)),
+                    0 => SeriesElement::Nothing,
+                    1 => SeriesElement::Integrator,
+                    _ => SeriesElement::Modulus(self.number(size)),
                 },
                 amplitudes: self.pair(size),
                 hysteresis,

@@ -5,8 +5,8 @@ use crate::control::{
 use crate::linear::{Complex, LinearError, Stability};
 use crate::plant::{OperatingPoint, PlantError, QuadrupleTank, ValveSchedule};
 use crate::sim::{
-    Experiment, ModelFreeRun, TrackingFigures, Trajectory, ZeroDynamics, ZeroDynamicsEnd, simulate_model_free,
-    simulate_with_valves, tracking_figures,
+    Experiment, ModelFreeRun, TrackingMetrics, Trajectory, ZeroDynamics, ZeroDynamicsEnd, simulate_model_free,
+    simulate_with_valves, tracking_metrics,
 };
 use crate::study::{LinearPlant, StudyError, whole};
 
@@ -76,9 +76,9 @@ pub struct ModelFreeAnswer {
     /// The run.
     pub run: ModelFreeRun,
     /// How both loops did.
-    pub figures: [TrackingFigures; 2],
+    pub figures: [TrackingMetrics; 2],
     /// The same experiment with two PI loops, where one is asked for.
-    pub comparison: Option<(Trajectory, [TrackingFigures; 2])>,
+    pub comparison: Option<(Trajectory, [TrackingMetrics; 2])>,
     /// What the zero dynamics say once both levels are held at their last references; `None` where they never are, while
     /// valves move, and where the linear loop is stable: it does not hold the levels at any price. Loads are not foreseen.
     pub predicted: Option<PredictedLoss>,
@@ -107,7 +107,7 @@ pub fn run_analysed(setup: &ModelFreeSetup, analysis: &ModelFreeAnalysis) -> Res
     let run =
         simulate_model_free(&plant, valves, &start, controller, experiment).map_err(StudyError::at("controller"))?;
     let run = ModelFreeRun { trajectory: whole(run.trajectory)?, ..run };
-    let figures_of = |run: &Trajectory, rows: usize, pairing: Pairing| tracking_figures(run, rows, &plant, pairing);
+    let figures_of = |run: &Trajectory, rows: usize, pairing: Pairing| tracking_metrics(run, rows, &plant, pairing);
     let compared = |compare: DecentralisedPi| {
         let (run, rows) = simulate_with_valves(&plant, valves, &start, &compare, experiment);
         let run = whole(run)?;

@@ -1,5 +1,5 @@
 use crate::plant::{QuadrupleTank, ValveSchedule};
-use crate::sim::{EventKind, TrackingFigures, Trajectory, ZeroDynamicsEnd};
+use crate::sim::{EventKind, TrackingMetrics, Trajectory, ZeroDynamicsEnd};
 
 use super::{ModelFreeAnalysis, ModelFreeAnswer, ModelFreeSetup};
 
@@ -91,7 +91,7 @@ impl ModelFreeVerdict {
         let error = late.map(|(error, _)| error);
         if !setup.valves.iter().all(ValveSchedule::is_constant) && within(FOLLOWED) {
             Self::Rippling { error, apart: drift(run) }
-        } else if within(SETTLED) && answer.figures.iter().all(TrackingFigures::looks_settled) {
+        } else if within(SETTLED) && answer.figures.iter().all(TrackingMetrics::looks_settled) {
             Self::Settled(answer.figures.map(|figures| figures.settling_s))
         } else {
             let end_s = run.time_s.last().copied().unwrap_or(0.0);

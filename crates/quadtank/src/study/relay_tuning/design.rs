@@ -4,9 +4,9 @@ use nalgebra::Matrix2;
 
 use crate::control::{IsaPid, ParallelPid, PidMatrix, SeriesPid};
 use crate::interaction::{Decoupling, decoupled_paths, static_decoupler};
-use crate::linear::{Closure, Complex, DelayedPlant, Loci, LoopStability, Path};
+use crate::linear::{Closure, Complex, DelayedPlant, Loci, LoopStability, SignalPath};
 use crate::literature::campestrini::{PublishedPlant, wood_berry_full_controller};
-use crate::sim::{HeldPlant, LoopTrace, MAX_WORK, StepFigures, TwoLoops, run_two_loops_within};
+use crate::sim::{HeldPlant, LoopTrace, MAX_WORK, StepMetrics, TwoLoops, run_two_loops_within};
 use crate::tuning::{
     Action, Design, GainLimit, PlacementWarning, TuningError, TuningRule, UltimatePoint, dynamic_relative_gain,
     importance_direction, propose, response_at,
@@ -73,7 +73,7 @@ pub struct StepResponse {
     /// The record.
     pub trace: LoopTrace,
     /// Its figures.
-    pub figures: [StepFigures; 2],
+    pub figures: [StepMetrics; 2],
     /// Whether it stays bounded, so that its figures mean something: the loop is stable and the record went to its end. With a
     /// decoupler, which the count of encirclements does not see, or where it is not computed, only the record can tell.
     pub is_bounded: bool,
@@ -223,7 +223,11 @@ fn loops(controllers: PidMatrix, setup: &TuningSetup) -> TwoLoops {
     }
 }
 
-fn linear_response(paths: &[Path], controllers: PidMatrix, setup: &TuningSetup) -> Result<StepResponse, TuningError> {
+fn linear_response(
+    paths: &[SignalPath],
+    controllers: PidMatrix,
+    setup: &TuningSetup,
+) -> Result<StepResponse, TuningError> {
     Ok(step_response(&mut DelayedPlant::new(paths)?, controllers, setup))
 }
 
@@ -232,7 +236,7 @@ const MAX_RESPONSE_WORK: f64 = 0.5 * MAX_WORK;
 
 fn step_response(plant: &mut dyn HeldPlant, controllers: PidMatrix, setup: &TuningSetup) -> StepResponse {
     let trace = run_two_loops_within(plant, &loops(controllers, setup), MAX_RESPONSE_WORK);
-    let figures = trace.step_figures(setup.response.references);
+    let figures = trace.step_metrics(setup.response.references);
     let is_bounded = trace.halt.is_none();
     StepResponse { trace, figures, is_bounded }
 }

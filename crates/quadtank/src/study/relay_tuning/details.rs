@@ -9,7 +9,7 @@ use crate::tuning::{
     sine_test, with_integrator,
 };
 
-use super::{Behind, DesignRoot, PlantStudy, TestSpec};
+use super::{DesignRoot, PlantStudy, SeriesElement, TestSpec};
 
 /// Time constants after which a transient of a sine test counts as gone: 1e-7 of it is left.
 const SETTLED: f64 = 16.0;
@@ -61,7 +61,7 @@ impl PlantStudy {
             return Ok(None);
         }
         let sign = self.plant.0[index][index].dc_gain().signum();
-        let sign = if matches!(spec.behind, Behind::Modulus(_)) { 1.0 } else { sign };
+        let sign = if matches!(spec.behind, SeriesElement::Modulus(_)) { 1.0 } else { sign };
         let half = period / 2.0;
         let cycles = limit_cycles(&element.scaled(sign), SOUGHT.0 * half, SOUGHT.1 * half)?;
         let distance = |cycle: &LimitCycle| (cycle.period / period).ln().abs();
@@ -78,9 +78,9 @@ pub(super) fn excited(plant: &TransferMatrix, spec: &TestSpec) -> Result<Transfe
     let index = spec.number.clamp(1, 2) - 1;
     let element = &plant.0[index][index];
     match spec.behind {
-        Behind::Nothing => Ok(element.clone()),
-        Behind::Integrator => Ok(with_integrator(element)),
-        Behind::Modulus(r) => modulus_estimator(element, r),
+        SeriesElement::Nothing => Ok(element.clone()),
+        SeriesElement::Integrator => Ok(with_integrator(element)),
+        SeriesElement::Modulus(r) => modulus_estimator(element, r),
     }
 }
 
@@ -129,7 +129,7 @@ mod tests {
         setup.test.kind = TestKind::Single;
         setup.test.amplitudes = [2.0, 3.0];
         for number in [1, 2] {
-            for behind in [Behind::Nothing, Behind::Integrator] {
+            for behind in [SeriesElement::Nothing, SeriesElement::Integrator] {
                 (setup.test.number, setup.test.behind) = (number, behind);
                 let (study, oscillation) = study(&setup);
                 let cycle = study.exact_limit_cycle(&setup.test, oscillation.period).unwrap().unwrap();

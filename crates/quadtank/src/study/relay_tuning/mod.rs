@@ -22,6 +22,6 @@ pub use plant_study::{FoundPoint, PlantStudy, Tested, Tuning, tune};
 pub use printed::{PrintedFigure, printed_figures, rule_targets};
 pub use results::{DesignOutcome, RelayTuningStudy, Results};
 pub use setup::{
-    Behind, CompareSpec, CriticalSpec, DecouplerSpec, DesignSpec, ResponseSpec, TestKind, TestSpec, TuningSetup,
+    CompareSpec, CriticalSpec, DecouplerSpec, DesignSpec, ResponseSpec, SeriesElement, TestKind, TestSpec, TuningSetup,
 };
 pub use steady_state::SteadyState;

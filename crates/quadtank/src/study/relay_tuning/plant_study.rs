@@ -10,7 +10,7 @@ use crate::tuning::{
 
 use super::details::excited;
 use super::rig::nonlinear;
-use super::{Behind, Designed, SteadyState, TestKind, TestSpec, TuningPlant, TuningSetup};
+use super::{Designed, SeriesElement, SteadyState, TestKind, TestSpec, TuningPlant, TuningSetup};
 
 /// Directions of the critical curve.
 const DIRECTIONS: usize = 200;
@@ -151,15 +151,15 @@ fn single(plant: &TransferMatrix, spec: &TestSpec, time: TestTime) -> Result<Tes
     let index = spec.number - 1;
     let element = &plant.0[index][index];
     let with = excited(plant, spec)?;
-    let gain = if matches!(spec.behind, Behind::Modulus(_)) { 1.0 } else { element.dc_gain() };
+    let gain = if matches!(spec.behind, SeriesElement::Modulus(_)) { 1.0 } else { element.dc_gain() };
     let test = single_loop_test(&with, relay(spec, index, gain), time)?;
     let found = test.reading.oscillation.and_then(|oscillation| {
         let frequency = oscillation.frequency();
         let gain = oscillation.loops[0].gain_by_peak?.abs();
         let modulus = match spec.behind {
-            Behind::Nothing => gain.recip(),
-            Behind::Integrator => frequency / gain,
-            Behind::Modulus(r) => r,
+            SeriesElement::Nothing => gain.recip(),
+            SeriesElement::Integrator => frequency / gain,
+            SeriesElement::Modulus(r) => r,
         };
         let response = element.at(Complex::new(0.0, frequency));
         let phase = (response * element.dc_gain().signum()).arg();

@@ -23,7 +23,7 @@ pub enum TestKind {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
-pub enum Behind {
+pub enum SeriesElement {
     /// Nothing: the point with −180°, if the relay has no hysteresis.
     #[default]
     Nothing,
@@ -45,7 +45,7 @@ pub struct TestSpec {
     pub number: usize,
     /// What stands behind the relay of a single test.
     #[serde(default)]
-    pub behind: Behind,
+    pub behind: SeriesElement,
     /// Amplitudes d1, d2.
     pub amplitudes: [f64; 2],
     /// Half widths ε of the hysteresis.

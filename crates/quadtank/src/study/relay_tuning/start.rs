@@ -6,7 +6,7 @@ use crate::literature::campestrini::{PublishedCase, PublishedPlacement, Publishe
 use crate::tuning::{Action, GainLimit, PlacementMethod, TuningRule, importance_direction};
 
 use super::{
-    Behind, CompareSpec, CriticalSpec, DecouplerSpec, DesignSpec, PlantStudy, ResponseSpec, TestKind, TestSpec,
+    CompareSpec, CriticalSpec, DecouplerSpec, DesignSpec, PlantStudy, ResponseSpec, SeriesElement, TestKind, TestSpec,
     TuningPlant, TuningSetup,
 };
 
@@ -24,7 +24,7 @@ impl TestSpec {
         Self {
             kind: TestKind::Simultaneous,
             number: 1,
-            behind: Behind::Nothing,
+            behind: SeriesElement::Nothing,
             amplitudes: [1.0; 2],
             hysteresis: [0.0; 2],
             bias: [0.0; 2],
