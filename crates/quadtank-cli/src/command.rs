@@ -9,28 +9,27 @@ use clap::error::ErrorKind;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use quadtank::literature::PresetId;
 use quadtank::literature::campestrini::PublishedCase;
-use quadtank::study::StudyError;
 use quadtank::study::model_free::ModelFreeSetup;
-use quadtank::study::quadruple_tank::{Setup, analyse, run, setup_of};
+use quadtank::study::quadruple_tank::setup_of;
 use quadtank::study::relay_tuning::TuningSetup;
-use quadtank::tuning::TuningError;
 use quadtank_scenario::model_free::ModelFreeScenario;
-use quadtank_scenario::report::quadruple::AnalysisReport;
-use quadtank_scenario::report::tuning::TuningAnalysisReport;
-use quadtank_scenario::tuning::{TuningScenario, warnings};
+use quadtank_scenario::tuning::TuningScenario;
 use quadtank_scenario::{
-    BenchDocument, DOCUMENT_LIMIT, Document, Scenario, ScenarioError, check_length, document_from_bytes, run_to_csv,
-    schema_of, to_json,
+    BenchDocument, DOCUMENT_LIMIT, Document, Scenario, ScenarioError, check_length, document_from_bytes, schema_of,
+    to_json,
 };
 use serde::Serialize;
 use serde_json::Value;
 use thiserror::Error;
 
+mod answers;
 mod message;
 mod model_free;
 mod plot;
 mod report;
 mod tune;
+
+use answers::{Answers, Drawing, Fault};
 
 /// The quadruple-tank laboratory without a screen.
 ///
@@ -168,12 +167,8 @@ fn case_of(name: &str) -> Result<Case, &'static str> {
 /// Why a command was not carried out.
 #[derive(Debug, Error)]
 enum Failure {
-    #[error("{file}: {error}")]
-    Scenario { file: String, error: ScenarioError },
-    #[error("{file}: tuning: {error}")]
-    Tuning { file: String, error: TuningError },
-    #[error("{file}: this command needs a relay-tuning session, version 2; a run of the quadruple tank is version 1")]
-    NoTuning { file: String },
+    #[error("{file}: {fault}")]
+    Document { file: String, fault: Fault },
     #[error("schema: tune reports on relay-tuning sessions alone, version 2; this is version {version}")]
     NoReport { version: u32 },
     #[error("{file}: {error}")]
@@ -220,51 +215,14 @@ fn wrong_command(error: &clap::Error) -> ExitCode {
 
 fn execute(command: Command) -> Result<(), Failure> {
     match command {
-        Command::Analyse { source } => answer(
-            &source,
-            |setup| print_json(&AnalysisReport::from(&studied(&source.file, "setup", analyse(setup))?)),
-            |session| print_by_key(&tuned(&source.file, TuningAnalysisReport::of(session))?),
-            |setup| print_by_key(&model_free::analysis(setup)),
-        ),
-        Command::Simulate { source, format } => answer(
-            &source,
-            |setup| {
-                let run = studied(&source.file, "setup", run(setup))?;
-                match format {
-                    Format::Csv => print(&run_to_csv(&run)),
-                    Format::Json => print_json(&run),
-                }
-            },
-            |session| match format {
-                Format::Csv => print(&tuned(&source.file, tune::response_csv(session))?),
-                Format::Json => print_by_key(&tuned(&source.file, tune::report(session))?),
-            },
-            |setup| match format {
-                Format::Csv => print(&studied(&source.file, "model_free", model_free::csv(setup))?),
-                Format::Json => print_by_key(&studied(&source.file, "model_free", model_free::report(setup))?),
-            },
-        ),
+        Command::Analyse { source } => print(&answer(&source, |document| document.analyse())?),
+        Command::Simulate { source, format } => print(&answer(&source, |document| document.simulate(format))?),
+        Command::Tune { source, format } => print(&answer(&source, |document| document.tune(format))?),
         Command::Plot { source, svg, chart, picture, theme } => {
-            let style = theme.style();
-            let write = |drawing: String| {
-                if is_standard_stream(&svg) { print(&drawing) } else { write_file(&svg, &drawing) }
-            };
-            answer(
-                &source,
-                |setup| write(studied(&source.file, "setup", plot::svg(setup, chart, &style))?),
-                |session| write(tuned(&source.file, tune::svg(session, picture, &style))?),
-                |setup| write(studied(&source.file, "model_free", model_free::svg(setup, &style))?),
-            )
+            let drawing = Drawing { chart, picture, style: theme.style() };
+            let drawing = answer(&source, |document| document.plot(&drawing))?;
+            if is_standard_stream(&svg) { print(&drawing) } else { write_file(&svg, &drawing) }
         }
-        Command::Tune { source, format } => answer(
-            &source,
-            |_| Err(Failure::NoTuning { file: file_name(&source.file) }),
-            |session| match format {
-                Format::Json => print_by_key(&tuned(&source.file, tune::report(session))?),
-                Format::Csv => print(&tuned(&source.file, tune::test_csv(session))?),
-            },
-            |_| Err(Failure::NoTuning { file: file_name(&source.file) }),
-        ),
         Command::Cases { name: None } => print(&list_of_cases()),
         Command::Cases { name: Some(Case::Tuning(case)) } => {
             print_document(&case.name(), to_json(&TuningScenario::from(TuningSetup::published(case))))
@@ -281,40 +239,21 @@ fn execute(command: Command) -> Result<(), Failure> {
     }
 }
 
-/// Reads a document and answers for its kind.
-fn answer(
-    source: &Source,
-    of_run: impl Fn(&Setup) -> Result<(), Failure>,
-    of_session: impl Fn(&TuningSetup) -> Result<(), Failure>,
-    of_model_free: impl Fn(&ModelFreeSetup) -> Result<(), Failure>,
-) -> Result<(), Failure> {
+/// Reads a document and asks it. What it may not have been meant to say is printed as warnings.
+fn answer(source: &Source, ask: impl Fn(&dyn Answers) -> Result<String, Fault>) -> Result<String, Failure> {
     let file = &source.file;
     let read = document(file)?;
     let document = if source.settings.is_empty() { read } else { told(file, read.with_values(&source.settings))? };
-    match document {
-        Document::Quadruple(scenario) => of_run(&scenario.setup),
-        Document::Tuning(scenario) => {
-            of_session(&scenario.tuning)?;
-            for warning in warnings(&scenario.tuning) {
-                message::tell(format!("{}: warning: {warning}", file_name(file)));
-            }
-            Ok(())
-        }
-        Document::ModelFree(scenario) => of_model_free(&scenario.model_free),
+    let document = answers::of(&document);
+    let answer = told(file, ask(document))?;
+    for warning in document.warnings() {
+        message::tell(format!("{}: warning: {warning}", file_name(file)));
     }
+    Ok(answer)
 }
 
-fn told<T>(file: &Path, result: Result<T, ScenarioError>) -> Result<T, Failure> {
-    result.map_err(|error| Failure::Scenario { file: file_name(file), error })
-}
-
-/// A result of the setup at a field of a document.
-fn studied<T>(file: &Path, setup: &'static str, result: Result<T, StudyError>) -> Result<T, Failure> {
-    told(file, result.map_err(|error| ScenarioError::Study { setup, error }))
-}
-
-fn tuned<T>(file: &Path, result: Result<T, TuningError>) -> Result<T, Failure> {
-    result.map_err(|error| Failure::Tuning { file: file_name(file), error })
+fn told<T>(file: &Path, result: Result<T, impl Into<Fault>>) -> Result<T, Failure> {
+    result.map_err(|fault| Failure::Document { file: file_name(file), fault: fault.into() })
 }
 
 /// Reads a document from a file or from standard input. A file that is too long is refused by its size; of what has no size,
@@ -362,11 +301,6 @@ fn file_name(file: &Path) -> String {
 fn print_json<T: Serialize>(value: &T) -> Result<(), Failure> {
     let text = serde_json::to_string_pretty(value).map_err(|error| cannot_print(error.into()))?;
     print(&(text + "\n"))
-}
-
-/// Prints a report of version 2 or 3, whose keys have always been in alphabetical order.
-fn print_by_key<T: Serialize>(report: &T) -> Result<(), Failure> {
-    print_json(&serde_json::to_value(report).map_err(|error| cannot_print(error.into()))?)
 }
 
 fn print_document(name: &str, text: Result<String, ScenarioError>) -> Result<(), Failure> {

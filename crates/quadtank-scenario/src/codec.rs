@@ -1,4 +1,4 @@
-use serde::Deserialize;
+use serde::de::DeserializeOwned;
 
 use super::error::{malformed, quoted};
 use super::model_free::ModelFreeScenario;
@@ -20,6 +20,51 @@ pub enum Document {
     Tuning(TuningScenario),
     /// A run under the model-free law, version 3.
     ModelFree(ModelFreeScenario),
+}
+
+/// A kind of document: what reading, links and schema need of its type.
+pub(super) struct DocumentKind {
+    pub version: u32,
+    pub root: &'static str,
+    pub dictionary: &'static [u8],
+    read: fn(&Tree) -> Result<Document, ScenarioError>,
+    #[cfg(feature = "schema")]
+    pub shape: fn(&mut schemars::SchemaGenerator) -> schemars::Schema,
+}
+
+/// All kinds of documents, by rising versions: a new one is a line here and a variant of [`Document`].
+pub(super) const KINDS: [DocumentKind; 3] =
+    [DocumentKind::of::<Scenario>(), DocumentKind::of::<TuningScenario>(), DocumentKind::of::<ModelFreeScenario>()];
+
+/// The newest version.
+pub(super) const NEWEST: u32 = KINDS[KINDS.len() - 1].version;
+
+/// What a document has to derive beside [`BenchDocument`].
+#[cfg(feature = "schema")]
+pub(super) trait Derived: DeserializeOwned + schemars::JsonSchema {}
+#[cfg(feature = "schema")]
+impl<T: DeserializeOwned + schemars::JsonSchema> Derived for T {}
+#[cfg(not(feature = "schema"))]
+pub(super) trait Derived: DeserializeOwned {}
+#[cfg(not(feature = "schema"))]
+impl<T: DeserializeOwned> Derived for T {}
+
+impl DocumentKind {
+    const fn of<D: BenchDocument + Derived>() -> Self {
+        Self {
+            version: D::VERSION,
+            root: D::ROOT,
+            dictionary: D::DICTIONARY,
+            read: |tree| read::<D>(tree).map(D::into),
+            #[cfg(feature = "schema")]
+            shape: schemars::SchemaGenerator::root_schema_for::<D>,
+        }
+    }
+
+    /// The kind with a version.
+    pub fn of_version(version: u64) -> Option<Self> {
+        KINDS.into_iter().find(|kind| u64::from(kind.version) == version)
+    }
 }
 
 /// Reads a scenario from JSON: length, then version, then shape, then every number.
@@ -56,11 +101,10 @@ pub fn document_from_bytes(bytes: &[u8]) -> Result<Document, ScenarioError> {
 ///
 /// A later version of a document is read here too: into its own types, then brought up to date.
 fn document_from_tree(tree: &Tree) -> Result<Document, ScenarioError> {
-    match version_of(tree)? {
-        1 => read::<Scenario>(tree).map(Document::from),
-        2 => read::<TuningScenario>(tree).map(Document::from),
-        3 => read::<ModelFreeScenario>(tree).map(Document::from),
-        found => Err(ScenarioError::UnknownVersion { found, newest: ModelFreeScenario::VERSION }),
+    let found = version_of(tree)?;
+    match DocumentKind::of_version(found) {
+        Some(kind) => (kind.read)(tree),
+        None => Err(ScenarioError::UnknownVersion { found, newest: NEWEST }),
     }
 }
 
@@ -109,7 +153,7 @@ fn version_of(tree: &Tree) -> Result<u64, ScenarioError> {
 }
 
 /// Reads a document into its type, shape first, then every number.
-fn read<'t, T: BenchDocument + Deserialize<'t>>(tree: &'t Tree) -> Result<T, ScenarioError> {
+fn read<T: BenchDocument + DeserializeOwned>(tree: &Tree) -> Result<T, ScenarioError> {
     let document: T = reader::read(tree)?;
     document.validate()?;
     Ok(document)

@@ -10,8 +10,12 @@ pub trait BenchDocument:
 {
     /// What results follow from.
     type Setup: Clone + PartialEq;
-    /// The version that this program writes, which is the bench's own.
+    /// The version that this program writes, which is the bench's own, and the format of its links.
     const VERSION: u32;
+    /// The field of the document that holds its setup.
+    const ROOT: &'static str;
+    /// Typical documents, one on a line, that links are [packed](super::link) against. They must never change, or old links break.
+    const DICTIONARY: &'static [u8];
 
     /// The setup that is worked on.
     fn setup(&self) -> &Self::Setup;
@@ -71,6 +75,8 @@ impl Scenario {
 impl BenchDocument for Scenario {
     type Setup = Setup;
     const VERSION: u32 = 1;
+    const ROOT: &'static str = "setup";
+    const DICTIONARY: &'static [u8] = include_bytes!("dictionary-1.jsonl");
 
     fn setup(&self) -> &Setup {
         &self.setup

@@ -1,28 +1,21 @@
 //! Links: a document as text for the fragment of a URL.
 //!
-//! `q1.` for a run of the quadruple tank, `q2.` for a tuning session, `q3.` for a run under the model-free law, and then, in base64url without padding, the
-//! [packed](super::pack) JSON on one line. What it is packed against holds field names and published settings, so a link to a
-//! published rig takes some twenty characters and one with every number changed stays under the limit.
-//!
-//! The dictionaries must never change, or old links break. A better one would be `q4.`, beside them.
+//! `q`, the version of the document and a point, and then, in base64url without padding, the [packed](super::pack) JSON on one line.
+//! What it is packed against holds field names and published settings, so a link to a published rig takes some twenty characters and
+//! one with every number changed stays under the limit.
 
 use base64::Engine;
 use base64::engine::general_purpose::URL_SAFE_NO_PAD;
 
-use super::codec::{DOCUMENT_LIMIT, Document, document_from_json, to_json};
+use super::codec::{DOCUMENT_LIMIT, Document, DocumentKind, NEWEST, document_from_json, to_json};
 use super::pack::{pack, unpack};
 use super::{BenchDocument, ScenarioError};
 
 /// Longest link that is written or read (characters), the prefix included.
 pub const LINK_LIMIT: usize = 2000;
 
-/// First character of every link; the number of its format follows.
+/// First character of every link; the version of its document follows.
 const MARK: char = 'q';
-/// Number of the newest format.
-const NEWEST: u32 = 3;
-/// What links of each format, which is the version of their document, are packed against.
-const DICTIONARIES: [&[u8]; 3] =
-    [include_bytes!("dictionary-1.jsonl"), include_bytes!("dictionary-2.jsonl"), include_bytes!("dictionary-3.jsonl")];
 
 /// Writes the document of a bench as text for the fragment of a URL: only letters, digits, `.`, `-` and `_`.
 ///
@@ -41,8 +34,7 @@ const DICTIONARIES: [&[u8]; 3] =
 pub fn to_link<D: BenchDocument>(document: &D) -> Result<String, ScenarioError> {
     // Without the indentation: a string of a document has no line breaks, so every line starts with it.
     let line: String = to_json(document)?.lines().map(str::trim_start).collect();
-    let (format, dictionary) = (D::VERSION, DICTIONARIES[D::VERSION as usize - 1]);
-    let link = format!("{MARK}{format}.{}", URL_SAFE_NO_PAD.encode(pack(dictionary, line.as_bytes())));
+    let link = format!("{MARK}{}.{}", D::VERSION, URL_SAFE_NO_PAD.encode(pack(D::DICTIONARY, line.as_bytes())));
     if link.len() > LINK_LIMIT {
         return Err(ScenarioError::TooLong { length: link.len(), max: LINK_LIMIT });
     }
@@ -69,10 +61,8 @@ fn json_of_link(link: &str) -> Result<String, ScenarioError> {
     let (format, payload) =
         link.strip_prefix(MARK).and_then(|rest| rest.split_once('.')).ok_or(ScenarioError::DamagedLink)?;
     let found: u64 = format.parse().map_err(|_| ScenarioError::DamagedLink)?;
-    let index = usize::try_from(found).ok().and_then(|format| format.checked_sub(1));
-    let dictionary = index.and_then(|index| DICTIONARIES.get(index));
-    let dictionary = dictionary.ok_or(ScenarioError::UnknownVersion { found, newest: NEWEST })?;
+    let kind = DocumentKind::of_version(found).ok_or(ScenarioError::UnknownVersion { found, newest: NEWEST })?;
     let packed = URL_SAFE_NO_PAD.decode(payload).map_err(|_| ScenarioError::DamagedLink)?;
-    let text = unpack(dictionary, &packed, DOCUMENT_LIMIT).ok_or(ScenarioError::DamagedLink)?;
+    let text = unpack(kind.dictionary, &packed, DOCUMENT_LIMIT).ok_or(ScenarioError::DamagedLink)?;
     String::from_utf8(text).map_err(|_| ScenarioError::DamagedLink)
 }

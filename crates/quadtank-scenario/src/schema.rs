@@ -1,27 +1,19 @@
 //! The JSON Schema of documents and [reports](super::report): the shape from their types, what numbers of documents are from their
 //! [rows](super::params).
 
-use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde_json::{Map, Value, json};
 
-use super::Scenario;
-use super::model_free::ModelFreeScenario;
+use super::codec::DocumentKind;
 use super::params::{List, Param, field_of};
-use super::tuning::TuningScenario;
-use crate::BenchDocument;
 
 type Object = Map<String, Value>;
 
 /// The JSON Schema of the documents of a version; `None` for one that is not known.
 pub fn schema_of(version: u32) -> Option<Value> {
-    let settings = SchemaSettings::draft2020_12();
-    let mut schema = match version {
-        Scenario::VERSION => shape_of::<Scenario>(settings),
-        TuningScenario::VERSION => shape_of::<TuningScenario>(settings),
-        ModelFreeScenario::VERSION => shape_of::<ModelFreeScenario>(settings),
-        _ => return None,
-    };
+    let shape = DocumentKind::of_version(version.into())?.shape;
+    let mut schema = shape_by(SchemaSettings::draft2020_12(), shape);
     describe(&mut schema, "");
     let only = f64::from(version);
     merge(&mut schema["properties"]["version"], json!({ "minimum": only, "maximum": only }));
@@ -30,16 +22,16 @@ pub fn schema_of(version: u32) -> Option<Value> {
 
 /// The JSON Schema of the [report](super::report) of a type.
 pub fn schema_of_report<R: JsonSchema>() -> Value {
-    let mut schema = shape_of::<R>(SchemaSettings::draft2020_12().for_serialize());
+    let mut schema = shape_by(SchemaSettings::draft2020_12().for_serialize(), SchemaGenerator::root_schema_for::<R>);
     // No number of a report has a row: none is at this path.
     describe(&mut schema, "report");
     schema
 }
 
-fn shape_of<T: JsonSchema>(settings: SchemaSettings) -> Value {
+fn shape_by(settings: SchemaSettings, shape: fn(&mut SchemaGenerator) -> Schema) -> Value {
     // Without references: one type stands at several places, whose numbers may have rows of their own.
     let settings = settings.with(|settings| settings.inline_subschemas = true);
-    settings.into_generator().into_root_schema_for::<T>().to_value()
+    shape(&mut settings.into_generator()).to_value()
 }
 
 /// Adds limits and descriptions to the schema of the values at a path, which has `[]` for any index.

@@ -20,6 +20,8 @@ pub struct ModelFreeScenario {
 impl BenchDocument for ModelFreeScenario {
     type Setup = ModelFreeSetup;
     const VERSION: u32 = 3;
+    const ROOT: &'static str = "model_free";
+    const DICTIONARY: &'static [u8] = include_bytes!("../dictionary-3.jsonl");
 
     fn setup(&self) -> &ModelFreeSetup {
         &self.model_free

@@ -11,6 +11,7 @@ use serde_json::Value;
 pub use rows::{LISTS, PARAMS};
 
 use super::ScenarioError;
+use super::codec::KINDS;
 use super::error::{malformed, out_of_range};
 use super::limits::Limits;
 
@@ -69,7 +70,8 @@ fn place_in_setup(path: &str) -> String {
     let mut pieces = path.split('[');
     let first = pieces.next().unwrap_or_default().to_owned();
     let place = pieces.fold(first, |place, piece| place + "[" + piece.trim_start_matches(|c: char| c.is_ascii_digit()));
-    let inside = ["setup.", "tuning.", "model_free.", "pinned[]."].iter().find_map(|root| place.strip_prefix(root));
+    let mut roots = KINDS.iter().map(|kind| kind.root).chain(["pinned[]"]);
+    let inside = roots.find_map(|root| place.strip_prefix(root)?.strip_prefix('.'));
     match inside.map(|inside| (inside, inside.strip_prefix("compare."))) {
         Some((_, Some(compared))) => format!("controller.{compared}"),
         Some((inside, None)) => inside.to_owned(),

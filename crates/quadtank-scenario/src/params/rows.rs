@@ -1,9 +1,8 @@
 use super::Scale::{Linear, Logarithmic};
 use super::{List, Param, Scale};
-use crate::BenchDocument;
 use crate::Scenario;
+use crate::codec::NEWEST;
 use crate::limits::{self, Limits};
-use crate::model_free::ModelFreeScenario;
 use crate::tuning::TuningScenario;
 
 const fn row(path: &'static str, unit: &'static str, limits: Limits, scale: Scale, description: &'static str) -> Param {
@@ -13,7 +12,7 @@ const fn row(path: &'static str, unit: &'static str, limits: Limits, scale: Scal
 /// Indices count from 0.
 const INDEX_OF_PAIR: Limits = Limits::new(0.0, 1.0);
 const INDEX_OF_TANK: Limits = Limits::new(0.0, 3.0);
-const VERSION: Limits = Limits::new(Scenario::VERSION as f64, ModelFreeScenario::VERSION as f64);
+const VERSION: Limits = Limits::new(1.0, NEWEST as f64);
 
 /// Unit of a time of a session: that of its plant.
 const OWN_TIME: &str = "unit of time of the plant";

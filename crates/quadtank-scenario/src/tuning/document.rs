@@ -25,6 +25,8 @@ impl TuningScenario {
 impl BenchDocument for TuningScenario {
     type Setup = TuningSetup;
     const VERSION: u32 = 2;
+    const ROOT: &'static str = "tuning";
+    const DICTIONARY: &'static [u8] = include_bytes!("../dictionary-2.jsonl");
 
     fn setup(&self) -> &TuningSetup {
         &self.tuning

@@ -1,0 +1,142 @@
+//! What the commands answer about a document: one implementation for each kind.
+
+use quadtank::study::StudyError;
+use quadtank::study::quadruple_tank::{analyse, run};
+use quadtank::tuning::TuningError;
+use quadtank_figure::Style;
+use quadtank_scenario::model_free::ModelFreeScenario;
+use quadtank_scenario::report::quadruple::AnalysisReport;
+use quadtank_scenario::report::tuning::TuningAnalysisReport;
+use quadtank_scenario::tuning::{TuningScenario, warnings};
+use quadtank_scenario::{BenchDocument, Document, Scenario, ScenarioError, run_to_csv};
+use serde::Serialize;
+use thiserror::Error;
+
+use super::{Format, model_free, plot, tune};
+
+/// What is to be drawn, and how.
+pub struct Drawing {
+    /// Of a run of the quadruple tank.
+    pub chart: plot::Chart,
+    /// Of a relay-tuning session.
+    pub picture: tune::Picture,
+    /// Colours and size.
+    pub style: Style,
+}
+
+/// Why a document has no answer.
+#[derive(Debug, Error)]
+pub enum Fault {
+    #[error("{0}")]
+    Scenario(#[from] ScenarioError),
+    #[error("tuning: {0}")]
+    Tuning(#[from] TuningError),
+    #[error("this command needs a relay-tuning session, version 2; a run of the quadruple tank is version 1")]
+    NoTuning,
+    #[error("{0}")]
+    Json(#[from] serde_json::Error),
+}
+
+/// The answers to all commands, each a text to print.
+pub trait Answers {
+    /// What theory says, as JSON.
+    fn analyse(&self) -> Result<String, Fault>;
+    /// What happens in the run.
+    fn simulate(&self, format: Format) -> Result<String, Fault>;
+    /// A picture, as SVG.
+    fn plot(&self, drawing: &Drawing) -> Result<String, Fault>;
+    /// What relay test and design find.
+    fn tune(&self, _: Format) -> Result<String, Fault> {
+        Err(Fault::NoTuning)
+    }
+    /// What the document may not have been meant to say.
+    fn warnings(&self) -> Vec<String> {
+        Vec::new()
+    }
+}
+
+/// The answers of a document.
+pub fn of(document: &Document) -> &dyn Answers {
+    match document {
+        Document::Quadruple(scenario) => scenario,
+        Document::Tuning(scenario) => scenario,
+        Document::ModelFree(scenario) => scenario,
+    }
+}
+
+impl Answers for Scenario {
+    fn analyse(&self) -> Result<String, Fault> {
+        json(&AnalysisReport::from(&studied::<Self, _>(analyse(&self.setup))?))
+    }
+
+    fn simulate(&self, format: Format) -> Result<String, Fault> {
+        let run = studied::<Self, _>(run(&self.setup))?;
+        match format {
+            Format::Csv => Ok(run_to_csv(&run)),
+            Format::Json => json(&run),
+        }
+    }
+
+    fn plot(&self, drawing: &Drawing) -> Result<String, Fault> {
+        studied::<Self, _>(plot::svg(&self.setup, drawing.chart, &drawing.style))
+    }
+}
+
+impl Answers for TuningScenario {
+    fn analyse(&self) -> Result<String, Fault> {
+        json_by_key(&TuningAnalysisReport::of(&self.tuning)?)
+    }
+
+    fn simulate(&self, format: Format) -> Result<String, Fault> {
+        match format {
+            Format::Csv => Ok(tune::response_csv(&self.tuning)?),
+            Format::Json => json_by_key(&tune::report(&self.tuning)?),
+        }
+    }
+
+    fn plot(&self, drawing: &Drawing) -> Result<String, Fault> {
+        Ok(tune::svg(&self.tuning, drawing.picture, &drawing.style)?)
+    }
+
+    fn tune(&self, format: Format) -> Result<String, Fault> {
+        match format {
+            Format::Csv => Ok(tune::test_csv(&self.tuning)?),
+            Format::Json => json_by_key(&tune::report(&self.tuning)?),
+        }
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        warnings(&self.tuning).iter().map(ToString::to_string).collect()
+    }
+}
+
+impl Answers for ModelFreeScenario {
+    fn analyse(&self) -> Result<String, Fault> {
+        json_by_key(&model_free::analysis(&self.model_free))
+    }
+
+    fn simulate(&self, format: Format) -> Result<String, Fault> {
+        match format {
+            Format::Csv => studied::<Self, _>(model_free::csv(&self.model_free)),
+            Format::Json => json_by_key(&studied::<Self, _>(model_free::report(&self.model_free))?),
+        }
+    }
+
+    fn plot(&self, drawing: &Drawing) -> Result<String, Fault> {
+        studied::<Self, _>(model_free::svg(&self.model_free, &drawing.style))
+    }
+}
+
+/// A result of the setup of a document.
+fn studied<D: BenchDocument, T>(result: Result<T, StudyError>) -> Result<T, Fault> {
+    Ok(result.map_err(|error| ScenarioError::Study { setup: D::ROOT, error })?)
+}
+
+fn json<T: Serialize>(report: &T) -> Result<String, Fault> {
+    Ok(serde_json::to_string_pretty(report)? + "\n")
+}
+
+/// A report of version 2 or 3, whose keys have always been in alphabetical order.
+fn json_by_key<T: Serialize>(report: &T) -> Result<String, Fault> {
+    json(&serde_json::to_value(report)?)
+}
