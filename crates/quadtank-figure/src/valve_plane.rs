@@ -3,13 +3,16 @@ use super::{Anchor, Axis, Chart, Course, Field, Label, Layer, Marker, Pen, Role,
 /// Steps of the shading along each axis.
 const STEPS: u32 = 40;
 
+/// The setting whose zero is shaded halfway to the full colour: about half the reciprocal time constant of the upper tanks shows both
+/// sides, because zeros to the left hardly pass that reciprocal and those to the right have no bound.
+const TYPICAL_SETTING: [f64; 2] = [0.3, 0.3];
+/// What is shaded halfway where that setting has no zero (1/s).
+const USUAL_ZERO: f64 = 1.0;
+
 /// What the valve plane shows.
 pub struct ValvePlane<'a> {
     /// Right-most transmission zero at the valve fractions γ1, γ2 (1/s); `None` where there is none that is finite.
     pub right_most_zero: &'a dyn Fn([f64; 2]) -> Option<f64>,
-    /// The zero that is shaded halfway (1/s, positive). About half the reciprocal time constant of the upper tanks
-    /// shows both sides: zeros to the left hardly pass that reciprocal, those to the right have no bound.
-    pub halfway_zero: f64,
     /// Published settings: name, γ1, γ2.
     pub published: &'a [(&'a str, [f64; 2])],
     /// The present setting, for pictures; on screen it is a handle laid over the chart.
@@ -69,15 +72,17 @@ pub fn with_valve_path<'a>(mut plane: Chart<'a>, way: &[[f64; 2]]) -> Chart<'a> 
 
 fn shading(spec: &ValvePlane) -> Field {
     let node = |step: u32| f64::from(step) / f64::from(STEPS);
-    let shades = (0..=STEPS).flat_map(|row| (0..=STEPS).map(move |column| shade(spec, [node(column), node(row)])));
+    let halfway = (spec.right_most_zero)(TYPICAL_SETTING).unwrap_or(USUAL_ZERO).abs().max(f64::MIN_POSITIVE);
+    let shade = |row: u32, column: u32| shade(spec, halfway, [node(column), node(row)]);
+    let shades = (0..=STEPS).flat_map(|row| (0..=STEPS).map(move |column| shade(row, column)));
     Field { x: (0.0, 1.0), y: (0.0, 1.0), columns: STEPS as usize + 1, shades: shades.collect() }
 }
 
-/// From −1 for a zero far to the left to 1 for one far to the right. Without a finite zero the side of the line counts.
-fn shade(spec: &ValvePlane, gammas: [f64; 2]) -> f64 {
+/// From −1 for a zero far to the left to 1 for one far to the right, ½ for the zero `halfway` (1/s). Without a finite zero the side of the line counts.
+fn shade(spec: &ValvePlane, halfway: f64, gammas: [f64; 2]) -> f64 {
     let below_line = 1.0 - gammas.iter().sum::<f64>();
     match (spec.right_most_zero)(gammas).filter(|zero| zero.is_finite()) {
-        Some(zero) => zero / (zero.abs() + spec.halfway_zero.abs().max(f64::MIN_POSITIVE)),
+        Some(zero) => zero / (zero.abs() + halfway),
         None if below_line == 0.0 => 0.0,
         None => below_line.signum(),
     }

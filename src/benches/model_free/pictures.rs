@@ -13,8 +13,6 @@ use quadtank_figure::{
 use quadtank_scenario::model_free::{roots_to_csv, run_to_csv};
 use quadtank_scenario::valve_map_to_csv;
 
-/// The setting whose zero is shaded half way to the full colour.
-const TYPICAL_SETTING: [f64; 2] = [0.3, 0.3];
 /// Steps of each valve in the exported table of the plane.
 const CSV_STEPS: u32 = 20;
 /// How much of the path of the valves is drawn behind them (s), and the time between its points (s).
@@ -80,7 +78,6 @@ pub fn plane(session: Session, whole: bool) -> Picture {
         let map = map.get();
         let plane = quadtank_figure::valve_plane(&ValvePlane {
             right_most_zero: &|valves| map.rightmost_zero(valves),
-            halfway_zero: map.rightmost_zero(TYPICAL_SETTING).unwrap_or(1.0),
             published: &[],
             setting: shown(session).filter(|_| whole).map(|shown| shown.plant.valves),
             texts: ValvePlaneTexts {

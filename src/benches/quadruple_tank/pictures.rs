@@ -13,8 +13,6 @@ use quadtank_scenario::{roots_to_csv, run_to_csv, valve_map_to_csv};
 
 use leptos::prelude::*;
 
-/// The setting whose zero is shaded half way to the full colour.
-const TYPICAL_SETTING: [f64; 2] = [0.3, 0.3];
 /// Points on the paths of the zeros.
 const PATH_POINTS: usize = 61;
 /// Steps of each valve in the exported table of the plane.
@@ -36,7 +34,6 @@ pub fn valve_plane(session: Session) -> Picture {
         };
         visit(&[quadtank_figure::valve_plane(&ValvePlane {
             right_most_zero: &|valves| map.rightmost_zero(valves),
-            halfway_zero: map.rightmost_zero(TYPICAL_SETTING).unwrap_or(1.0),
             published: &[],
             setting: None,
             texts,

@@ -82,10 +82,8 @@ fn responses(setup: &Setup, style: &Style) -> Result<String, StudyError> {
 fn valve_plane(setup: &Setup, style: &Style) -> Result<String, StudyError> {
     let map = ValveMap::of(setup)?;
     let published = published_settings(setup);
-    let [t3, t4] = map.upper_time_constants_s([0.5, 0.5]);
     let chart = quadtank_figure::valve_plane(&ValvePlane {
         right_most_zero: &|valves| map.rightmost_zero(valves),
-        halfway_zero: (t3 * t4).sqrt().recip(),
         published: &published,
         setting: Some(setup.valves),
         texts: ValvePlaneTexts {

@@ -243,8 +243,9 @@ fn shades_lie_on_their_side_of_the_line() {
             assert!(if green > red { beyond > -2e-3 } else { beyond < 2e-3 }, "{gamma_1}, {gamma_2}");
         }
     }
-    // 16 steps to the deepest shade; zeros to the left stop at −1/50 s, which is a shade of one half.
-    assert_eq!((teal, warm), (8, 16));
+    // 16 steps to the deepest shade. With the zero 0.0267 1/s at γ = 0.3 as one half, zeros to the left, which stop at −0.02 1/s, have
+    // shades up to 0.02/(0.02 + 0.0267) = 0.43, the seventh step.
+    assert_eq!((teal, warm), (7, 16));
 }
 
 #[test]
