@@ -14,7 +14,7 @@ pub trait BenchDocument:
     const VERSION: u32;
     /// The field of the document that holds its setup.
     const ROOT: &'static str;
-    /// Typical documents, one on a line, that links are [packed](super::link) against. They must never change, or old links break.
+    /// Typical documents, one on a line, that links are packed against. They must never change, or old links break.
     const DICTIONARY: &'static [u8];
 
     /// The setup that is worked on.
