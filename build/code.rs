@@ -15,9 +15,9 @@
 //! }
 //! ```
 //!
-//! The values come in a struct because Rust has no named arguments: of three numbers in a row nobody sees which is which. A plural text
-//! has the field `count: usize`, and a `match` on it in each language. Every function returns a `String`, which is what signals and
-//! views hold, whether the text has values or not.
+//! The values are the fields of a struct because Rust has no named arguments: at the call every value stands beside its name. A plural
+//! text has the field `count: usize`, and its function a `match` on it in each language. Every function returns a `String`, the type
+//! that signals and views take, also for a text without values.
 
 use std::collections::BTreeSet;
 use std::fmt::{Result, Write};

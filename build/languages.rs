@@ -13,7 +13,7 @@ pub struct Language {
     pub plural: &'static [(&'static str, &'static str)],
 }
 
-/// All languages, in the order of their choice on the page. The first is spoken where no other is asked for.
+/// The languages of the page, in the order of its menu. The first is the default.
 ///
 /// A further language is a row here and its file in `assets/locales`; what either lacks stops the compiler. Three things are for
 /// people to see to: `index.html` and `assets/start.js` speak before a language is chosen and say each sentence in all of them; the

@@ -131,7 +131,7 @@ fn wrong_categories(language: &Language, text: &Text) -> Vec<String> {
     missing.chain(unknown).collect()
 }
 
-/// How a text differs from that of the first language in what it has to be given.
+/// How a text disagrees with the same text of the first language: one of them alone has plural forms, or their values differ.
 fn difference(text: &Text, (language, first): (&Language, &Text)) -> Option<String> {
     let other = file(language);
     if text.is_plural != first.is_plural {

@@ -17,8 +17,9 @@ pub fn roots_to_csv(plant: &LinearPlant) -> String {
     text
 }
 
-/// The run, one row per sample, with the unit of each column in its name. φ̂ is what the law used at the sample, φ what it
-/// really is from there on; the zero is that of the moment, empty where there is none.
+/// The run as CSV, one row per sample; the names of the columns contain the units. `phi_estimate` (m/s) is the estimate that the law
+/// used at the sample, `phi` (m/s) the true value from that sample to the next. `rightmost_zero_per_s` is that of the linear plant at
+/// the levels, voltages and valves of the sample, empty where it has no zero.
 pub fn run_to_csv(answer: &ModelFreeAnswer, setup: &ModelFreeSetup) -> String {
     let mut text = "time_s,level_1_m,level_2_m,level_3_m,level_4_m,reference_1_m,reference_2_m,pump_voltage_1_v,\
              pump_voltage_2_v,gamma_1,gamma_2,phi_estimate_1_m_per_s,phi_estimate_2_m_per_s,phi_1_m_per_s,phi_2_m_per_s,\

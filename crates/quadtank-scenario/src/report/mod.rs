@@ -12,7 +12,7 @@ pub mod model_free;
 pub mod quadruple;
 pub mod tuning;
 
-/// A complex number, in the unit of what it stands for.
+/// A complex number; its unit is that of the field that contains it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ComplexNumber {
@@ -22,7 +22,7 @@ pub struct ComplexNumber {
     pub im: f64,
 }
 
-/// What was asked for, or why there is no answer.
+/// A value, or the error that explains why there is none.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(untagged)]

@@ -101,11 +101,14 @@ mod tests {
         assert_eq!(at([1.0, 0.0]).0, ZeroSituation::Degenerate);
     }
 
+    /// ψᵀ G(z) = 0 gives ψ1/ψ2 ∝ −(1 − γ1)/γ1 and ψ2/ψ1 ∝ −(1 − γ2)/γ2 (Johansson 2000, §III): with γ1 small the zero limits level 1,
+    /// with γ2 small level 2.
     #[test]
-    fn a_nearly_closed_valve_makes_the_zero_one_of_a_single_level() {
-        // With γ1 small the direction of a zero in the right half-plane turns to one level (Johansson 2000, §III-C).
-        let (situation, effect) = at([0.01, 0.9]);
-        assert!(situation.limits_control());
-        assert!(matches!(effect, Some(ZeroEffect::OneLevel { .. })), "{effect:?}");
+    fn a_nearly_closed_valve_makes_the_zero_one_of_its_own_level() {
+        for (valves, level) in [([0.01, 0.9], 0), ([0.9, 0.01], 1)] {
+            let (situation, effect) = at(valves);
+            assert!(situation.limits_control());
+            assert_eq!(effect, Some(ZeroEffect::OneLevel { level }), "{valves:?}");
+        }
     }
 }
