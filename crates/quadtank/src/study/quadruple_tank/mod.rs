@@ -1,6 +1,7 @@
 //! The study of the home bench: a quadruple tank with two PI loops, from two valves to the step response.
 
 mod analysis;
+mod first_steps;
 mod guaranteed_margins;
 mod prepared;
 mod published;
@@ -11,6 +12,7 @@ mod valve_map;
 mod zero_situation;
 
 pub use analysis::{Analysis, analyse};
+pub use first_steps::{Direction, calmed, direction_steps, first_experiment, fitted_duration_s};
 pub use guaranteed_margins::GuaranteedMargins;
 pub use prepared::Prepared;
 pub use published::setup_of;

@@ -1,0 +1,167 @@
+use crate::control::LoopMode;
+use crate::linear::{Stability, TransmissionZero};
+use crate::literature::PresetId;
+use crate::sim::{SetPointStep, Settling};
+
+use super::{Setup, analyse, run, setup_of};
+
+/// When the first experiment steps (s).
+const FIRST_STEP_AT_S: f64 = 20.0;
+/// How much water the first experiment asks for (m): enough to be seen, and no pump of the rig reaches its limit.
+const FIRST_STEP: f64 = 0.02;
+/// The shortest time that [`fitted_duration_s`] shows (s), which it doubles, and the longest.
+const FITTED_S: (f64, f64) = (400.0, 6400.0);
+/// Largest sensitivity peak of a loop that is calm (Skogestad and Postlethwaite 2005, section 2.4.2: at most 2 is usual).
+const CALM_PEAK: f64 = 1.6;
+/// How [`calmed`] changes gains and integral times from one try to the next, and how often.
+const CALMER: (f64, f64) = (0.8, 1.12);
+const MOST_TRIES: usize = 40;
+
+/// The experiment that a first visit begins with: Johansson's rig at P−, with one step of level 1 that can be seen.
+pub fn first_experiment() -> Setup {
+    let mut setup = setup_of(PresetId::JohanssonMinimumPhase);
+    setup.experiment.duration_s = FITTED_S.0;
+    setup.experiment.set_point_steps = vec![SetPointStep { level: 0, time_s: FIRST_STEP_AT_S, size: FIRST_STEP }];
+    setup
+}
+
+/// How long a run has to be (s) so that each level that steps is seen to settle, with at least as much time after it: 400 s or a
+/// doubling of it. The present duration where nothing settles within 6400 s, or nothing steps.
+pub fn fitted_duration_s(setup: &Setup) -> f64 {
+    let last_step_s = setup.experiment.set_point_steps.iter().map(|step| step.time_s).fold(0.0, f64::max);
+    let mut tried = setup.clone();
+    tried.experiment.duration_s = FITTED_S.0;
+    while tried.experiment.duration_s <= FITTED_S.1 {
+        let duration_s = tried.experiment.duration_s;
+        if let Ok(run) = run(&tried) {
+            let settled = run.metrics.iter().filter_map(|m| Some((m.step_time_s?, m.settling_2_percent?)));
+            let ends = settled.map(|(step_s, settling)| match settling {
+                Settling::After { time_s } => 2.0f64.mul_add(time_s, step_s),
+                Settling::Never => f64::INFINITY,
+            });
+            let end = ends.reduce(f64::max).unwrap_or(f64::INFINITY);
+            if last_step_s < duration_s && end <= duration_s {
+                return duration_s;
+            }
+        }
+        tried.experiment.duration_s *= 2.0;
+    }
+    setup.experiment.duration_s
+}
+
+/// The same setup with calmer controllers: gains lowered and integral times raised in equal shares for both loops, as little as
+/// makes the loop stable with a sensitivity peak of at most 1.6. `None` where no such gains are found, as with integral
+/// action on a pairing whose Niederlinski index is negative.
+pub fn calmed(setup: &Setup) -> Option<Setup> {
+    let mut tried = setup.clone();
+    for each in &mut tried.controller.loops {
+        (each.gain, each.mode) = (each.gain.abs(), LoopMode::Automatic);
+    }
+    for _ in 0..MOST_TRIES {
+        let closed_loop = analyse(&tried).ok()?.closed_loop;
+        if closed_loop.stability == Stability::Stable
+            && closed_loop.sensitivity_peak.is_some_and(|peak| peak <= CALM_PEAK)
+        {
+            return Some(tried);
+        }
+        for each in &mut tried.controller.loops {
+            each.gain *= CALMER.0;
+            each.integral_time_s *= CALMER.1;
+        }
+    }
+    None
+}
+
+/// A way to move both levels at once, seen from a zero.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Direction {
+    /// Along the output direction of the zero, which no controller can hurry.
+    Hard,
+    /// At right angles to it, where the zero does not act.
+    Easy,
+}
+
+/// The steps of both levels (m) of length `size` (m) along a direction of a zero; the larger of them upwards.
+pub fn direction_steps(zero: &TransmissionZero, direction: Direction, size: f64) -> [f64; 2] {
+    let [y1, y2] = [zero.output_direction[0].re, zero.output_direction[1].re];
+    let [a, b] = match direction {
+        Direction::Hard => [y1, y2],
+        Direction::Easy => [-y2, y1],
+    };
+    let larger = if a.abs() >= b.abs() { a } else { b };
+    [a, b].map(|part| size * part * larger.signum() / a.hypot(b))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::control::Pairing;
+    use crate::sim::LoopMetrics;
+
+    fn settling(setup: &Setup) -> Option<Settling> {
+        run(setup).unwrap().metrics[0].settling_2_percent
+    }
+
+    #[test]
+    fn the_first_experiment_settles_well_before_its_end_and_stays_within_the_rig() {
+        let setup = first_experiment();
+        let run = run(&setup).unwrap();
+        assert!(run.nonlinear.events.is_empty(), "{:?}", run.nonlinear.events);
+        assert!(matches!(settling(&setup), Some(Settling::After { time_s }) if time_s < 60.0));
+        assert_eq!(fitted_duration_s(&setup), setup.experiment.duration_s);
+    }
+
+    #[test]
+    fn a_duration_fits_a_slow_loop_and_stays_where_nothing_settles() {
+        let mut setup = first_experiment();
+        (setup.valves, setup.controller.pairing) = ([0.4, 0.3], Pairing::Swapped);
+        assert_eq!(fitted_duration_s(&setup), 400.0, "the gains of P− are unstable here");
+        let mut slow = calmed(&setup).unwrap();
+        slow.experiment.duration_s = fitted_duration_s(&slow);
+        let Some(Settling::After { time_s }) = settling(&slow) else { panic!("{:?}", settling(&slow)) };
+        assert!(2.0 * time_s + 20.0 <= slow.experiment.duration_s);
+        assert!(slow.experiment.duration_s / 2.0 < 2.0 * time_s + 20.0, "half as long would do");
+    }
+
+    #[test]
+    fn calmed_loops_are_stable_with_a_small_peak_and_none_are_found_for_a_wrong_pairing() {
+        for valves in [[0.7, 0.6], [0.4, 0.3], [0.3, 0.3], [0.43, 0.34], [0.2, 0.2]] {
+            let mut setup = first_experiment();
+            setup.valves = valves;
+            let right = if valves[0] + valves[1] > 1.0 { Pairing::Diagonal } else { Pairing::Swapped };
+            setup.controller.pairing = right;
+            let closed_loop = analyse(&calmed(&setup).unwrap()).unwrap().closed_loop;
+            assert_eq!(closed_loop.stability, Stability::Stable, "{valves:?}");
+            assert!(closed_loop.sensitivity_peak.unwrap() <= CALM_PEAK, "{valves:?}");
+            setup.controller.pairing = if right == Pairing::Diagonal { Pairing::Swapped } else { Pairing::Diagonal };
+            assert_eq!(calmed(&setup), None, "{valves:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_calm_already_stays_as_it_is() {
+        let setup = first_experiment();
+        assert_eq!(calmed(&setup), Some(setup));
+    }
+
+    #[test]
+    fn steps_along_the_hard_direction_go_the_wrong_way_and_those_across_it_do_not() {
+        let mut setup = first_experiment();
+        (setup.valves, setup.controller.pairing) = ([0.43, 0.34], Pairing::Swapped);
+        setup = calmed(&setup).unwrap();
+        setup.experiment.duration_s = 3000.0;
+        let zero = analyse(&setup).unwrap().linear.rightmost_zero().unwrap().clone();
+        let worst = |direction| {
+            let sizes = direction_steps(&zero, direction, 0.01);
+            assert!((sizes[0].hypot(sizes[1]) - 0.01).abs() < 1e-12);
+            let mut setup = setup.clone();
+            let step = |level: usize| SetPointStep { level, time_s: 20.0, size: sizes[level] };
+            setup.experiment.set_point_steps = vec![step(0), step(1)];
+            let run = run(&setup).unwrap();
+            let iae: f64 = run.metrics.iter().map(|m: &LoopMetrics| m.iae).sum();
+            iae
+        };
+        // Johansson (2000): the interpolation constraint makes the area of the hard direction large.
+        assert!(worst(Direction::Hard) > 2.0 * worst(Direction::Easy));
+    }
+}
