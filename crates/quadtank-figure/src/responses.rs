@@ -205,12 +205,12 @@ fn range<'a>(
     (all.0 - room, all.1 + room)
 }
 
-fn join(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
+pub(super) fn join(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
     (a.0.min(b.0), a.1.max(b.1))
 }
 
 /// Lowest and highest finite value.
-fn extent(values: &[f64]) -> Option<(f64, f64)> {
+pub(super) fn extent(values: &[f64]) -> Option<(f64, f64)> {
     values.iter().filter(|value| value.is_finite()).map(|&value| (value, value)).reduce(join)
 }
 
