@@ -6,11 +6,13 @@ use leptos::prelude::*;
 
 use super::benches::BenchEntry;
 use super::canvas;
+use super::depth::Depth;
 use super::format::NumberStyle;
 use super::frames::FrameScheduler;
 use super::session::{Bench, Session};
 use super::start::{Control, Panel, StartFlags};
 use super::texts::Language;
+use quadtank::literature::PresetId;
 use quadtank_figure::{Palette, Style};
 use quadtank_scenario::{Document, ScenarioError};
 
@@ -25,6 +27,14 @@ pub enum Notice {
     Copied,
     /// The clipboard is out of reach: here is the link.
     CopyByHand(String),
+    /// The browser remembers the link of the last experiment.
+    Continue(String),
+    /// What was loaded, by its name; it can be undone.
+    Loaded(String),
+    /// The valves of a published rig were taken over; its tuning is an action of its own.
+    ValvesOf(PresetId),
+    /// The browser keeps nothing of this page: it is in a sandbox.
+    NotKept,
 }
 
 /// The state of the laboratory, which lives as long as the page. A handle of one pointer: views hold many of them, and what
@@ -54,6 +64,12 @@ pub struct State {
     pub dark: RwSignal<bool>,
     /// The notice at the top of the page.
     pub notice: RwSignal<Option<Notice>>,
+    /// How much of a bench is shown at once.
+    pub depth: RwSignal<Depth>,
+    /// How much of a bench is shown when the page begins, which says what a bench begins with.
+    pub first_depth: Depth,
+    /// Whether it was said that nothing is kept.
+    pub told_not_kept: StoredValue<bool>,
     /// How the page was started.
     pub flags: StoredValue<StartFlags>,
     /// Owns what stays when benches change.
@@ -67,7 +83,13 @@ pub fn use_lab() -> Lab {
 
 impl Lab {
     /// A laboratory with these benches, of which the first is shown if the flags name none.
-    pub fn new(benches: &'static [BenchEntry], language: Language, dark: bool, flags: StartFlags) -> Self {
+    pub fn new(
+        benches: &'static [BenchEntry],
+        language: Language,
+        dark: bool,
+        depth: Depth,
+        flags: StartFlags,
+    ) -> Self {
         let named = benches.iter().find(|bench| flags.bench.as_deref() == Some(bench.id));
         Self(Box::leak(Box::new(State {
             benches,
@@ -76,6 +98,9 @@ impl Lab {
             language: RwSignal::new(language),
             dark: RwSignal::new(dark),
             notice: RwSignal::new(None),
+            depth: RwSignal::new(depth),
+            first_depth: depth,
+            told_not_kept: StoredValue::new(false),
             flags: StoredValue::new(flags),
             owner: Owner::current().unwrap_or_default(),
         })))
@@ -121,7 +146,7 @@ impl Lab {
     pub fn session<B: Bench>(self) -> Session<B> {
         self.owner.with(|| {
             use_context().unwrap_or_else(|| {
-                let session = Session::<B>::start(self, B::Document::default());
+                let session = Session::<B>::start(self, B::usual(self));
                 provide_context(session);
                 session
             })

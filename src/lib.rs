@@ -7,10 +7,13 @@
 mod benches;
 mod canvas;
 mod controls;
+mod depth;
 mod download;
 mod errors;
 mod format;
 mod frames;
+mod history;
+mod keep;
 mod lab;
 mod session;
 mod share;

@@ -7,14 +7,19 @@ use leptos::prelude::*;
 use quadtank::study::Study;
 use quadtank_scenario::BenchDocument;
 
+use super::history::History;
 use super::lab::{Lab, use_lab};
 
 /// A bench: a study, its document, and the cards that show it. [`BENCHES`](super::benches::BENCHES) lists them.
 pub trait Bench: Sized + 'static {
     /// Its name in an address.
     const ID: &'static str;
+    /// A small picture for the navigation: the path of a drawing 48 wide and 32 high.
+    const PICTURE: &'static str;
     /// Class of the element that holds its cards.
     const CLASS: &'static str;
+    /// Whether it can be shown at less than full depth.
+    const HAS_DEPTHS: bool = false;
     /// What files and links hold.
     type Document: BenchDocument<Setup = SetupOf<Self>> + Send + Sync;
     /// What computes the results.
@@ -30,8 +35,16 @@ pub trait Bench: Sized + 'static {
     /// What is remembered besides.
     fn own(document: RwSignal<Self::Document>) -> Self::Own;
 
+    /// The document that it begins with where no link or file says another: the start flags may ask for one.
+    fn usual(_lab: Lab) -> Self::Document {
+        Self::Document::default()
+    }
+
     /// What the navigation calls it.
     fn title(lab: Lab) -> String;
+
+    /// One line on what one does there.
+    fn about(lab: Lab) -> String;
 
     /// The cards that the start flags ask for.
     fn cards(session: Session<Self>) -> AnyView;
@@ -88,6 +101,8 @@ pub struct State<B: Bench> {
     pub throttled: B::Found,
     /// What the bench remembers besides.
     pub own: B::Own,
+    /// The steps that can be undone.
+    history: RwSignal<History<B::Document>>,
     results: RwSignal<ResultsOf<B>>,
     throttled_results: RwSignal<ResultsOf<B>>,
 }
@@ -102,6 +117,7 @@ impl<B: Bench> Session<B> {
     pub(super) fn start(lab: Lab, document: B::Document) -> Self {
         let found = B::Study::update(document.setup(), document.pinned(), None);
         let (results, throttled_results) = (RwSignal::new(found.clone()), RwSignal::new(found));
+        let history = RwSignal::new(History::new(document.clone()));
         let document = RwSignal::new(document);
         let session = Self(Box::leak(Box::new(State {
             lab,
@@ -109,6 +125,7 @@ impl<B: Bench> Session<B> {
             charts: B::found(results),
             throttled: B::found(throttled_results),
             own: B::own(document),
+            history,
             results,
             throttled_results,
         })));
@@ -124,6 +141,30 @@ impl<B: Bench> Session<B> {
         };
         let found = self.document.try_with_untracked(update)?;
         Some(Box::new(move || self.results.set(found)))
+    }
+
+    /// Takes the document up as a step that can be undone.
+    pub fn record(self) {
+        self.document.with_untracked(|document| self.history.update(|history| history.record(document)));
+    }
+
+    /// Undoes the last recorded step.
+    pub fn undo(self) {
+        if let Some(before) = self.history.try_update(History::undo).flatten() {
+            self.document.set(before);
+        }
+    }
+
+    /// Does again what was undone last.
+    pub fn redo(self) {
+        if let Some(after) = self.history.try_update(History::redo).flatten() {
+            self.document.set(after);
+        }
+    }
+
+    /// Whether there is a step to undo, and one to do again.
+    pub fn can_undo_redo(self) -> (bool, bool) {
+        self.history.with(|history| (history.can_undo(), history.can_redo()))
     }
 
     /// What `read` makes of the setup.

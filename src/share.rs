@@ -5,6 +5,7 @@ use leptos::prelude::*;
 use super::benches::BenchEntry;
 use super::download::{copy, download_text};
 use super::lab::{Lab, Notice};
+use super::start::StartFlags;
 use quadtank_scenario::{Document, ScenarioError, check_length, document_from_bytes, document_from_link};
 
 /// What stands before the link text in the fragment of an address.
@@ -28,14 +29,50 @@ fn link_of(lab: Lab) -> Result<String, ScenarioError> {
 pub fn address_of(lab: Lab) -> Result<String, ScenarioError> {
     let link = link_of(lab)?;
     let here = window().location().href().unwrap_or_default();
-    let page = here.split('#').next().unwrap_or_default();
-    Ok(format!("{page}#{PREFIX}{link}"))
+    let page = here.split(['?', '#']).next().unwrap_or_default();
+    let query = query_with(&search(), &shown(lab, lab.bench.get_untracked()));
+    Ok(format!("{page}{query}#{PREFIX}{link}"))
 }
 
-/// A reference to this page without its start flags that restores everything. It names no path: one that begins with two
-/// slashes would be read as a host.
+/// A reference to this page that restores everything: of its start flags only language and theme, as they are chosen now, and how
+/// much is shown. It names no path: one that begins with two slashes would be read as a host.
 pub fn bare_reference(lab: Lab) -> Result<String, ScenarioError> {
-    Ok(format!("{BARE}#{PREFIX}{}", link_of(lab)?))
+    let language = ("lang", lab.language.get_untracked().tag());
+    let theme = ("theme", if lab.dark.get_untracked() { "dark" } else { "light" });
+    let mut pairs = vec![language, theme];
+    pairs.extend(shown(lab, lab.bench.get_untracked()));
+    Ok(format!("{}#{PREFIX}{}", query_with("", &pairs), link_of(lab)?))
+}
+
+/// The reference that brings a bench back as it is. One that is as it begins needs no document in its address, and what does not
+/// fit into one is left to the browser's memory and to files.
+pub fn kept_reference(lab: Lab, bench: &BenchEntry) -> String {
+    let link = (bench.is_changed)(lab).then(|| (bench.link)(lab).ok()).flatten();
+    let mut pairs = vec![("bench", bench.id)];
+    if link.is_some() || search().contains("view=") {
+        pairs.extend(shown(lab, bench));
+    }
+    let query = query_with(&search(), &pairs);
+    // An empty reference would be the present address with its fragment.
+    let fragment = link.map(|link| format!("#{PREFIX}{link}")).unwrap_or_default();
+    format!("{query}{fragment}")
+}
+
+/// How much of a bench is shown, for an address; nothing for a bench that has no choice.
+fn shown(lab: Lab, bench: &BenchEntry) -> Vec<(&'static str, &'static str)> {
+    bench.has_depths.then(|| ("view", lab.depth.get_untracked().name())).into_iter().collect()
+}
+
+fn search() -> String {
+    window().location().search().unwrap_or_default()
+}
+
+/// A query with these values; its other ones stay.
+fn query_with(query: &str, pairs: &[(&str, &str)]) -> String {
+    let is_replaced = |pair: &str| pairs.iter().any(|(name, _)| pair.split('=').next() == Some(name));
+    let others = query.trim_start_matches('?').split('&').filter(|pair| !pair.is_empty() && !is_replaced(pair));
+    let all = others.map(str::to_owned).chain(pairs.iter().map(|(name, value)| format!("{name}={value}")));
+    format!("?{}", all.collect::<Vec<_>>().join("&"))
 }
 
 /// Puts the link on the clipboard and into the address bar, so that a reload restores the bench as well.
@@ -52,21 +89,38 @@ pub fn share(lab: Lab) {
     }
 }
 
-/// Shows an address without loading it. A sandboxed page may not touch its address, and goes on without.
-fn show_address(address: &str) {
-    if let Ok(history) = window().history() {
-        let _ = history.replace_state_with_url(&leptos::wasm_bindgen::JsValue::NULL, "", Some(address));
-    }
+/// Shows an address without loading it, and says whether it could: a sandboxed page may not touch its address, and goes on
+/// without.
+pub fn show_address(address: &str) -> bool {
+    let nothing = leptos::wasm_bindgen::JsValue::NULL;
+    window().history().is_ok_and(|history| history.replace_state_with_url(&nothing, "", Some(address)).is_ok())
 }
 
-/// Shows another bench, also in the address, so that a reload comes back to it. A link in the address was of the last one.
+/// Shows another bench. It is a step of the browser's history, so that Back comes back to this one.
 pub fn go_to(lab: Lab, bench: &'static BenchEntry) {
+    if lab.bench.get_untracked() == bench {
+        return;
+    }
+    let here = lab.bench.get_untracked();
+    show_address(&kept_reference(lab, here));
+    let nothing = leptos::wasm_bindgen::JsValue::NULL;
+    if let Ok(history) = window().history() {
+        let _ = history.push_state_with_url(&nothing, "", Some(&kept_reference(lab, bench)));
+    }
     lab.bench.set(bench);
-    let query = window().location().search().unwrap_or_default();
-    let others =
-        query.trim_start_matches('?').split('&').filter(|pair| !pair.is_empty() && !pair.starts_with("bench="));
-    let query: Vec<String> = others.map(str::to_owned).chain([format!("bench={}", bench.id)]).collect();
-    show_address(&format!("?{}", query.join("&")));
+}
+
+/// Shows what the address asks for after a step in the browser's history.
+pub fn follow_address(lab: Lab) {
+    let flags = StartFlags::parse(&search());
+    if let Some(depth) = flags.view {
+        lab.depth.set(depth);
+    }
+    let named = |bench: &&BenchEntry| flags.bench.as_deref() == Some(bench.id);
+    match from_address() {
+        Some(outcome) => lab.open(outcome),
+        None => lab.bench.set(lab.benches.iter().find(named).unwrap_or(&lab.benches[0])),
+    }
 }
 
 /// Name of the file of an experiment.
@@ -98,4 +152,16 @@ pub fn open_file(lab: Lab, file: &web_sys::File) {
             Err(_) => lab.notice.set(Some(Notice::NotRead)),
         }
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_of_a_query_are_replaced_and_others_stay() {
+        assert_eq!(query_with("", &[("bench", "relay-tuning")]), "?bench=relay-tuning");
+        assert_eq!(query_with("?lang=en&bench=a&x", &[("bench", "b"), ("view", "lab")]), "?lang=en&x&bench=b&view=lab");
+        assert_eq!(query_with("?benches=a", &[("bench", "b")]), "?benches=a&bench=b");
+    }
 }

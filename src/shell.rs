@@ -5,17 +5,19 @@ use leptos::html::Input;
 use leptos::prelude::*;
 use leptos::wasm_bindgen::JsCast;
 
-use super::benches::{BENCHES, BenchEntry, QuadrupleTank};
+use super::benches::{BENCHES, BenchEntry, load, name_of};
+use super::depth::Depth;
 use super::errors::of_error;
+use super::keep;
 use super::lab::{Lab, Notice, use_lab};
 use super::share;
 use super::start::StartFlags;
 use super::stopped::Stopped;
-use super::storage::{LANGUAGE, THEME};
+use super::storage::{DEPTH, LANGUAGE, THEME};
 use super::texts::{Language, say, tr};
+use super::widgets::Segmented;
 use quadtank::literature::DisplayUnit;
-use quadtank::study::quadruple_tank::setup_of;
-use quadtank_scenario::Scenario;
+use quadtank_scenario::document_from_link;
 
 /// The element of the page that the laboratory fills; it holds the static outline until then.
 const ROOT: &str = "app";
@@ -40,18 +42,20 @@ pub fn Laboratory(
     let lab = start(benches);
     provide_context(lab);
     Effect::new(move || show_on_root("data-theme", if lab.dark.get() { "dark" } else { "light" }));
+    Effect::new(move || {
+        let depth = if lab.bench.get().has_depths { lab.depth.get() } else { Depth::Full };
+        show_on_root("data-view", depth.name());
+    });
     Effect::new(move || show_on_root("lang", lab.language.get().tag()));
     Effect::new(move || document().set_title(&tr!(lab, app.page_title)));
-    let on_hash = window_event_listener(ev::hashchange, move |_| {
-        if let Some(outcome) = share::from_address() {
-            lab.open(outcome);
-        }
-    });
+    keep::keep(lab);
+    // A link that is pasted over the address, and Back and Forward.
+    let on_address = window_event_listener(ev::popstate, move |_| share::follow_address(lab));
     let on_press = window_event_listener(ev::pointerdown, |event| close_menus(event.target()));
     // What a menu offers is done, and the menu not needed any more.
     let on_click = window_event_listener(ev::click, |event| {
         let target = event.target().and_then(|target| target.dyn_into::<web_sys::Element>().ok());
-        if target.is_some_and(|target| target.matches(".menu > div > *").unwrap_or(false)) {
+        if target.is_some_and(|target| target.matches(".menu > div > *, .menu > nav *").unwrap_or(false)) {
             close_menus(None);
         }
     });
@@ -61,7 +65,7 @@ pub fn Laboratory(
         }
     });
     on_cleanup(move || {
-        on_hash.remove();
+        on_address.remove();
         on_press.remove();
         on_click.remove();
         on_key.remove();
@@ -132,13 +136,11 @@ fn start(benches: &'static [BenchEntry]) -> Lab {
     let prefers_dark =
         || window().match_media("(prefers-color-scheme: dark)").ok().flatten().is_some_and(|query| query.matches());
     let dark = flags.theme.clone().or_else(|| THEME.read()).map_or_else(prefers_dark, |theme| theme == "dark");
-    let preset = flags.preset;
-    let lab = Lab::new(benches, language, dark, flags);
-    // Before any bench is shown, so that each computes its own document at once.
-    if let Some(id) = preset {
-        lab.open_in::<QuadrupleTank>(Scenario::from(setup_of(id)));
-    }
-    if let Some(outcome) = share::from_address() {
+    let linked = share::from_address();
+    let depth = Depth::at_start(&flags, linked.is_some(), DEPTH.read().as_deref());
+    let lab = Lab::new(benches, language, dark, depth, flags);
+    // Before any bench is shown, so that its document is computed at once.
+    if let Some(outcome) = linked {
         lab.open(outcome);
     }
     lab
@@ -156,8 +158,10 @@ fn Header() -> impl IntoView {
     view! {
         <header class="top">
             <h1>{say!(lab, app.title)}</h1>
-            <nav aria-label=say!(lab, app.benches)>{lab.benches.iter().map(|bench| view! { <BenchLink bench /> }).collect_view()}</nav>
+            <BenchMenu />
             <span class="spacer"></span>
+            <DepthSwitch />
+            <Steps />
             <button type="button" class="button" data-testid="share" on:click=move |_| share::share(lab)>
                 {say!(lab, app.share)}
             </button>
@@ -175,11 +179,24 @@ fn Header() -> impl IntoView {
     }
 }
 
+/// The benches, with what one does there.
+#[component]
+fn BenchMenu() -> impl IntoView {
+    let lab = use_lab();
+    view! {
+        <details class="menu benches" data-testid="benches">
+            <summary>{move || (lab.bench.get().title)(lab)} " ▾"</summary>
+            <nav aria-label=say!(lab, app.benches)>
+                {lab.benches.iter().map(|bench| view! { <BenchLink bench /> }).collect_view()}
+            </nav>
+        </details>
+    }
+}
+
 /// The link to a bench. It is an address, so it can be opened beside and bookmarked.
 #[component]
 fn BenchLink(bench: &'static BenchEntry) -> impl IntoView {
     let lab = use_lab();
-    let text = move || (bench.title)(lab);
     let go = move |event: ev::MouseEvent| {
         if !(event.ctrl_key() || event.meta_key() || event.shift_key()) {
             event.prevent_default();
@@ -193,8 +210,52 @@ fn BenchLink(bench: &'static BenchEntry) -> impl IntoView {
             aria-current=move || (lab.bench.get() == bench).then(|| "page".to_owned())
             on:click=go
         >
-            {text}
+            <svg viewBox="0 0 48 32" aria-hidden="true"><path d=bench.picture /></svg>
+            <b>{move || (bench.title)(lab)}</b>
+            <span>{move || (bench.about)(lab)}</span>
         </a>
+    }
+}
+
+/// How much of the bench is shown, where there is a choice.
+#[component]
+fn DepthSwitch() -> impl IntoView {
+    let lab = use_lab();
+    let choices = vec![
+        (Depth::Explore, "view-explore", say!(lab, app.explore)),
+        (Depth::Lab, "view-lab", say!(lab, app.lab)),
+        (Depth::Full, "view-full", say!(lab, app.full)),
+    ];
+    let choose = move |depth: Depth| {
+        lab.depth.set(depth);
+        DEPTH.write(depth.name());
+    };
+    view! {
+        <div class="depth" hidden=move || !lab.bench.get().has_depths>
+            <Segmented label=say!(lab, app.depth) choices value=lab.depth on_choose=choose disabled=false />
+        </div>
+    }
+}
+
+/// Undo, do again, begin again.
+#[component]
+fn Steps() -> impl IntoView {
+    let lab = use_lab();
+    let possible = Memo::new(move |_| (lab.bench.get().can_undo_redo)(lab));
+    let button = move |id: &'static str, sign: &'static str, name: Signal<String>, off: Signal<bool>, act: fn(Lab)| {
+        view! {
+            <button type="button" class="button" data-testid=id aria-label=name title=name disabled=off on:click=move |_| act(lab)>
+                {sign}
+            </button>
+        }
+    };
+    let begin_again = |lab: Lab| (lab.bench.get_untracked().reset)(lab);
+    view! {
+        <div class="steps">
+            {button("undo", "↶", say!(lab, app.undo), Signal::derive(move || !possible.get().0), keep::undo)}
+            {button("redo", "↷", say!(lab, app.redo), Signal::derive(move || !possible.get().1), keep::redo)}
+            {button("reset", "⟲", say!(lab, app.reset), Signal::from(false), begin_again)}
+        </div>
     }
 }
 
@@ -286,10 +347,32 @@ fn Notices() -> impl IntoView {
             </div>
         }
         .into_any(),
+        Notice::Continue(link) => view! {
+            <div>{tr!(lab, app.last)}</div>
+            <button type="button" class="button small" data-testid="continue" on:click=move |_| lab.open(document_from_link(&link))>
+                {tr!(lab, app.go_on)}
+            </button>
+        }
+        .into_any(),
+        Notice::Loaded(name) => view! {
+            <div>{tr!(lab, app.loaded, name = name)}</div>
+            <button type="button" class="button small" data-testid="undo-load" on:click=move |_| undo_load(lab)>
+                {tr!(lab, app.undo)}
+            </button>
+        }
+        .into_any(),
+        Notice::ValvesOf(id) => view! {
+            <div>{tr!(lab, valves.moved, name = name_of(lab, id))}</div>
+            <button type="button" class="button small" data-testid="load-all" on:click=move |_| load(lab.session(), id)>
+                {tr!(lab, valves.load_all)}
+            </button>
+        }
+        .into_any(),
+        Notice::NotKept => view! { <div>{tr!(lab, app.not_kept)}</div> }.into_any(),
     }
     };
     view! {
-        <div role="status" aria-live="polite">
+        <div role="status" aria-live="polite" class="notices">
             {move || lab.notice.get().map(|notice| {
                 let class = if matches!(notice, Notice::Refused(_) | Notice::NotRead) { "notice" } else { "notice good" };
                 view! {
@@ -308,6 +391,11 @@ fn Notices() -> impl IntoView {
             })}
         </div>
     }
+}
+
+fn undo_load(lab: Lab) {
+    lab.notice.set(None);
+    keep::undo(lab);
 }
 
 /// In a course page: the link to the whole laboratory, which is this page without its query, with what is shown here.

@@ -2,8 +2,9 @@
 //!
 //! `embed=1` hides the header and packs the bench; `panels=valves,zeros` shows only these; `lock=valves,gains` disables
 //! these controls; `lang=TAG` and `theme=light|dark` choose without being remembered; `preset=NAME` loads a
-//! published rig; `bench=relay-tuning` or `bench=model-free` shows that bench. A flag that is not understood is ignored.
+//! published rig; `bench=relay-tuning` or `bench=model-free` shows that bench; `view=explore`, `lab` or `full` says how much of it. A flag that is not understood is ignored.
 
+use super::depth::Depth;
 use super::texts::Language;
 use quadtank::literature::PresetId;
 
@@ -110,6 +111,8 @@ pub struct StartFlags {
     pub language: Option<Language>,
     /// `light` or `dark`.
     pub theme: Option<String>,
+    /// How much of the bench to show.
+    pub view: Option<Depth>,
     /// Rig to begin with.
     pub preset: Option<PresetId>,
 }
@@ -128,6 +131,7 @@ impl StartFlags {
                 "lock" => flags.locked = chosen(&value, &CONTROLS),
                 "lang" => flags.language = Language::ALL.into_iter().find(|language| language.tag() == value),
                 "theme" => flags.theme = Some(value).filter(|t| t == "light" || t == "dark"),
+                "view" => flags.view = Depth::of_name(&value),
                 "preset" => flags.preset = PresetId::ALL.into_iter().find(|id| id.name() == value),
                 _ => {}
             }

@@ -1,4 +1,5 @@
-//! The two things that are remembered: theme and language. Where there is no storage (a sandboxed frame), nothing is.
+//! What the browser remembers: theme, language, depth, and the last experiment. Where there is no storage (a sandboxed frame),
+//! nothing is.
 
 use leptos::prelude::window;
 
@@ -10,6 +11,10 @@ pub struct Preference(&'static str);
 pub const THEME: Preference = Preference("quadtank-theme");
 /// The language that was chosen, by its tag.
 pub const LANGUAGE: Preference = Preference("quadtank-language");
+/// The depth that was chosen, by its name.
+pub const DEPTH: Preference = Preference("quadtank-depth");
+/// The link of the last experiment.
+pub const LAST: Preference = Preference("quadtank-last");
 
 impl Preference {
     /// What was remembered, if anything.

@@ -10,7 +10,7 @@ use quadtank_scenario::{Document, ScenarioError, to_json, to_link};
 use super::lab::Lab;
 use super::session::{Bench, Session};
 pub use model_free::ModelFree;
-pub use quadruple_tank::QuadrupleTank;
+pub use quadruple_tank::{QuadrupleTank, load, name_of};
 pub use relay_tuning::RelayTuning;
 
 /// All benches in the order of the navigation; the first is the home bench.
@@ -23,14 +23,32 @@ pub struct BenchEntry {
     pub id: &'static str,
     /// Class of the element that holds its cards.
     pub class: &'static str,
+    /// Whether it can be shown at less than full depth.
+    pub has_depths: bool,
     /// What the navigation calls it.
     pub title: fn(Lab) -> String,
+    /// One line on what one does there.
+    pub about: fn(Lab) -> String,
+    /// A small picture: the path of a drawing 48 wide and 32 high.
+    pub picture: &'static str,
     /// The cards that the start flags ask for.
     pub cards: fn(Lab) -> AnyView,
     /// Opens a document; gives one of another bench back.
     pub open: fn(Lab, Document) -> Option<Document>,
     /// Follows the document.
     pub track: fn(Lab),
+    /// Takes the document up as a step that can be undone.
+    pub record: fn(Lab),
+    /// Undoes the last step.
+    pub undo: fn(Lab),
+    /// Does again what was undone last.
+    pub redo: fn(Lab),
+    /// Whether there is a step to undo, and one to do again.
+    pub can_undo_redo: fn(Lab) -> (bool, bool),
+    /// Begins again with the document that the bench has without a link.
+    pub reset: fn(Lab),
+    /// Whether the document is another one than that.
+    pub is_changed: fn(Lab) -> bool,
     /// The document as a file has it.
     pub json: fn(Lab) -> Result<String, ScenarioError>,
     /// The document as a link has it.
@@ -43,13 +61,22 @@ impl BenchEntry {
         Self {
             id: B::ID,
             class: B::CLASS,
+            has_depths: B::HAS_DEPTHS,
             title: B::title,
+            about: B::about,
+            picture: B::PICTURE,
             cards: |lab| B::cards(lab.session()),
             open: |lab, document| {
                 let document = B::Document::try_from(document);
                 document.map(|document| lab.open_in::<B>(document)).err()
             },
             track: |lab| session::<B>(lab).document.track(),
+            record: |lab| session::<B>(lab).record(),
+            undo: |lab| session::<B>(lab).undo(),
+            redo: |lab| session::<B>(lab).redo(),
+            can_undo_redo: |lab| session::<B>(lab).can_undo_redo(),
+            reset: |lab| session::<B>(lab).document.set(B::usual(lab)),
+            is_changed: |lab| session::<B>(lab).document.with_untracked(|document| *document != B::usual(lab)),
             json: |lab| session::<B>(lab).document.with_untracked(to_json),
             link: |lab| session::<B>(lab).document.with_untracked(to_link),
         }

@@ -37,6 +37,7 @@ struct GammaSumBench;
 
 impl Bench for GammaSumBench {
     const ID: &'static str = "gamma-sum";
+    const PICTURE: &'static str = "M4 4H44V28H4Z";
     const CLASS: &'static str = "bench";
     type Document = Scenario;
     type Study = GammaSum;
@@ -51,6 +52,10 @@ impl Bench for GammaSumBench {
 
     fn title(_: Lab) -> String {
         "γ1 + γ2".to_owned()
+    }
+
+    fn about(_: Lab) -> String {
+        "The sum of the valve fractions".to_owned()
     }
 
     fn cards(session: Session<Self>) -> AnyView {

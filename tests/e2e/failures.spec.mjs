@@ -154,9 +154,9 @@ test('what is kept is of the bench that is shown, and follows it', async ({ lab,
   await lab.open();
   const kept = async () => JSON.parse(decodeURIComponent((await lab.id('stopped-save').getAttribute('href'))?.split(/,(.*)/s)[1] ?? 'null'));
   await expect.poll(async () => (await kept())?.setup?.valves, { timeout: 5000 }).toEqual([0.7, 0.6]);
-  await lab.id('bench-relay-tuning').click();
+  await lab.bench('relay-tuning');
   await expect.poll(async () => (await kept()).tuning?.plant, { timeout: 5000 }).toEqual({ published: 'wood-berry' });
-  await lab.id('bench-model-free').click();
+  await lab.bench('model-free');
   await expect.poll(async () => (await kept()).version, { timeout: 5000 }).toBe(3);
 });
 

@@ -153,7 +153,7 @@ for (const [path, base] of [
     expect(opened.url().split('#')[0]).toBe(`${site.origin}${path}?`);
     expect(await whole.value('gamma1-number')).toBe(0.52);
     // The address follows to another bench under such a path as well.
-    await whole.id('bench-relay-tuning').click();
+    await whole.bench('relay-tuning');
     expect(opened.url()).toBe(`${site.origin}${path}?bench=relay-tuning`);
     site.close();
   });

@@ -26,8 +26,12 @@ export class Lab {
     page.on('requestfailed', (request) => this.complaints.push(`failed: ${request.url()}`));
   }
 
-  /** Opens the laboratory with a query (`preset=…&lang=…`) and a fragment, and waits until it runs. */
+  /**
+   * Opens the laboratory with a query (`preset=…&lang=…`) and a fragment, and waits until it runs: with every card, unless the
+   * query says how much is shown.
+   */
   async open(query = '', fragment = '') {
+    if (!/(^|&)(view|embed|panels)=/.test(query)) query = query ? `${query}&view=full` : 'view=full';
     await this.page.goto(`${this.origin}/?${query}${fragment ? `#${fragment}` : ''}`);
     await this.ready();
   }
@@ -45,6 +49,13 @@ export class Lab {
       do await task();
       while (performance.getEntriesByType('mark').some((mark) => mark.name.startsWith('quadtank:untold')));
     });
+  }
+
+  /** Goes to another bench by the menu. */
+  async bench(name) {
+    await this.id('benches').locator('summary').click();
+    await this.id(`bench-${name}`).click();
+    await this.settle();
   }
 
   id(name) {

@@ -349,10 +349,10 @@ test('a link brings the session back, and benches keep what they show', async ({
   // Also without the name of the bench: the document says which one it is of.
   await lab.open('', hash.slice(1));
   expect(await seen()).toEqual(before);
-  await lab.id('bench-quadruple-tank').click();
+  await lab.bench('quadruple-tank');
   await lab.settle();
   expect(await lab.number('lambda-11')).toBe(1.4);
-  await lab.id('bench-relay-tuning').click();
+  await lab.bench('relay-tuning');
   await lab.settle();
   expect(await seen()).toEqual(before);
   expect(page.url()).toContain('bench=relay-tuning');

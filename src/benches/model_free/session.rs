@@ -45,6 +45,7 @@ pub struct Own {
 
 impl Bench for ModelFree {
     const ID: &'static str = "model-free";
+    const PICTURE: &'static str = "M4 26C12 26 10 8 20 8S30 8 44 8M4 8H44M6 28H44";
     const CLASS: &'static str = "bench free";
     type Document = ModelFreeScenario;
     type Study = ModelFreeStudy;
@@ -66,6 +67,10 @@ impl Bench for ModelFree {
 
     fn title(lab: Lab) -> String {
         tr!(lab, app.model_free)
+    }
+
+    fn about(lab: Lab) -> String {
+        tr!(lab, app.model_free_about)
     }
 
     fn cards(session: Session) -> AnyView {

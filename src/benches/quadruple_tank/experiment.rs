@@ -146,6 +146,18 @@ pub fn first_step_mut(experiment: &mut Experiment, level: usize) -> &mut SetPoin
     &mut steps[place]
 }
 
+/// Sizes of the first step of a level (m) that its tank can hold, where the level is at `rest` (m): the reference after the step
+/// and after all others of this level stays between bottom and wall.
+pub fn holdable(setup: &Setup, level: usize, rest: f64) -> Limits {
+    let steps = setup.experiment.set_point_steps.iter().filter(|step| step.level == level).skip(1);
+    let further = steps.map(|step| step.size).fold((0.0, 0.0, 0.0), |(sum, low, high): (f64, f64, f64), size| {
+        (sum + size, low.min(sum + size), high.max(sum + size))
+    });
+    let (min, max) = (-rest - further.1, setup.plant().tanks[level].height - rest - further.2);
+    // A rig whose level rests above its wall can still be asked for less water.
+    Limits::new(min.min(0.0), max.max(min.min(0.0)))
+}
+
 /// Size of the first step of a reference (m).
 pub fn step_size(session: Session, level: usize) -> Signal<f64> {
     session.part(move |s| first_step(&s.experiment, level).size)

@@ -3,6 +3,8 @@
 mod controller;
 mod cursor;
 mod experiment;
+mod explore;
+mod marks;
 mod metrics;
 mod moment;
 mod pictures;
@@ -10,6 +12,7 @@ mod poles;
 mod preset;
 mod process;
 mod published;
+mod replay;
 mod responses;
 mod rga;
 mod rig;
@@ -21,18 +24,25 @@ mod why;
 
 use leptos::prelude::*;
 
+use crate::depth::Depth;
 use crate::start::Panel;
 pub use moment::RigState;
 use moment::provide_moment;
-pub use preset::name_of;
+pub use preset::{load, name_of};
 pub use rig::{drawing, summary};
 pub use session::QuadrupleTank;
 use session::Session;
 
-/// The cards that the start flags ask for.
+/// What is shown at the chosen depth.
 fn cards(session: Session) -> impl IntoView {
-    let lab = session.lab;
     provide_moment(session);
+    let is_first = Memo::new(move |_| session.lab.depth.get() == Depth::Explore);
+    move || if is_first.get() { view! { <explore::Explore /> }.into_any() } else { all_cards(session).into_any() }
+}
+
+/// The cards that the start flags ask for.
+fn all_cards(session: Session) -> impl IntoView {
+    let lab = session.lab;
     view! {
         <div class="side left">
             {lab.shows(Panel::Process).then(|| view! { <process::ProcessCard /> })}

@@ -1,4 +1,4 @@
-//! The moment that the drawing shows: the cursor of the responses, or the plant at rest.
+//! The moment that the drawing shows.
 
 use leptos::prelude::*;
 
@@ -7,7 +7,7 @@ use super::session::Session;
 /// Levels and voltages at one moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RigState {
-    /// When (s); `None` at rest, before the experiment.
+    /// When (s); `None` at rest, where there is no run.
     pub time_s: Option<f64>,
     /// Levels h1…h4 (m).
     pub levels: [f64; 4],
@@ -15,13 +15,11 @@ pub struct RigState {
     pub pump_voltage: [f64; 2],
 }
 
-/// Makes the shown moment available to the cards of the bench.
+/// Makes the shown moment available to the cards of the bench: where the cursor stands, else where a replay is, else the end of
+/// the run. A drawing at rest beside the chart of an overflow would contradict it.
 pub fn provide_moment(session: Session) {
-    let cursor = Memo::new(move |_| session.document.with(|s| s.view.cursor_s));
-    let moment = Memo::new(move |_| match cursor.get() {
-        Some(time_s) => at_cursor(session, time_s).or_else(|| at_rest(session)),
-        None => at_rest(session),
-    });
+    let cursor = Memo::new(move |_| session.document.with(|s| s.view.cursor_s).or_else(|| session.own.playback.get()));
+    let moment = Memo::new(move |_| at(session, cursor.get().unwrap_or(f64::INFINITY)).or_else(|| at_rest(session)));
     provide_context(moment);
 }
 
@@ -37,7 +35,7 @@ fn at_rest(session: Session) -> Option<RigState> {
     })
 }
 
-fn at_cursor(session: Session, time_s: f64) -> Option<RigState> {
+fn at(session: Session, time_s: f64) -> Option<RigState> {
     session.throttled.run.with(|outcome| {
         let run = &outcome.as_ref().as_ref().ok()?.nonlinear;
         let row = run.row_at(time_s)?;

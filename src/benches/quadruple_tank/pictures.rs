@@ -5,14 +5,17 @@ use crate::shown::{per_metre, unit_name};
 use crate::texts::tr;
 use crate::widgets::Picture;
 use quadtank::linear::Complex;
+use quadtank::sim::Settling;
 use quadtank::study::quadruple_tank::ValveMap;
 use quadtank_figure::{
-    self, Chart, PoleZero, PoleZeroTexts, ResponseTexts, Responses, RunColumns, ValvePlane, ValvePlaneTexts,
+    self, Chart, Levels, PoleZero, PoleZeroTexts, ResponseTexts, Responses, RunColumns, ValvePlane, ValvePlaneTexts,
 };
 use quadtank_scenario::{roots_to_csv, run_to_csv, valve_map_to_csv};
 
 use leptos::prelude::*;
 
+/// Least range of the chart of levels (m).
+const LEAST_LEVELS: f64 = 0.02;
 /// Points on the paths of the zeros.
 const PATH_POINTS: usize = 61;
 /// Steps of each valve in the exported table of the plane.
@@ -21,17 +24,23 @@ const CSV_STEPS: u32 = 20;
 /// The valve plane. It does not depend on the valves themselves, so dragging the point does not repaint it.
 pub fn valve_plane(session: Session) -> Picture {
     let lab = session.lab;
+    valve_plane_with(session, move || [tr!(lab, valves.minimum), tr!(lab, valves.right)])
+}
+
+/// The same as a map: its sides are named by what they are like to control.
+pub fn valve_map(session: Session) -> Picture {
+    let lab = session.lab;
+    valve_plane_with(session, move || [tr!(lab, explore.easy_side), tr!(lab, explore.hard_side)])
+}
+
+fn valve_plane_with(session: Session, sides: impl Fn() -> [String; 2] + Send + Sync + 'static) -> Picture {
     let map = Memo::new(move |_| session.document.with(|s| ValveMap::of(&s.setup).ok().map(ValveMap::without_setting)));
     let csv = move || map.get().map(|m| valve_map_to_csv(&m, CSV_STEPS)).unwrap_or_default();
     let build = move |visit: &mut dyn FnMut(&[Chart])| {
         let Some(map) = map.get() else { return };
-        let texts = ValvePlaneTexts {
-            gamma_1: "γ₁",
-            gamma_2: "γ₂",
-            boundary: "γ₁ + γ₂ = 1",
-            minimum_phase: &tr!(lab, valves.minimum),
-            right_half_plane: &tr!(lab, valves.right),
-        };
+        let [minimum_phase, right_half_plane] = &sides();
+        let (gamma_1, gamma_2, boundary) = ("γ₁", "γ₂", "γ₁ + γ₂ = 1");
+        let texts = ValvePlaneTexts { gamma_1, gamma_2, boundary, minimum_phase, right_half_plane };
         visit(&[quadtank_figure::valve_plane(&ValvePlane {
             right_most_zero: &|valves| map.rightmost_zero(valves),
             published: &[],
@@ -67,6 +76,40 @@ pub fn pole_zero(session: Session) -> Picture {
                 },
             })]);
         });
+    };
+    Picture::new(build, csv)
+}
+
+/// Levels alone, as far as a replay has come.
+pub fn levels(session: Session, held: RwSignal<Option<(f64, f64)>>) -> Picture {
+    let lab = session.lab;
+    let csv = move || session.charts.run.with(|run| run.as_ref().as_ref().map(run_to_csv).unwrap_or_default());
+    let build = move |visit: &mut dyn FnMut(&[Chart])| {
+        let run = session.charts.run.get();
+        let Ok(run) = run.as_ref() else { return };
+        let unit = session.own.unit.get();
+        let names = [1, 2].map(|k| tr!(lab, responses.level, number = k));
+        let references = [1, 2].map(|k| format!("{} {k}", tr!(lab, responses.reference)));
+        let settled = run.metrics.each_ref().map(|metrics| match (metrics.step_time_s, metrics.settling_2_percent) {
+            (Some(step_s), Some(Settling::After { time_s })) => {
+                let text = tr!(lab, explore.settled, time = lab.number_style().significant(time_s, 2));
+                Some((step_s + time_s, text))
+            }
+            _ => None,
+        });
+        visit(&[quadtank_figure::levels(&Levels {
+            run: RunColumns::of(&run.nonlinear),
+            references: [&run.nonlinear.references[0], &run.nonlinear.references[1]],
+            until_s: session.own.playback.get(),
+            settled,
+            level_scale: per_metre(unit),
+            least_range: LEAST_LEVELS,
+            held_levels: held.get(),
+            time: &tr!(lab, chart.time),
+            level: &tr!(lab, responses.level_axis, unit = unit_name(unit)),
+            names: [&names[0], &names[1]],
+            reference_names: [&references[0], &references[1]],
+        })]);
     };
     Picture::new(build, csv)
 }

@@ -3,7 +3,7 @@
 use leptos::prelude::*;
 
 use super::session::{Session, use_session};
-use crate::lab::Lab;
+use crate::lab::{Lab, Notice};
 use crate::start::Control;
 use crate::texts::{say, tr};
 use crate::widgets::{Choice, Select};
@@ -39,8 +39,9 @@ pub fn remark_of(lab: Lab, id: Option<PresetId>) -> String {
     }
 }
 
-/// Loads a published rig with its published controller and experiment; pinned runs stay.
+/// Loads a published rig with its published controller and experiment; pinned runs stay. It can be undone, and a notice says so.
 pub fn load(session: Session, id: PresetId) {
+    session.record();
     session.document.update(|s| {
         let fresh = Scenario {
             version: s.version,
@@ -52,6 +53,8 @@ pub fn load(session: Session, id: PresetId) {
         s.view.cursor_s = None;
         s.view.zoom_s = None;
     });
+    let lab = session.lab;
+    lab.notice.set(Some(Notice::Loaded(untrack(|| name_of(lab, id)))));
 }
 
 /// The rig in force, if it is a published one.

@@ -40,12 +40,6 @@ pub fn ProcessCard() -> impl IntoView {
         None if lab.locks(Control::Valves) => tr!(lab, process.at_rest),
         None => tr!(lab, process.drag_valves),
     };
-    let open = RwSignal::new(false);
-    let sentence = Memo::new(move |_| sentences::of_zero(session));
-    let paragraphs = move || {
-        let all = std::iter::once(sentence.get().0).chain(sentences::of_equilibrium(session));
-        all.map(|text| view! { <p>{marked(&text)}</p> }).collect_view()
-    };
     view! {
         <Card name="process" title=say!(lab, process.title) beside=|| view! { <PresetSelect /> }>
             <p class="remark moment">{remark}</p>
@@ -54,17 +48,55 @@ pub fn ProcessCard() -> impl IntoView {
                 <ParamRow session control=&GAMMA index=0 />
                 <ParamRow session control=&GAMMA index=1 />
             </div>
-            <Verdict id="process-sentence" warm=Signal::derive(move || sentence.get().1)>{paragraphs}</Verdict>
-            <details class="more" on:toggle=move |_| open.update(|o| *o = !*o)>
-                <summary>{say!(lab, process.operating_point)}</summary>
-                <PresetRemark />
-                <div class="fields">
-                    <VoltageField pump=0 />
-                    <VoltageField pump=1 />
-                </div>
-                {move || open.get().then(|| view! { <PublishedFigures /> })}
-            </details>
+            <Situation />
+            <OperatingPoint />
         </Card>
+    }
+}
+
+/// Valves and operating point without the drawing, beside a drawing of another size.
+#[component]
+pub fn SettingsCard() -> impl IntoView {
+    let session = use_session();
+    view! {
+        <Card name="process" title=say!(session.lab, process.title) beside=|| view! { <PresetSelect /> }>
+            <div>
+                <ParamRow session control=&GAMMA index=0 />
+                <ParamRow session control=&GAMMA index=1 />
+            </div>
+            <Situation />
+            <OperatingPoint />
+        </Card>
+    }
+}
+
+/// Where the zero is, and what the rig does not allow.
+#[component]
+fn Situation() -> impl IntoView {
+    let session = use_session();
+    let sentence = Memo::new(move |_| sentences::of_zero(session));
+    let paragraphs = move || {
+        let all = std::iter::once(sentence.get().0).chain(sentences::of_equilibrium(session));
+        all.map(|text| view! { <p>{marked(&text)}</p> }).collect_view()
+    };
+    view! { <Verdict id="process-sentence" warm=Signal::derive(move || sentence.get().1)>{paragraphs}</Verdict> }
+}
+
+/// The operating point and what was printed of it, folded.
+#[component]
+fn OperatingPoint() -> impl IntoView {
+    let lab = use_session().lab;
+    let open = RwSignal::new(false);
+    view! {
+        <details class="more" on:toggle=move |_| open.update(|o| *o = !*o)>
+            <summary>{say!(lab, process.operating_point)}</summary>
+            <PresetRemark />
+            <div class="fields">
+                <VoltageField pump=0 />
+                <VoltageField pump=1 />
+            </div>
+            {move || open.get().then(|| view! { <PublishedFigures /> })}
+        </details>
     }
 }
 

@@ -33,7 +33,8 @@ pub fn ResponsesCard() -> impl IntoView {
     let (for_menu, for_table) = (picture.clone(), picture.clone());
     let axis = time_axis(session);
     let moment = use_moment();
-    let at_cursor = move || moment.get().filter(|m| m.time_s.is_some());
+    let has_cursor = Memo::new(move |_| session.document.with(|s| s.view.cursor_s.is_some()));
+    let at_cursor = move || moment.get().filter(|_| has_cursor.get());
     let title = say!(lab, responses.title);
     let sentence = Signal::derive(move || sentence(session));
     let beside = move || {
@@ -160,7 +161,7 @@ fn spoken(session: Session, m: &RigState) -> String {
 }
 
 /// What the run says, in words: how each stepped level did, then what went wrong first.
-fn sentence(session: Session) -> String {
+pub fn sentence(session: Session) -> String {
     let lab = session.lab;
     session.throttled.run.with(|outcome| {
         let run = match outcome.as_ref() {

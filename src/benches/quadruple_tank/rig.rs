@@ -3,6 +3,7 @@
 use crate::lab::Lab;
 use leptos::prelude::*;
 
+use super::marks::ReferenceMark;
 use super::moment::{RigState, use_moment};
 use super::session::use_session;
 use super::valves::{STEP, on_grid};
@@ -12,10 +13,14 @@ use crate::texts::{say, tr};
 use crate::widgets::{Drag, Handle, Nudge};
 use quadtank::literature::DisplayUnit;
 use quadtank::plant::{Disturbance, QuadrupleTank, Tank};
+use quadtank::sim::Trajectory;
 
+/// Width and height of the drawing.
+pub const VIEW: (f64, f64) = (276.0, 296.0);
 /// Where the tanks stand in the drawing (left, top), tank 1 first.
-const TANKS: [(f64, f64); 4] = [(62.0, 158.0), (150.0, 158.0), (62.0, 40.0), (150.0, 40.0)];
-const TANK: (f64, f64) = (64.0, 78.0);
+pub const TANKS: [(f64, f64); 4] = [(62.0, 158.0), (150.0, 158.0), (62.0, 40.0), (150.0, 40.0)];
+/// Width and height of a tank.
+pub const TANK: (f64, f64) = (64.0, 78.0);
 /// Width of a stream that carries the most a pump can deliver.
 const WIDEST_STREAM: f64 = 7.0;
 /// A trapezoidal tank is drawn with at least this share of its brim at the bottom, so that its level can be read.
@@ -42,10 +47,25 @@ pub fn Rig() -> impl IntoView {
         let plant = session.throttled.setup.with(|s| s.plant());
         drawing(lab, &plant, session.own.unit.get(), moment.get().as_ref())
     };
+    let svg = NodeRef::new();
+    let ghosts = move || {
+        let heights = session.throttled.setup.with(|s| s.plant().tanks.map(|tank| tank.height));
+        session.throttled.run.with(|run| run.as_ref().as_ref().ok().map(|run| ghosts(&run.nonlinear, heights)))
+    };
     let summary = move || moment.get().map(|moment| summary(lab, &moment, session.own.unit.get()));
     view! {
-        <svg class="rig" viewBox="0 0 276 296" role="group" aria-label=move || summary().unwrap_or_default() data-testid="rig">
+        <svg
+            class="rig"
+            viewBox=format!("0 0 {} {}", VIEW.0, VIEW.1)
+            role="group"
+            node_ref=svg
+            aria-label=move || summary().unwrap_or_default()
+            data-testid="rig"
+        >
             <g aria-hidden="true">{drawing}</g>
+            <g aria-hidden="true">{ghosts}</g>
+            <ReferenceMark level=0 drawing=svg />
+            <ReferenceMark level=1 drawing=svg />
             <Valve index=0 />
             <Valve index=1 />
         </svg>
@@ -102,6 +122,7 @@ fn tank(lab: Lab, index: usize, tank: &Tank, level: f64, unit: DisplayUnit) -> i
     view! {
         <path class=colour d=format!("M{left} {surface} V{bottom} H{foot} L{brim} {surface} Z") stroke-width="0" />
         <path class="wall" d=format!("M{left} {top} V{bottom} H{foot} L{right} {top}") />
+        <path class="scale" d=scale(tank.height, unit, (right, top)) />
         <text class="name" x=middle y=top + 12.0 text-anchor="middle">{tr!(lab, process.tank, number = index + 1)}</text>
         <text class="value" x=number_at y=bottom - above_bottom text-anchor="middle" data-testid=format!("rig-level-{}", index + 1)>
             {format!("{number} {}", unit_name(unit))}
@@ -109,6 +130,37 @@ fn tank(lab: Lab, index: usize, tank: &Tank, level: f64, unit: DisplayUnit) -> i
         <text class="alarm" x=middle y=top + 26.0 text-anchor="middle">{alarm}</text>
     }
 }
+
+/// Small ticks at the least and the highest level of each tank in the run, where it moves enough to tell them apart.
+fn ghosts(run: &Trajectory, heights: [f64; 4]) -> impl IntoView + use<> {
+    let mark = |k: usize, level: f64| {
+        let (x, y) = (TANKS[k].0 + 3.0, TANKS[k].1 + TANK.1 * (1.0 - (level / heights[k]).clamp(0.0, 1.0)));
+        view! { <path class="ghost" d=format!("M{x} {y} h7") /> }
+    };
+    let marks = (0..4).filter_map(move |k| {
+        let levels = run.levels[k].iter().copied();
+        let (low, high) = (levels.clone().reduce(f64::min)?, levels.reduce(f64::max)?);
+        (high - low > LEAST_GHOST * heights[k]).then(|| [mark(k, low), mark(k, high)])
+    });
+    marks.collect_view()
+}
+
+/// Least difference of the two ghost marks of a tank, as a share of its height.
+const LEAST_GHOST: f64 = 0.04;
+
+/// The scale on the far wall of a tank, in whole steps of 1, 2 or 5 times a power of ten of the shown unit.
+fn scale(height: f64, unit: DisplayUnit, (right, top): (f64, f64)) -> String {
+    let shown = to_shown(height, unit);
+    let power = 10_f64.powf((shown / MOST_TICKS).log10().floor());
+    let step = [1.0, 2.0, 5.0, 10.0].map(|m| m * power).into_iter().find(|step| shown / step <= MOST_TICKS);
+    let step = step.unwrap_or(shown);
+    let ticks = (1..).map(|k| f64::from(k) * step).take_while(|at| *at < shown * BRIM);
+    let tick = |at| format!("M{right} {} h-4", top + TANK.1 * (1.0 - at / shown));
+    ticks.map(tick).collect::<Vec<_>>().join(" ")
+}
+
+/// Most ticks on a wall.
+const MOST_TICKS: f64 = 10.0;
 
 /// Share of the height from which a tank is full: a level at the wall is the square of a root, a rounding below it.
 const BRIM: f64 = 1.0 - 1e-9;

@@ -4,10 +4,11 @@ use std::sync::Arc;
 
 use leptos::prelude::*;
 use quadtank::literature::DisplayUnit;
-use quadtank::study::quadruple_tank::{Analysis, QuadrupleTankStudy, Results, Run, Setup};
+use quadtank::study::quadruple_tank::{Analysis, QuadrupleTankStudy, Results, Run, Setup, first_experiment, setup_of};
 use quadtank::study::{PinnedResults, StudyError};
 use quadtank_scenario::Scenario;
 
+use crate::depth::Depth;
 use crate::lab::Lab;
 use crate::session::{self, Bench, Outcome, part_of};
 use crate::texts::tr;
@@ -43,15 +44,20 @@ impl Found {
 pub struct Own {
     /// The unit in which levels are shown.
     pub unit: Memo<DisplayUnit>,
+    /// Where a replay of the run stands (s).
+    pub playback: RwSignal<Option<f64>>,
 }
 
 impl Bench for QuadrupleTank {
     const ID: &'static str = "quadruple-tank";
+    const PICTURE: &'static str =
+        "M8 4v10h10v-10M30 4v10h10v-10M8 18v10h10v-10M30 18v10h10v-10M13 14v4M35 14v4M9 24h8M31 22h8";
     const CLASS: &'static str = "bench";
     type Document = Scenario;
     type Study = QuadrupleTankStudy;
     type Found = Found;
     type Own = Own;
+    const HAS_DEPTHS: bool = true;
 
     fn found(results: RwSignal<Results>) -> Found {
         Found {
@@ -63,11 +69,26 @@ impl Bench for QuadrupleTank {
     }
 
     fn own(document: RwSignal<Scenario>) -> Own {
-        Own { unit: Memo::new(move |_| document.with(|document| document.setup.plant.display_unit())) }
+        Own {
+            unit: Memo::new(move |_| document.with(|document| document.setup.plant.display_unit())),
+            playback: RwSignal::new(None),
+        }
+    }
+
+    fn usual(lab: Lab) -> Scenario {
+        match lab.flags.with_value(|flags| flags.preset) {
+            Some(id) => Scenario::from(setup_of(id)),
+            None if lab.first_depth == Depth::Explore => Scenario::from(first_experiment()),
+            None => Scenario::default(),
+        }
     }
 
     fn title(lab: Lab) -> String {
         tr!(lab, app.quadruple_tank)
+    }
+
+    fn about(lab: Lab) -> String {
+        tr!(lab, app.quadruple_tank_about)
     }
 
     fn cards(session: Session) -> AnyView {

@@ -2,14 +2,14 @@
 
 use leptos::prelude::*;
 
-use super::experiment::{first_step_mut, step_size, step_time};
+use super::experiment::{first_step_mut, holdable, step_size, step_time};
 use super::session::use_session;
 use crate::shown::{length_digits, per_metre, to_metres, to_shown, unit_name};
 use crate::start::Control;
 use crate::texts::{say, tr};
 use crate::widgets::{Drag, Handle, Nudge};
 use quadtank_figure::Frame;
-use quadtank_scenario::limits;
+use quadtank_scenario::{Limits, limits};
 
 const IDS: [&str; 2] = ["set-point1", "set-point2"];
 /// Step of the left and right arrow keys (s); dragging goes by whole seconds.
@@ -47,12 +47,13 @@ fn SetPoint(level: usize, frames: RwSignal<Vec<Frame>>, held: RwSignal<Option<(f
         let plot = frame.plot;
         ((plot.left..=plot.right()).contains(&x) && (plot.top..=plot.bottom()).contains(&y)).then_some((x, y))
     };
-    let reach = session.part(|s| s.plant().tanks[0].height.min(s.plant().tanks[1].height));
+    let rest = Memo::new(move |_| session.throttled.with_analysis(|a| a.operating_point.levels[level]));
+    let reach = session.part(move |s| rest.get().map_or(Limits::new(0.0, 0.0), |rest| holdable(s, level, rest)));
     let set = move |new_size: f64, new_time_s: f64| {
         let unit = session.own.unit.get_untracked();
         let grid = 10_f64.powi(i32::try_from(length_digits(unit)).unwrap_or_default());
         let reach = reach.get_untracked();
-        let new_size = to_metres((to_shown(new_size.clamp(-reach, reach), unit) * grid).round() / grid, unit);
+        let new_size = to_metres((to_shown(reach.clamp(new_size), unit) * grid).round() / grid, unit);
         let end = session.document.with_untracked(|s| s.setup.experiment.duration_s);
         let new_time_s = new_time_s.round().clamp(limits::TIME_S.min, end);
         session.edit(|s| {
@@ -86,8 +87,8 @@ fn SetPoint(level: usize, frames: RwSignal<Vec<Frame>>, held: RwSignal<Option<(f
         tr!(lab, responses.set_point_value, size = size, unit = unit_name(unit), time = time)
     };
     let limits = Signal::derive(move || {
-        let reach = to_shown(reach.get(), session.own.unit.get());
-        (-reach, reach)
+        let (reach, unit) = (reach.get(), session.own.unit.get());
+        (to_shown(reach.min, unit), to_shown(reach.max, unit))
     });
     view! {
         <g visibility=move || if place().is_some() { "visible" } else { "hidden" }.to_owned()>

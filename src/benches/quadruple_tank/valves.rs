@@ -3,9 +3,10 @@
 use leptos::ev::KeyboardEvent;
 use leptos::prelude::*;
 
-use super::preset::{chosen, load, name_of};
+use super::preset::{chosen, name_of};
 use super::session::{Session, use_session};
 use super::{pictures, sentences};
+use crate::lab::Notice;
 use crate::start::Control;
 use crate::texts::{say, tr};
 use crate::widgets::{Card, ChartCanvas, ChartMenu, Nudge, PointHandle, Sentence, first_frame};
@@ -26,11 +27,7 @@ pub fn ValvePlaneCard() -> impl IntoView {
     let picture = pictures::valve_plane(session);
     let for_menu = picture.clone();
     let title = say!(lab, valves.title);
-    let summary = Signal::derive(move || {
-        let [g1, g2] = session.throttled.setup.with(|s| s.valves);
-        let style = lab.number_style();
-        tr!(lab, valves.summary, gamma1 = style.fixed(g1, 2), gamma2 = style.fixed(g2, 2))
-    });
+    let summary = Signal::derive(move || summary(session));
     let hint = (!lab.locks(Control::Valves)).then(|| view! { <span class="remark">{say!(lab, valves.remark)}</span> });
     let beside = move || view! { {hint}<ChartMenu picture=for_menu file="valve-plane" title /> };
     view! {
@@ -42,6 +39,30 @@ pub fn ValvePlaneCard() -> impl IntoView {
             <Sentence id="valves-sentence" text=Signal::derive(move || sentences::of_rightmost(session)) />
         </Card>
     }
+}
+
+/// The plane as a small map of the easy and the hard side.
+#[component]
+pub fn ValveMapCard() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let frames = RwSignal::new(Vec::<Frame>::new());
+    let picture = pictures::valve_map(session);
+    view! {
+        <Card name="map" title=say!(lab, explore.valves)>
+            <div class="chart square">
+                <ChartCanvas picture frames summary=Signal::derive(move || summary(session)) name="valve-map" />
+                <Overlay frames />
+            </div>
+        </Card>
+    }
+}
+
+fn summary(session: Session) -> String {
+    let lab = session.lab;
+    let [g1, g2] = session.throttled.setup.with(|s| s.valves);
+    let style = lab.number_style();
+    tr!(lab, valves.summary, gamma1 = style.fixed(g1, 2), gamma2 = style.fixed(g2, 2))
 }
 
 /// What lies over the picture: guides, published points and the point to drag.
@@ -68,7 +89,7 @@ fn guides(session: Session, frames: RwSignal<Vec<Frame>>) -> Signal<String> {
     })
 }
 
-/// Settings of the same source, to load with a click.
+/// Valve settings of the same source, to take over with a click; rig and tuning stay.
 #[component]
 fn PublishedPoints(frames: RwSignal<Vec<Frame>>) -> impl IntoView {
     let session = use_session();
@@ -105,8 +126,11 @@ fn PublishedPoint(id: PresetId, frames: RwSignal<Vec<Frame>>) -> impl IntoView {
         tr!(lab, valves.published, name = name_of(lab, id), gamma1 = gamma1, gamma2 = gamma2)
     });
     let choose = move || {
-        if !lab.locks(Control::Preset) {
-            load(session, id);
+        if !lab.locks(Control::Valves) {
+            session.edit(|s| s.valves = valves);
+            if !lab.locks(Control::Preset) {
+                lab.notice.set(Some(Notice::ValvesOf(id)));
+            }
         }
     };
     let on_key = move |event: KeyboardEvent| {

@@ -54,6 +54,7 @@ pub struct Own {
 
 impl Bench for RelayTuning {
     const ID: &'static str = "relay-tuning";
+    const PICTURE: &'static str = "M4 20V10H12V24H20V10H28V24H36V10H44M4 17q4-9 8 0t8 0 8 0 8 0 8 0";
     const CLASS: &'static str = "bench relay";
     type Document = TuningScenario;
     type Study = RelayTuningStudy;
@@ -77,6 +78,10 @@ impl Bench for RelayTuning {
 
     fn title(lab: Lab) -> String {
         tr!(lab, app.relay_tuning)
+    }
+
+    fn about(lab: Lab) -> String {
+        tr!(lab, app.relay_tuning_about)
     }
 
     fn cards(session: Session) -> AnyView {

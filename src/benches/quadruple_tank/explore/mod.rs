@@ -1,0 +1,37 @@
+//! The first visit: the rig, what its levels do, the valves, who controls whom, and three things to try. All else is folded.
+
+mod drawers;
+mod levels;
+mod pairing;
+mod prompts;
+
+use leptos::prelude::*;
+
+use super::replay::Replay;
+use super::rig::Rig;
+use super::session::use_session;
+use super::valves::ValveMapCard;
+use crate::texts::{say, tr};
+use crate::widgets::{Card, marked};
+
+/// Everything that a first visit sees.
+#[component]
+pub fn Explore() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let replay = Replay::follow(session);
+    view! {
+        <div class="explore">
+            <p class="lead">{move || marked(&tr!(lab, explore.lead))}</p>
+            <Card name="bigrig" title=say!(lab, explore.rig)>
+                <Rig />
+                <p class="hint">{say!(lab, explore.hint)}</p>
+            </Card>
+            <levels::LevelsCard replay />
+            <ValveMapCard />
+            <pairing::PairingCard />
+            <prompts::Prompts />
+            <drawers::Drawers />
+        </div>
+    }
+}

@@ -1,0 +1,98 @@
+//! Work that cannot be lost: once a change has settled it becomes a step that can be undone, stands in the address, and is
+//! remembered by the browser.
+
+use gloo_timers::callback::Timeout;
+use leptos::ev;
+use leptos::prelude::*;
+use leptos::wasm_bindgen::JsCast;
+use quadtank_scenario::document_from_link;
+
+use super::lab::{Lab, Notice};
+use super::share::{self, show_address};
+use super::storage::LAST;
+
+/// How long a document has to stay as it is until it is kept (ms): a drag is one step, and browsers allow an address to be
+/// replaced only so often (Safari: 100 times in 30 s).
+const SETTLED_MS: u32 = 400;
+
+/// From now on everything that is done in the laboratory is kept.
+pub fn keep(lab: Lab) {
+    offer_last(lab);
+    let timer = StoredValue::new_local(None::<Timeout>);
+    let mut known = None;
+    Effect::new(move || {
+        let bench = lab.bench.get();
+        (bench.track)(lab);
+        lab.depth.track();
+        // The document that a bench begins with is known, also when the bench is shown for the first time.
+        if known.replace(bench.id) == Some(bench.id) {
+            timer.set_value(Some(Timeout::new(SETTLED_MS, move || settle(lab))));
+        }
+    });
+    let on_key = window_event_listener(ev::keydown, move |event| undo_by_key(lab, &event));
+    on_cleanup(move || {
+        on_key.remove();
+        timer.dispose();
+    });
+}
+
+/// Keeps what is shown: as a step, in the address, in the browser.
+fn settle(lab: Lab) {
+    let bench = lab.bench.get_untracked();
+    (bench.record)(lab);
+    let is_kept = show_address(&share::kept_reference(lab, bench));
+    if lab.flags.with_value(|flags| flags.embed) {
+        // The pages of a course show many embedded benches; the last one of them is not what its reader looks for next time.
+        if !is_kept && !lab.told_not_kept.get_value() {
+            lab.told_not_kept.set_value(true);
+            lab.notice.set(Some(Notice::NotKept));
+        }
+    } else if (bench.is_changed)(lab)
+        && let Ok(link) = (bench.link)(lab)
+    {
+        LAST.write(&link);
+    }
+}
+
+/// Offers to go on with the last experiment, where the address asks for nothing else.
+fn offer_last(lab: Lab) {
+    let asks_for_something = lab.flags.with_value(|f| f.embed || f.preset.is_some() || !f.panels.is_empty());
+    if asks_for_something || share::from_address().is_some() {
+        return;
+    }
+    if let Some(link) = LAST.read().filter(|link| document_from_link(link).is_ok()) {
+        lab.notice.set(Some(Notice::Continue(link)));
+    }
+}
+
+/// Undoes the last step of the bench that is shown, also one that has not settled yet.
+pub fn undo(lab: Lab) {
+    let bench = lab.bench.get_untracked();
+    (bench.record)(lab);
+    (bench.undo)(lab);
+}
+
+/// Does again what was undone last.
+pub fn redo(lab: Lab) {
+    let bench = lab.bench.get_untracked();
+    (bench.record)(lab);
+    (bench.redo)(lab);
+}
+
+/// Ctrl+Z, Ctrl+Shift+Z and Ctrl+Y. In a text they are those of the browser.
+fn undo_by_key(lab: Lab, event: &ev::KeyboardEvent) {
+    if !(event.ctrl_key() || event.meta_key()) || event.alt_key() || is_text(event) {
+        return;
+    }
+    match (event.key().to_ascii_lowercase().as_str(), event.shift_key()) {
+        ("z", false) => undo(lab),
+        ("z", true) | ("y", false) => redo(lab),
+        _ => return,
+    }
+    event.prevent_default();
+}
+
+fn is_text(event: &ev::KeyboardEvent) -> bool {
+    let element = event.target().and_then(|target| target.dyn_into::<web_sys::Element>().ok());
+    element.is_some_and(|e| e.matches("textarea, input:not([type=range], [type=checkbox])").unwrap_or(false))
+}
