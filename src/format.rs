@@ -47,8 +47,17 @@ impl NumberStyle {
         self.fixed(value, decimals)
     }
 
-    /// What a person typed, with point or comma and either minus sign.
+    /// What a person typed, with point or comma and either minus sign; a fraction such as 1/3 too.
     pub fn parse(text: &str) -> Option<f64> {
+        match text.split_once('/') {
+            Some((above, below)) => {
+                Some(Self::decimal(above)? / Self::decimal(below)?).filter(|value| value.is_finite())
+            }
+            None => Self::decimal(text),
+        }
+    }
+
+    fn decimal(text: &str) -> Option<f64> {
         let text = text.trim().replace(',', ".");
         let (sign, magnitude) = match text.strip_prefix(['-', '−']) {
             Some(magnitude) => (-1.0, magnitude),
@@ -103,6 +112,15 @@ mod tests {
             assert_eq!(NumberStyle::parse(text), Some(value), "{text}");
         }
         for text in ["", "-", ".", "--1", "-+1", "e5", "1e", "1e999", "0x10", "1 2", "NaN", "[1]", "−−1"] {
+            assert_eq!(NumberStyle::parse(text), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn a_fraction_is_a_number_unless_it_is_divided_by_nothing() {
+        assert_eq!(NumberStyle::parse("1/3"), Some(1.0 / 3.0));
+        assert_eq!(NumberStyle::parse(" −2,5 / 5 "), Some(-0.5));
+        for text in ["1/0", "1/", "/3", "1/2/3", "0/0"] {
             assert_eq!(NumberStyle::parse(text), None, "{text}");
         }
     }

@@ -1,6 +1,8 @@
-use leptos::ev::KeyboardEvent;
+use leptos::ev::{Event, KeyboardEvent, PointerEvent};
 use leptos::prelude::*;
+use web_sys::HtmlInputElement;
 
+use super::touch_gesture::TouchGesture;
 use crate::format::NumberStyle;
 use crate::lab::use_lab;
 use crate::texts::tr;
@@ -48,10 +50,19 @@ impl Scale {
 #[derive(Clone)]
 struct Draft {
     text: String,
-    /// Whether it is no number or out of range.
-    refused: bool,
+    /// Why it is not taken over, if it is not.
+    refused: Option<Refusal>,
     /// The value in force. The draft is void when another value takes its place.
     value: f64,
+}
+
+/// Why a text is not taken over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Refusal {
+    /// It is no number.
+    NoNumber,
+    /// It is a number that is not allowed.
+    NotAllowed,
 }
 
 /// A number field: exact entry, arrows and Page Up/Down. It refuses what is out of range, says the limits while the refused
@@ -93,7 +104,8 @@ pub fn NumberField(
     let (shown, shown_limits) = (lab.throttled_or(moved, value), lab.throttled(limits));
     let draft = RwSignal::new(None::<Draft>);
     let typed = Signal::derive(move || draft.get().filter(|draft| draft.value.total_cmp(&shown.get()).is_eq()));
-    let refused = Signal::derive(move || typed.with(|typed| typed.as_ref().is_some_and(|draft| draft.refused)));
+    let refusal = Signal::derive(move || typed.with(|typed| typed.as_ref().and_then(|draft| draft.refused)));
+    let refused = Signal::derive(move || refusal.get().is_some());
     let style = move || lab.number_style();
     let show = move |v: f64| match digits {
         Some(digits) => style().fixed(v, digits),
@@ -110,7 +122,10 @@ pub fn NumberField(
     };
     let on_input = move |event| {
         let text = event_target_value(&event);
-        let refused = !NumberStyle::parse(&text).is_some_and(accept);
+        let refused = match NumberStyle::parse(&text) {
+            None => Some(Refusal::NoNumber),
+            Some(number) => (!accept(number)).then_some(Refusal::NotAllowed),
+        };
         draft.set(Some(Draft { text, refused, value: value.get_untracked() }));
         moved.notify();
     };
@@ -133,14 +148,20 @@ pub fn NumberField(
         moved.notify();
     };
     let problem = move || {
-        refused.get().then(|| {
+        refusal.get().map(|refusal| {
             let (min, max) = shown_limits.get();
             let lowest = if smallest > 0.0 { smallest } else { min };
             let mut text = tr!(lab, field.allowed, min = show(lowest), max = show(max));
             if grid.get() > 0.0 {
                 text = format!("{text}, {}", tr!(lab, field.multiple, step = show(grid.get())));
             }
-            if smallest > 0.0 { format!("± {text}") } else { text }
+            if smallest > 0.0 {
+                text = format!("± {text}");
+            }
+            match refusal {
+                Refusal::NoNumber => tr!(lab, field.no_number, allowed = text),
+                Refusal::NotAllowed => text,
+            }
         })
     };
     view! {
@@ -219,12 +240,34 @@ pub fn SliderField(
         let (min, max) = shown_travel.get();
         scale.position(shown.get(), min, max)
     };
-    let on_input = move |event| {
+    let take = move |text: String| {
         let (min, max) = travel.get_untracked();
-        if let Some(at) = NumberStyle::parse(&event_target_value(&event)) {
+        if let Some(at) = NumberStyle::parse(&text) {
             let (lowest, highest) = limits.unwrap_or(travel).get_untracked();
             on_change.run(scale.value(at, min, max, value.get_untracked()).clamp(lowest, highest));
             moved.notify();
+        }
+    };
+    let gesture = TouchGesture::new();
+    let on_input = move |event: Event| {
+        if !gesture.is_undecided() {
+            take(event_target_value(&event));
+        }
+    };
+    let commit = move |event: PointerEvent| {
+        if gesture.decide() {
+            take(event_target::<HtmlInputElement>(&event).value());
+        }
+    };
+    let on_pointer_move = move |event: PointerEvent| {
+        if gesture.is_sideways(&event) {
+            commit(event);
+        }
+    };
+    // The page scrolls: what the finger touched in passing goes back to its value.
+    let on_cancel = move |event: PointerEvent| {
+        if gesture.decide() {
+            event_target::<HtmlInputElement>(&event).set_value(&untrack(position).to_string());
         }
     };
     let range = move || match scale {
@@ -253,6 +296,10 @@ pub fn SliderField(
                     prop:value=move || position().to_string()
                     disabled=disabled
                     on:input=on_input
+                    on:pointerdown=move |event| gesture.begin(&event)
+                    on:pointermove=on_pointer_move
+                    on:pointerup=commit
+                    on:pointercancel=on_cancel
                 />
                 <NumberField id=id.1 name value on_change limits=limits.unwrap_or(travel) scale digits smallest disabled moved />
                 <span class="unit">{unit}</span>

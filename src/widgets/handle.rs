@@ -148,6 +148,7 @@ pub fn Handle(
             on:pointercancel=release
             on:keydown=on_key
         >
+            <circle class="touch" r="22" />
             {children()}
         </g>
     }

@@ -15,6 +15,7 @@ mod select;
 mod table;
 mod tick;
 mod time_surface;
+mod touch_gesture;
 
 pub use card::{Card, Sentence, Verdict};
 pub use chart::{ChartCanvas, ChartMenu, Picture};

@@ -132,6 +132,8 @@ test('after a trap the laboratory starts again, without the link that it stopped
   await lab.type('gamma1-number', '0.35');
   await page.waitForTimeout(1500);
   const link = await lab.id('stopped-link').inputValue();
+  // The address follows what is done: the link is of before.
+  await lab.type('gamma1-number', '0.45');
   await page.evaluate(() => setTimeout(() => window.trap()));
   await hasStopped(lab);
   await expect(lab.id('stopped')).toContainText('O laboratório parou');
@@ -146,7 +148,7 @@ test('after a trap the laboratory starts again, without the link that it stopped
   await expect(lab.id('stopped')).toBeHidden();
   await lab.ready();
   expect(await lab.value('gamma1-number')).toBe(0.7);
-  expect(page.url()).toBe(`${lab.origin}/?lang=pt-BR`);
+  expect(page.url()).not.toContain('#');
   lab.provoked(TRAP);
 });
 

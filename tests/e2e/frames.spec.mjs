@@ -9,6 +9,9 @@ const SINGLE = join(SITE, 'quadtank.html');
 
 async function works(frame) {
   await frame.locator('#bench:not(.outline)').waitFor();
+  // A page that is no frame of a course begins with Explore.
+  const full = frame.getByTestId('view-full');
+  if (await full.isVisible()) await full.click();
   await frame.getByTestId('gamma1').fill('0.3');
   await expect(frame.getByTestId('lambda-11')).toContainText('−');
 }
@@ -150,11 +153,13 @@ for (const [path, base] of [
     const [opened] = await Promise.all([context.waitForEvent('page'), lab.id('full-lab').click()]);
     const whole = new Lab(opened, site.origin, lab.complaints);
     await whole.ready();
-    expect(opened.url().split('#')[0]).toBe(`${site.origin}${path}?`);
+    // Language, theme and how much is shown go along.
+    const query = '?lang=en&theme=light&view=full';
+    expect(opened.url().split('#')[0]).toBe(`${site.origin}${path}${query}`);
     expect(await whole.value('gamma1-number')).toBe(0.52);
     // The address follows to another bench under such a path as well.
     await whole.bench('relay-tuning');
-    expect(opened.url()).toBe(`${site.origin}${path}?bench=relay-tuning`);
+    expect(opened.url()).toBe(`${site.origin}${path}${query}&bench=relay-tuning`);
     site.close();
   });
 }

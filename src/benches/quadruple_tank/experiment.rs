@@ -15,7 +15,7 @@ use quadtank::study::quadruple_tank::Setup;
 use quadtank_scenario::{Limits, limits};
 
 /// Time of a step that the student adds (s).
-const FIRST_STEP_AT_S: f64 = 100.0;
+pub const FIRST_STEP_AT_S: f64 = 100.0;
 /// When a load that the student adds begins, as a share of the experiment: after the steps of the published ones.
 const FIRST_LOAD_AT: f64 = 0.8;
 /// Extra pump flow of a load that the student adds (m³/s): about 5 % of a pump's flow on Johansson's rig.

@@ -2,11 +2,15 @@
 
 use leptos::prelude::*;
 
+use super::experiment::FIRST_STEP_AT_S;
 use super::session::{Session, use_session};
 use super::{pictures, sentences};
+use crate::start::Control;
 use crate::texts::{say, tr};
 use crate::widgets::{Card, ChartCanvas, ChartMenu, Sentence};
 use quadtank::linear::Complex;
+use quadtank::sim::SetPointStep;
+use quadtank::study::quadruple_tank::{Direction, ZeroEffect, direction_steps, fitted_duration_s};
 use quadtank_figure::Frame;
 
 /// Open-loop poles, transmission zeros with their path, and closed-loop poles.
@@ -30,8 +34,52 @@ pub fn PolesAndZerosCard() -> impl IntoView {
                 <ChartCanvas picture frames summary=Signal::derive(move || summary(session)) name="pole-zero" />
             </div>
             <Sentence id="zeros-sentence" text=Signal::derive(move || sentences::of_direction(session)) />
+            <DirectionButtons />
         </Card>
     }
+}
+
+/// Where a zero limits both levels: steps along its direction, and across it.
+#[component]
+fn DirectionButtons() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let is_limited = move || {
+        let zero = session.throttled.with_analysis(|a| a.linear.rightmost_zero().map(ZeroEffect::of)).flatten();
+        matches!(zero, Some(ZeroEffect::Opposed | ZeroEffect::Together | ZeroEffect::OneLevel { .. }))
+    };
+    let button = move |id: &'static str, text: Signal<String>, direction: Direction| {
+        let disabled = lab.locks(Control::Experiment);
+        view! {
+            <button type="button" class="button small" data-testid=id disabled=disabled on:click=move |_| try_direction(session, direction)>
+                {text}
+            </button>
+        }
+    };
+    view! {
+        <div class="toolbar" hidden=move || !is_limited()>
+            {button("try-easy", say!(lab, zeros.try_easy), Direction::Easy)}
+            {button("try-hard", say!(lab, zeros.try_hard), Direction::Hard)}
+        </div>
+    }
+}
+
+/// How far the levels are asked to go in all when a direction is tried (m).
+const TRIED: f64 = 0.02;
+
+/// Asks both levels at once to go along a direction of the right-most zero, at the time of the first step there is.
+fn try_direction(session: Session, direction: Direction) {
+    let sizes = untrack(|| {
+        session.charts.with_analysis(|a| a.linear.rightmost_zero().map(|zero| direction_steps(zero, direction, TRIED)))
+    });
+    let Some(sizes) = sizes.flatten() else { return };
+    session.edit(|s| {
+        let steps = &s.experiment.set_point_steps;
+        let time_s = steps.iter().map(|step| step.time_s).reduce(f64::min).unwrap_or(FIRST_STEP_AT_S);
+        let step = |level: usize| SetPointStep { level, time_s, size: sizes[level] };
+        s.experiment.set_point_steps = vec![step(0), step(1)];
+        s.experiment.duration_s = fitted_duration_s(s);
+    });
 }
 
 fn summary(session: Session) -> String {

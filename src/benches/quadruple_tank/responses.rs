@@ -65,8 +65,13 @@ pub fn ResponsesCard() -> impl IntoView {
                 </div>
             </div>
             <Sentence id="responses-sentence" text=sentence status=true />
-            <MetricsTable />
-            <DataTable picture=for_table id="data-table" />
+            <div class="folded">
+                <details class="more" data-testid="metrics-fold">
+                    <summary>{say!(lab, responses.metrics)}</summary>
+                    <MetricsTable />
+                </details>
+                <DataTable picture=for_table id="data-table" />
+            </div>
         </Card>
     }
 }

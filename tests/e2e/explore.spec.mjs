@@ -1,0 +1,144 @@
+// The first visit: what a student who knows no control theory can do, and what the page says to it.
+import { expect, test } from './lab.mjs';
+
+/** Drags a handle by so many CSS px. */
+async function drag(page, lab, name, right, down) {
+  const from = await lab.middle(name);
+  await page.mouse.move(from.x, from.y);
+  await page.mouse.down();
+  await page.mouse.move(from.x + right, from.y + down, { steps: 5 });
+  await page.mouse.up();
+  await lab.settle();
+}
+
+const level = (lab, k) => lab.number(`rig-level-${k}`);
+
+test('a first visit begins with Explore, and three things to try lead to three discoveries', async ({ lab, page }) => {
+  await page.emulateMedia({ reducedMotion: 'reduce' });
+  await lab.open('lang=en&view=explore');
+  await expect(lab.id('levels')).toBeVisible();
+  await expect(lab.id('gamma1')).toHaveCount(0);
+  await expect(lab.id('discovery')).toContainText('Nothing can break');
+  expect(await lab.text('levels-sentence')).toMatch(/^Level 1 settles 51.2 s after its step/);
+  await lab.axe();
+
+  // One: ask for more water in tank 2.
+  const before = await level(lab, 2);
+  await drag(page, lab, 'mark2', 0, -25);
+  await expect(lab.id('prompt-water')).toHaveClass('done');
+  await expect(lab.id('discovery')).toContainText('a controller opens its pump');
+  expect(await level(lab, 2)).toBeGreaterThan(before + 0.5);
+
+  // Two: beyond the line the same controllers fight.
+  await drag(page, lab, 'valve-handle', -60, 60);
+  await expect(lab.id('prompt-valves')).toHaveClass('done');
+  await expect(lab.id('discovery')).toContainText('fight each other');
+  await expect(lab.id('whom')).toContainText('the wrong one');
+
+  // Three: swapped, but still too eager; calmer gains are one click away, and then the time axis fits the slow loop.
+  await lab.id('swap').click();
+  await expect(lab.id('prompt-swap')).toHaveClass('done');
+  await expect(lab.id('whom')).toContainText('too eager');
+  await lab.id('calm').click();
+  await expect(lab.id('whom')).toContainText('the right one');
+  await expect(lab.id('discovery')).toContainText('It works again, but slowly');
+  await expect(lab.id('levels-sentence')).toContainText('settles');
+  await lab.axe();
+  await lab.clean();
+});
+
+test('the marks stop at what the tanks can hold, by keyboard too', async ({ lab, page }) => {
+  await page.emulateMedia({ reducedMotion: 'reduce' });
+  await lab.open('lang=en&view=explore');
+  await lab.id('mark1').focus();
+  await page.keyboard.press('End');
+  await lab.settle();
+  expect(await lab.id('mark1').getAttribute('aria-valuetext')).toBe('20.00 cm');
+  await page.keyboard.press('Home');
+  await lab.settle();
+  expect(await lab.id('mark1').getAttribute('aria-valuetext')).toBe('0.00 cm');
+  await page.keyboard.press('ArrowUp');
+  await lab.settle();
+  expect(await lab.id('mark1').getAttribute('aria-valuetext')).toBe('0.01 cm');
+});
+
+test('a run is drawn as time passes, and stands whole for who prefers less motion', async ({ lab, page }) => {
+  await lab.open('lang=en&view=explore');
+  await lab.id('replay-length').selectOption('3');
+  await expect(lab.id('replay')).toContainText('pause');
+  const early = await lab.picture('levels');
+  const low = await level(lab, 1);
+  await expect(lab.id('replay')).toContainText('again', { timeout: 10_000 });
+  const whole = await lab.picture('levels');
+  expect(whole.ink).toBeGreaterThan(early.ink);
+  expect(await level(lab, 1)).toBeGreaterThan(low);
+  await page.emulateMedia({ reducedMotion: 'reduce' });
+  await lab.id('swap').click();
+  await page.waitForTimeout(1200);
+  await expect(lab.id('replay')).toContainText('again');
+});
+
+test('everything else is folded, opens in place and works', async ({ lab, page }) => {
+  await page.emulateMedia({ reducedMotion: 'reduce' });
+  await lab.open('lang=en&view=explore');
+  for (const drawer of ['why', 'gains', 'controllers', 'disturb', 'numbers']) await lab.id(`drawer-${drawer}`).click();
+  await lab.settle();
+  await lab.type('gamma1-number', '0.3');
+  await lab.type('gamma2-number', '0.3');
+  expect(await lab.number('lambda-11')).toBeLessThan(0);
+  await lab.id('try-hard').click();
+  await lab.settle();
+  const [one, two] = [await lab.value('step1-number'), await lab.value('step2-number')];
+  expect(Math.hypot(one, two)).toBeCloseTo(2, 1);
+  expect(Math.sign(one * two)).toBe(-1);
+  await lab.id('try-easy').click();
+  await lab.settle();
+  expect(Math.sign((await lab.value('step1-number')) * (await lab.value('step2-number')))).toBe(1);
+  await lab.axe();
+  await lab.clean();
+});
+
+test('how much is shown is remembered, and a link says it', async ({ lab, page }) => {
+  await page.goto(`${lab.origin}/?lang=en`);
+  await lab.ready();
+  await expect(page.locator('html')).toHaveAttribute('data-view', 'explore');
+  await lab.id('view-lab').click();
+  await expect(lab.id('gamma1')).toBeVisible();
+  await expect(page.locator('.card.experiment')).toBeHidden();
+  await page.goto(`${lab.origin}/?lang=en`);
+  await lab.ready();
+  await expect(page.locator('html')).toHaveAttribute('data-view', 'lab');
+  await lab.type('gamma1-number', '0.55');
+  await expect.poll(() => page.url()).toMatch(/view=lab#lab=/);
+  // A link of before there was a choice shows every card.
+  const fragment = new URL(page.url()).hash;
+  await page.goto('about:blank');
+  await page.goto(`${lab.origin}/${fragment}`);
+  await lab.ready();
+  await expect(page.locator('.card.experiment')).toBeVisible();
+  expect(await lab.value('gamma1-number')).toBe(0.55);
+});
+
+test.describe('on a phone', () => {
+  test.use({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
+
+  test('what to try and the rig are seen at once, and handles are as large as a finger', async ({ lab, page }) => {
+    await page.emulateMedia({ reducedMotion: 'reduce' });
+    await lab.open('lang=en&view=explore');
+    await expect(lab.id('prompt-water')).toBeInViewport();
+    await expect(lab.id('mark1')).toBeInViewport();
+    for (const name of ['mark1', 'valve1', 'valve-handle']) {
+      const { width, height } = await lab.id(name).locator('.touch').boundingBox();
+      expect(Math.min(width, height), name).toBeGreaterThanOrEqual(43.5);
+    }
+    const client = await page.context().newCDPSession(page);
+    const touch = (type, x, y) => client.send('Input.dispatchTouchEvent', { type, touchPoints: type === 'touchEnd' ? [] : [{ x, y }] });
+    const from = await lab.middle('mark1');
+    await touch('touchStart', from.x, from.y);
+    for (let k = 1; k <= 6; k += 1) await touch('touchMove', from.x, from.y - 5 * k);
+    await touch('touchEnd');
+    await lab.settle();
+    await expect(lab.id('prompt-water')).toHaveClass('done');
+    expect(await page.evaluate(() => scrollX + document.scrollingElement.scrollWidth)).toBe(390);
+  });
+});
