@@ -16,6 +16,9 @@ use quadtank::literature::PresetId;
 use quadtank_figure::{Palette, Style};
 use quadtank_scenario::{Document, ScenarioError};
 
+/// How much larger charts are for an audience.
+const PRESENTED: f64 = 1.5;
+
 /// A notice at the top of the page.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Notice {
@@ -66,6 +69,8 @@ pub struct State {
     pub notice: RwSignal<Option<Notice>>,
     /// How much of a bench is shown at once.
     pub depth: RwSignal<Depth>,
+    /// Whether the page is shown to an audience: large, and without what surrounds the bench.
+    pub presents: RwSignal<bool>,
     /// How much of a bench is shown when the page begins, which says what a bench begins with.
     pub first_depth: Depth,
     /// Whether it was said that nothing is kept.
@@ -99,6 +104,7 @@ impl Lab {
             dark: RwSignal::new(dark),
             notice: RwSignal::new(None),
             depth: RwSignal::new(depth),
+            presents: RwSignal::new(false),
             first_depth: depth,
             told_not_kept: StoredValue::new(false),
             flags: StoredValue::new(flags),
@@ -195,5 +201,10 @@ impl Lab {
     pub fn chart_style(self) -> Style {
         let palette = if self.dark.get() { Palette::DARK } else { Palette::LIGHT };
         Style { palette, decimal: self.number_style().decimal, scale: canvas::FINE }
+    }
+
+    /// How much larger charts are painted than usual, with their words and lines.
+    pub fn magnification(self) -> f64 {
+        if self.presents.get() { PRESENTED } else { 1.0 }
     }
 }

@@ -46,6 +46,7 @@ pub fn Laboratory(
         let depth = if lab.bench.get().has_depths { lab.depth.get() } else { Depth::Full };
         show_on_root("data-view", depth.name());
     });
+    Effect::new(move || show_on_root("data-present", if lab.presents.get() { "yes" } else { "no" }));
     Effect::new(move || show_on_root("lang", lab.language.get().tag()));
     Effect::new(move || document().set_title(&tr!(lab, app.page_title)));
     keep::keep(lab);
@@ -59,10 +60,13 @@ pub fn Laboratory(
             close_menus(None);
         }
     });
-    let on_key = window_event_listener(ev::keydown, |event| {
-        if event.key() == "Escape" {
+    let on_key = window_event_listener(ev::keydown, move |event| match event.key().as_str() {
+        "Escape" => {
             close_menus(None);
+            lab.presents.set(false);
         }
+        "f" | "F" if is_plain(&event) => lab.presents.update(|presents| *presents = !*presents),
+        _ => {}
     });
     on_cleanup(move || {
         on_address.remove();
@@ -79,6 +83,15 @@ pub fn Laboratory(
                 view! { <Header /> }.into_any()
             }}
             <Stopped />
+            <button
+                type="button"
+                class="button end-presenting"
+                data-testid="end-presenting"
+                hidden=move || !lab.presents.get()
+                on:click=move |_| lab.presents.set(false)
+            >
+                {say!(lab, app.end_presenting)}
+            </button>
             <Notices />
             {benches.iter().map(|bench| view! { <KeptBench bench /> }).collect_view()}
             {embed.then(|| view! { <EmbedFooter /> })}
@@ -113,6 +126,15 @@ fn KeptBench(bench: &'static BenchEntry) -> impl IntoView {
         })
     };
     view! { <div hidden=move || !is_shown()>{content}</div> }
+}
+
+/// Whether a key is pressed alone, and not into a field.
+fn is_plain(event: &ev::KeyboardEvent) -> bool {
+    let is_field = || {
+        let element = event.target().and_then(|target| target.dyn_into::<web_sys::Element>().ok());
+        element.is_some_and(|e| e.matches("input:not([type=range]), select, textarea").unwrap_or(false))
+    };
+    !(event.ctrl_key() || event.meta_key() || event.alt_key() || is_field())
 }
 
 /// Closes the menus that are open, but for the one that was pressed.
@@ -166,6 +188,15 @@ fn Header() -> impl IntoView {
                 {say!(lab, app.share)}
             </button>
             <FileMenu />
+            <button
+                type="button"
+                class="button present"
+                data-testid="present"
+                title=say!(lab, app.present_name)
+                on:click=move |_| lab.presents.set(true)
+            >
+                {say!(lab, app.present)}
+            </button>
             <details class="menu about">
                 <summary>{say!(lab, app.about)}</summary>
                 <div>

@@ -9,7 +9,7 @@ pub(super) mod generated {
     include!(concat!(env!("OUT_DIR"), "/texts.rs"));
 }
 
-pub use generated::Language;
+pub use generated::{Language, terms};
 
 impl Language {
     /// The language of a tag such as `pt-BR` or `en_GB`, if need be of another region; the first one where it is not spoken here.

@@ -1,6 +1,7 @@
 use leptos::prelude::*;
 
 use super::marked::marked;
+use super::terms::{Terms, Text};
 
 /// A card: its title with what stands beside it, and its content. Its class names it.
 #[component]
@@ -13,14 +14,18 @@ pub fn Card(
     /// What stands beside the title.
     #[prop(optional, into)]
     beside: ViewFnOnce,
+    /// Explanations of the words in it.
+    #[prop(optional)]
+    terms: &'static [Text],
     /// Its content.
     children: Children,
 ) -> impl IntoView {
+    let help = (!terms.is_empty()).then(|| view! { <Terms id=format!("{name}-terms") title terms /> });
     let heading = format!("{name}-title");
     let labelled_by = heading.clone();
     view! {
         <section class=format!("card {name}") aria-labelledby=labelled_by>
-            <header><h2 id=heading>{title}</h2>{beside.run()}</header>
+            <header><h2 id=heading>{title}</h2>{help}{beside.run()}</header>
             {children()}
         </section>
     }

@@ -10,7 +10,7 @@ use crate::download::{download_canvas, download_text};
 use crate::lab::use_lab;
 use crate::share::address_of;
 use crate::texts::tr;
-use quadtank_figure::{Chart, Frame, Sheet, Size, Style, layout, to_svg};
+use quadtank_figure::{Chart, Frame, Rect, Sheet, Size, Style, layout, to_svg};
 
 /// Builds charts in place and hands them to a visitor.
 type Build = dyn Fn(&mut dyn FnMut(&[Chart])) + Send + Sync;
@@ -63,9 +63,10 @@ pub fn ChartCanvas(
     let on_resize = window_event_listener(leptos::ev::resize, move |_| moved.notify());
     on_cleanup(move || on_resize.remove());
     Effect::new(move || {
-        let size = size.get();
+        let (size, magnification) = (size.get(), lab.magnification());
         moved.track();
-        let ratio = window().device_pixel_ratio();
+        let ratio = window().device_pixel_ratio() * magnification;
+        let size = Size { width: size.width / magnification, height: size.height / magnification };
         if size.width < 1.0 || size.height < 1.0 {
             return;
         }
@@ -78,7 +79,7 @@ pub fn ChartCanvas(
                 ground.set_value(Some(Ground { charts: charts.iter().map(Chart::ground).collect(), surface }));
             }
             canvas::paint(&canvas, charts, size, ratio, &style, Sheet::Curves);
-            layout(charts, size)
+            layout(charts, size).into_iter().map(|frame| magnified(frame, magnification)).collect::<Vec<_>>()
         });
         if frames.with_untracked(|f| *f != placed) {
             frames.set(placed);
@@ -88,6 +89,12 @@ pub fn ChartCanvas(
         <canvas node_ref=lower aria-hidden="true"></canvas>
         <canvas node_ref=canvas role="img" aria-label=summary data-testid=name></canvas>
     }
+}
+
+/// A frame of a picture that is painted larger.
+fn magnified(frame: Frame, by: f64) -> Frame {
+    let larger = |r: Rect| Rect { left: r.left * by, top: r.top * by, width: r.width * by, height: r.height * by };
+    Frame { outer: larger(frame.outer), plot: larger(frame.plot), ..frame }
 }
 
 /// What the lower of the two canvases shows. Most frames leave it as it is, and text is what costs a browser most.

@@ -31,7 +31,7 @@ export class Lab {
    * query says how much is shown.
    */
   async open(query = '', fragment = '') {
-    if (!/(^|&)(view|embed|panels)=/.test(query)) query = query ? `${query}&view=full` : 'view=full';
+    if (!/(^|&)(view=|embed=1|panels=)/.test(query)) query = query ? `${query}&view=full` : 'view=full';
     await this.page.goto(`${this.origin}/?${query}${fragment ? `#${fragment}` : ''}`);
     await this.ready();
   }

@@ -6,8 +6,8 @@ use super::sentences;
 use super::session::use_session;
 use crate::controls::{ParamControl, ParamNumber, ParamRow};
 use crate::start::Control;
-use crate::texts::{say, tr};
-use crate::widgets::{Card, Scale, Segmented, Sentence, Tick};
+use crate::texts::{say, terms, tr};
+use crate::widgets::{Card, Scale, Segmented, Sentence, Text, Tick};
 use quadtank::control::{AntiWindup, LoopMode, Pairing, PiSettings};
 use quadtank::interaction::PairingVerdict;
 use quadtank::study::quadruple_tank::Setup;
@@ -136,6 +136,9 @@ fn manual(setup: &Setup, index: usize) -> (f64, f64) {
     }
 }
 
+/// The words of the card that explain themselves.
+const TERMS: &[Text] = &[terms::pairing, terms::gain, terms::integral_time, terms::weight, terms::windup, terms::peak];
+
 /// Pairing, gains and the fine print of the two loops.
 #[component]
 pub fn ControllerCard() -> impl IntoView {
@@ -148,7 +151,7 @@ pub fn ControllerCard() -> impl IntoView {
     };
     let stability = Memo::new(move |_| sentences::of_stability(session));
     view! {
-        <Card name="pi" title=say!(lab, pi.title) beside=move || view! { <span class="remark">{about}</span> }>
+        <Card name="pi" title=say!(lab, pi.title) terms=TERMS beside=move || view! { <span class="remark">{about}</span> }>
             <PairingSwitch />
             <LoopControls index=0 />
             <LoopControls index=1 />

@@ -8,8 +8,8 @@ use super::session::{Session, use_session};
 use crate::controls::{ParamControl, ParamNumber, ParamRow};
 use crate::shown::{CM3_PER_M3, MM2_PER_M2, per_metre, to_shown, unit_name};
 use crate::start::Control;
-use crate::texts::{say, tr};
-use crate::widgets::{Card, Choice, Scale, Select, Tick};
+use crate::texts::{say, terms, tr};
+use crate::widgets::{Card, Choice, Scale, Select, Text, Tick};
 use quadtank::sim::{Experiment, Load, LoadStep, SetPointStep};
 use quadtank::study::quadruple_tank::Setup;
 use quadtank_scenario::{Limits, limits};
@@ -182,6 +182,9 @@ fn further_steps(experiment: &Experiment) -> usize {
     experiment.set_point_steps.len() - shown_levels + experiment.load_steps.len().saturating_sub(1)
 }
 
+/// The words of the card that explain themselves.
+const TERMS: &[Text] = &[terms::reference, terms::load, terms::noise];
+
 /// The experiment.
 #[component]
 pub fn ExperimentCard() -> impl IntoView {
@@ -190,7 +193,7 @@ pub fn ExperimentCard() -> impl IntoView {
     let further = move || session.document.with(|s| further_steps(&s.setup.experiment));
     let about = move || view! { <span class="remark">{say!(lab, experiment.remark)}</span> };
     view! {
-        <Card name="experiment" title=say!(lab, experiment.title) beside=about>
+        <Card name="experiment" title=say!(lab, experiment.title) terms=TERMS beside=about>
             <Timed size=&REFERENCE time=&REFERENCE_TIME index=0 />
             <Timed size=&REFERENCE time=&REFERENCE_TIME index=1 />
             <LoadControls />

@@ -6,12 +6,15 @@ use super::experiment::FIRST_STEP_AT_S;
 use super::session::{Session, use_session};
 use super::{pictures, sentences};
 use crate::start::Control;
-use crate::texts::{say, tr};
-use crate::widgets::{Card, ChartCanvas, ChartMenu, Sentence};
+use crate::texts::{say, terms, tr};
+use crate::widgets::{Card, ChartCanvas, ChartMenu, Sentence, Text};
 use quadtank::linear::Complex;
 use quadtank::sim::SetPointStep;
 use quadtank::study::quadruple_tank::{Direction, ZeroEffect, direction_steps, fitted_duration_s};
 use quadtank_figure::Frame;
+
+/// The words of the card that explain themselves.
+const TERMS: &[Text] = &[terms::pole, terms::zero, terms::right_half_plane, terms::closed_loop, terms::direction];
 
 /// Open-loop poles, transmission zeros with their path, and closed-loop poles.
 #[component]
@@ -29,7 +32,7 @@ pub fn PolesAndZerosCard() -> impl IntoView {
         }
     };
     view! {
-        <Card name="zeros" title beside>
+        <Card name="zeros" title terms=TERMS beside>
             <div class="chart">
                 <ChartCanvas picture frames summary=Signal::derive(move || summary(session)) name="pole-zero" />
             </div>

@@ -10,8 +10,8 @@ use super::sentences;
 use super::session::use_session;
 use crate::controls::{ParamControl, ParamRow};
 use crate::start::Control;
-use crate::texts::{say, tr};
-use crate::widgets::{Card, NumberField, Scale, Verdict, marked};
+use crate::texts::{say, terms, tr};
+use crate::widgets::{Card, NumberField, Scale, Text, Verdict, marked};
 use quadtank::study::quadruple_tank::{OperatingPointSpec, Setup};
 
 const GAMMA: ParamControl<Setup> = ParamControl {
@@ -29,6 +29,9 @@ const GAMMA: ParamControl<Setup> = ParamControl {
 };
 const VOLTAGE_IDS: [&str; 2] = ["voltage1", "voltage2"];
 
+/// The words of the card that explain themselves.
+const TERMS: &[Text] = &[terms::gamma, terms::minimum_phase, terms::zero, terms::right_half_plane];
+
 /// The drawing of the rig, the valve sliders and the sentence under them.
 #[component]
 pub fn ProcessCard() -> impl IntoView {
@@ -41,7 +44,7 @@ pub fn ProcessCard() -> impl IntoView {
         None => tr!(lab, process.drag_valves),
     };
     view! {
-        <Card name="process" title=say!(lab, process.title) beside=|| view! { <PresetSelect /> }>
+        <Card name="process" title=say!(lab, process.title) terms=TERMS beside=|| view! { <PresetSelect /> }>
             <p class="remark moment">{remark}</p>
             <Rig />
             <div>

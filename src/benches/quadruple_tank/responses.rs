@@ -9,9 +9,9 @@ use super::session::{Session, use_session};
 use super::set_points::SetPoints;
 use crate::errors::of_study_error;
 use crate::shown::{length_digits, to_shown, unit_name};
-use crate::texts::{say, tr};
+use crate::texts::{say, terms, tr};
 use crate::widgets::{
-    Card, ChartCanvas, ChartMenu, DataTable, Readout, Sentence, TimeAxis, TimeSurface, ZoomButtons, unmarked,
+    Card, ChartCanvas, ChartMenu, DataTable, Readout, Sentence, Text, TimeAxis, TimeSurface, ZoomButtons, unmarked,
 };
 use quadtank::linear::Stability;
 use quadtank::sim::{EventKind, LoopMetrics, Settling};
@@ -21,6 +21,9 @@ use quadtank_scenario::Scenario;
 
 /// The shortest stretch of time that can be shown (s).
 const SHORTEST_S: f64 = 5.0;
+
+/// The words of the card that explain themselves.
+const TERMS: &[Text] = &[terms::reference, terms::rise, terms::overshoot, terms::costs, terms::linear];
 
 /// The step responses.
 #[component]
@@ -44,7 +47,7 @@ pub fn ResponsesCard() -> impl IntoView {
         }
     };
     view! {
-        <Card name="responses" title beside>
+        <Card name="responses" title terms=TERMS beside>
             <div class="charts">
                 <div class="chart">
                     <ChartCanvas

@@ -3,9 +3,12 @@
 use leptos::prelude::*;
 
 use super::session::{Session, use_session};
-use crate::texts::{say, tr};
-use crate::widgets::{Caption, Card, Verdict, marked};
+use crate::texts::{say, terms, tr};
+use crate::widgets::{Caption, Card, Text, Verdict, marked};
 use quadtank::interaction::{PairingReason, PairingVerdict};
+
+/// The words of the card that explain themselves.
+const TERMS: &[Text] = &[terms::relative_gain, terms::pairing, terms::niederlinski];
 
 /// The relative gain array.
 #[component]
@@ -17,7 +20,7 @@ pub fn RelativeGainCard() -> impl IntoView {
     let warm = Signal::derive(move || matches!(found(), Some(PairingVerdict::None(_)) | None));
     let about = move || view! { <span class="remark">{say!(lab, rga.remark)}</span> };
     view! {
-        <Card name="rga" title=say!(lab, rga.title) beside=about>
+        <Card name="rga" title=say!(lab, rga.title) terms=TERMS beside=about>
             <table class="gains">{move || gains(session)}</table>
             <div class="formula">{move || formula(session)}</div>
             <Verdict id="rga-verdict" warm><p>{move || marked(&text())}</p></Verdict>

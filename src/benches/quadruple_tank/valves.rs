@@ -8,8 +8,8 @@ use super::session::{Session, use_session};
 use super::{pictures, sentences};
 use crate::lab::Notice;
 use crate::start::Control;
-use crate::texts::{say, tr};
-use crate::widgets::{Card, ChartCanvas, ChartMenu, Nudge, PointHandle, Sentence, first_frame};
+use crate::texts::{say, terms, tr};
+use crate::widgets::{Card, ChartCanvas, ChartMenu, Nudge, PointHandle, Sentence, Text, first_frame};
 use quadtank::literature::PresetId;
 use quadtank_figure::Frame;
 
@@ -17,6 +17,9 @@ use quadtank_figure::Frame;
 const STEPS: f64 = 100.0;
 /// Step of the arrow keys.
 pub const STEP: f64 = 1.0 / STEPS;
+
+/// The words of the card that explain themselves.
+const TERMS: &[Text] = &[terms::gamma, terms::zero, terms::minimum_phase, terms::right_half_plane];
 
 /// The valve plane.
 #[component]
@@ -31,7 +34,7 @@ pub fn ValvePlaneCard() -> impl IntoView {
     let hint = (!lab.locks(Control::Valves)).then(|| view! { <span class="remark">{say!(lab, valves.remark)}</span> });
     let beside = move || view! { {hint}<ChartMenu picture=for_menu file="valve-plane" title /> };
     view! {
-        <Card name="plane" title beside>
+        <Card name="plane" title terms=TERMS beside>
             <div class="chart square">
                 <ChartCanvas picture frames summary name="valve-plane" />
                 <Overlay frames />
@@ -49,7 +52,7 @@ pub fn ValveMapCard() -> impl IntoView {
     let frames = RwSignal::new(Vec::<Frame>::new());
     let picture = pictures::valve_map(session);
     view! {
-        <Card name="map" title=say!(lab, explore.valves)>
+        <Card name="map" title=say!(lab, explore.valves) terms=TERMS>
             <div class="chart square">
                 <ChartCanvas picture frames summary=Signal::derive(move || summary(session)) name="valve-map" />
                 <Overlay frames />

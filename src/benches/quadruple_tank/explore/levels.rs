@@ -9,13 +9,16 @@ use super::super::replay::{Replay, ReplayControls};
 use super::super::session::{Session, use_session};
 use super::super::set_points::SetPoints;
 use super::super::{pictures, responses};
-use crate::texts::say;
-use crate::widgets::{Card, ChartCanvas, Sentence, unmarked};
+use crate::texts::{say, terms};
+use crate::widgets::{Card, ChartCanvas, Sentence, Text, unmarked};
 use quadtank::study::quadruple_tank::fitted_duration_s;
 use quadtank_figure::Frame;
 
 /// How long a change has to rest until the time axis is fitted to it: sooner than it is kept as a step, so that both are one.
 const RESTED: Duration = Duration::from_millis(250);
+
+/// The words of the card that explain themselves.
+const TERMS: &[Text] = &[terms::reference, terms::rise, terms::overshoot];
 
 /// The levels of the run.
 #[component]
@@ -28,7 +31,7 @@ pub fn LevelsCard(replay: Replay) -> impl IntoView {
     let picture = pictures::levels(session, held);
     let sentence = Signal::derive(move || responses::sentence(session));
     view! {
-        <Card name="levels" title=say!(lab, explore.levels) beside=move || view! { <ReplayControls replay /> }>
+        <Card name="levels" title=say!(lab, explore.levels) terms=TERMS beside=move || view! { <ReplayControls replay /> }>
             <div class="chart">
                 <ChartCanvas picture frames summary=say!(lab, responses.summary, sentence = unmarked(&sentence.get())) name="levels" />
                 <SetPoints frames held />

@@ -4,8 +4,8 @@ use leptos::prelude::*;
 
 use super::super::session::{Session, use_session};
 use crate::start::Control;
-use crate::texts::{say, tr};
-use crate::widgets::{Card, marked};
+use crate::texts::{say, terms, tr};
+use crate::widgets::{Card, Text, marked};
 use quadtank::control::Pairing;
 use quadtank::interaction::PairingVerdict;
 use quadtank::linear::Stability;
@@ -27,6 +27,9 @@ enum Finding {
     Neither,
 }
 
+/// The words of the card that explain themselves.
+const TERMS: &[Text] = &[terms::pairing, terms::relative_gain];
+
 /// The card with the two lines that swap.
 #[component]
 pub fn PairingCard() -> impl IntoView {
@@ -44,7 +47,7 @@ pub fn PairingCard() -> impl IntoView {
     };
     let is_bad = move || finding.get() != Some(Finding::Right);
     view! {
-        <Card name="whom" title=say!(lab, explore.whom) beside>
+        <Card name="whom" title=say!(lab, explore.whom) terms=TERMS beside>
             <div class="pairing">
                 <svg viewBox="0 0 200 88" role="img" aria-label=move || in_words(session, pairing.get())>
                     {move || lines(session, pairing.get())}
