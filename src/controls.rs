@@ -5,8 +5,7 @@
 use leptos::prelude::*;
 
 use super::lab::Lab;
-use super::session::{Bench, Session, SetupOf};
-use super::start::Control;
+use super::session::{Bench, Lock, Session, SetupOf};
 use super::widgets::{NumberField, Scale, Segmented, SliderField};
 use quadtank_scenario::Limits;
 use quadtank_scenario::params::Param;
@@ -47,32 +46,34 @@ pub struct ParamControl<S> {
     /// What it has to be a multiple of; 0 for any value.
     pub grid: fn(&S) -> f64,
     /// What locks it.
-    pub lock: Control,
+    pub lock: Lock,
     /// Whether there is anything to set; `None` where there always is.
     pub matters: Option<fn(&S) -> bool>,
 }
 
 impl<S> ParamControl<S> {
-    /// What most controls have in common.
-    pub const PLAIN: Self = Self {
-        ids: [("", ""); 2],
-        label: |_, _| String::new(),
-        name: |_, _| String::new(),
-        path: |_, _| "",
-        read: |_, _| 0.0,
-        write: |_, _, _| (),
-        within: |_, _| Limits::NONE,
-        shown_per_unit: |_| 1.0,
-        smallest: 0.0,
-        travel: None,
-        scale: Scale::Linear(0.01),
-        digits: None,
-        unit: |_| "",
-        class: [""; 2],
-        grid: |_| 0.0,
-        lock: Control::Plant,
-        matters: None,
-    };
+    /// What most controls have in common, disabled with the group of their bench.
+    pub const fn locked_by(lock: Lock) -> Self {
+        Self {
+            ids: [("", ""); 2],
+            label: |_, _| String::new(),
+            name: |_, _| String::new(),
+            path: |_, _| "",
+            read: |_, _| 0.0,
+            write: |_, _, _| (),
+            within: |_, _| Limits::NONE,
+            shown_per_unit: |_| 1.0,
+            smallest: 0.0,
+            travel: None,
+            scale: Scale::Linear(0.01),
+            digits: None,
+            unit: |_| "",
+            class: [""; 2],
+            grid: |_| 0.0,
+            lock,
+            matters: None,
+        }
+    }
 
     /// The values that are allowed now, in the unit of the row.
     pub fn limits(&self, setup: &S, index: usize) -> Limits {
@@ -162,7 +163,7 @@ pub fn Switch<B, T>(
     /// Makes another choice.
     write: fn(&mut SetupOf<B>, T),
     /// What locks it.
-    lock: Control,
+    lock: Lock,
 ) -> impl IntoView
 where
     B: Bench,

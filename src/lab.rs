@@ -8,8 +8,8 @@ use super::benches::BenchEntry;
 use super::canvas;
 use super::format::NumberStyle;
 use super::frames::FrameScheduler;
-use super::session::{Bench, Session};
-use super::start::{Control, Panel, StartFlags};
+use super::session::{Bench, Lock, Panel, Session};
+use super::start::StartFlags;
 use super::texts::Language;
 use quadtank_figure::{Palette, Style};
 use quadtank_scenario::{Document, ScenarioError};
@@ -68,10 +68,9 @@ pub fn use_lab() -> Lab {
 impl Lab {
     /// A laboratory with these benches, of which the first is shown if the flags name none.
     pub fn new(benches: &'static [BenchEntry], language: Language, dark: bool, flags: StartFlags) -> Self {
-        let named = benches.iter().find(|bench| flags.bench.as_deref() == Some(bench.id));
         Self(Box::leak(Box::new(State {
             benches,
-            bench: RwSignal::new(named.unwrap_or(&benches[0])),
+            bench: RwSignal::new(flags.bench.unwrap_or(&benches[0])),
             texts_update: Trigger::new(),
             language: RwSignal::new(language),
             dark: RwSignal::new(dark),
@@ -153,12 +152,14 @@ impl Lab {
 
     /// Whether a card is shown.
     pub fn shows(self, panel: Panel) -> bool {
+        debug_assert!(self.benches.iter().any(|bench| bench.panels.contains(&panel)), "no bench lists {panel:?}");
         self.flags.with_value(|flags| flags.shows(panel))
     }
 
     /// Whether a group of controls is disabled.
-    pub fn locks(self, control: Control) -> bool {
-        self.flags.with_value(|f| f.locks(control))
+    pub fn locks(self, lock: Lock) -> bool {
+        debug_assert!(self.benches.iter().any(|bench| bench.locks.contains(&lock)), "no bench lists {lock:?}");
+        self.flags.with_value(|flags| flags.locks(lock))
     }
 
     /// How the chosen language writes numbers.

@@ -126,12 +126,13 @@ fn close_menus(pressed: Option<web_sys::EventTarget>) {
 /// The state that the address and the remembered choices ask for.
 fn start(benches: &'static [BenchEntry]) -> Lab {
     let query = window().location().search().unwrap_or_default();
-    let flags = StartFlags::parse(&query);
+    let flags = StartFlags::parse(&query, benches);
     let usual_tag = || LANGUAGE.read().or_else(|| window().navigator().language()).unwrap_or_default();
     let language = flags.language.unwrap_or_else(|| Language::of_tag(&usual_tag()));
     let prefers_dark =
         || window().match_media("(prefers-color-scheme: dark)").ok().flatten().is_some_and(|query| query.matches());
-    let dark = flags.theme.clone().or_else(|| THEME.read()).map_or_else(prefers_dark, |theme| theme == "dark");
+    let remembered = || THEME.read().map(|theme| theme == "dark");
+    let dark = flags.dark.or_else(remembered).unwrap_or_else(prefers_dark);
     let preset = flags.preset;
     let lab = Lab::new(benches, language, dark, flags);
     // Before any bench is shown, so that each computes its own document at once.

@@ -8,7 +8,7 @@ use leptos::prelude::*;
 use quadtank_scenario::{Document, ScenarioError, to_json, to_link};
 
 use super::lab::Lab;
-use super::session::{Bench, Session};
+use super::session::{Bench, Lock, Panel, Session};
 pub use model_free::ModelFree;
 pub use quadruple_tank::QuadrupleTank;
 pub use relay_tuning::RelayTuning;
@@ -23,6 +23,10 @@ pub struct BenchEntry {
     pub id: &'static str,
     /// Class of the element that holds its cards.
     pub class: &'static str,
+    /// The cards that `panels=` can name.
+    pub panels: &'static [Panel],
+    /// The groups of controls that `lock=` can name.
+    pub locks: &'static [Lock],
     /// What the navigation calls it.
     pub title: fn(Lab) -> String,
     /// The cards that the start flags ask for.
@@ -43,6 +47,8 @@ impl BenchEntry {
         Self {
             id: B::ID,
             class: B::CLASS,
+            panels: B::PANELS,
+            locks: B::LOCKS,
             title: B::title,
             cards: |lab| B::cards(lab.session()),
             open: |lab, document| {

@@ -2,10 +2,10 @@
 
 use leptos::prelude::*;
 
+use super::flags::locks;
 use super::sentences::CM_PER_M;
 use super::session::use_session;
 use crate::controls::{ParamControl, ParamRow, Switch};
-use crate::start::Control;
 use crate::texts::{say, tr};
 use crate::widgets::{Card, Scale};
 use quadtank::literature::junqueira::{PublishedExperiment, PublishedValves};
@@ -22,8 +22,7 @@ const VALVE: ParamControl<ModelFreeSetup> = ParamControl {
     path: |_, _| "valves[].constant.gamma",
     within: |s, k| Limits::new(s.valves[k].swing(), 1.0 - s.valves[k].swing()),
     digits: Some(2),
-    lock: Control::Valves,
-    ..ParamControl::PLAIN
+    ..ParamControl::locked_by(locks::VALVES)
 };
 const STEP: ParamControl<ModelFreeSetup> = ParamControl {
     ids: [("", "free-step1"), ("", "free-step2")],
@@ -41,8 +40,7 @@ const STEP: ParamControl<ModelFreeSetup> = ParamControl {
     scale: Scale::Linear(0.1),
     digits: Some(2),
     unit: |_| "cm",
-    lock: Control::Experiment,
-    ..ParamControl::PLAIN
+    ..ParamControl::locked_by(locks::EXPERIMENT)
 };
 const NOISE: ParamControl<ModelFreeSetup> = ParamControl {
     ids: [("", "free-noise"); 2],
@@ -94,7 +92,7 @@ pub fn CaseCard() -> impl IntoView {
                 choices=cases
                 read=case_of
                 write=set_case
-                lock=Control::Valves
+                lock=locks::VALVES
             />
             <Switch
                 session
@@ -102,7 +100,7 @@ pub fn CaseCard() -> impl IntoView {
                 choices=experiments
                 read=experiment_of
                 write=set_experiment
-                lock=Control::Experiment
+                lock=locks::EXPERIMENT
             />
             <div class="pairs">
                 <ParamRow session control=&VALVE index=0 />
@@ -145,7 +143,7 @@ fn Pressed(
             class="button small"
             data-testid=id
             aria-pressed=move || value.get().to_string()
-            disabled=session.lab.locks(Control::Experiment)
+            disabled=session.lab.locks(locks::EXPERIMENT)
             on:click=move |_| session.edit(press)
         >
             {text}

@@ -2,10 +2,10 @@
 
 use leptos::prelude::*;
 
+use super::flags::locks;
 use super::sentences::{self, CM_PER_M};
 use super::session::use_session;
 use crate::controls::{ParamControl, ParamRow, Switch};
-use crate::start::Control;
 use crate::texts::{say, tr};
 use crate::widgets::{Card, Scale, Sentence};
 use quadtank::control::{
@@ -54,7 +54,7 @@ const INTEGRAL: ParamControl<ModelFreeSetup> = ParamControl {
     ..FEEDBACK
 };
 const FEEDBACK: ParamControl<ModelFreeSetup> =
-    ParamControl { scale: Scale::Logarithmic, lock: Control::Gains, ..ParamControl::PLAIN };
+    ParamControl { scale: Scale::Logarithmic, ..ParamControl::locked_by(locks::GAINS) };
 const WINDOW: ParamControl<ModelFreeSetup> = ParamControl {
     ids: [("", "free-window"); 2],
     label: |_, _| "T".to_owned(),
@@ -68,9 +68,8 @@ const WINDOW: ParamControl<ModelFreeSetup> = ParamControl {
     },
     grid: |s| s.controller.sampling_time_s,
     unit: |_| "s",
-    lock: Control::Gains,
     matters: Some(|s| s.controller.estimator.is_some()),
-    ..ParamControl::PLAIN
+    ..ParamControl::locked_by(locks::GAINS)
 };
 const SAMPLING: ParamControl<ModelFreeSetup> = ParamControl {
     ids: [("", "free-sampling"); 2],
@@ -82,8 +81,7 @@ const SAMPLING: ParamControl<ModelFreeSetup> = ParamControl {
     within: |s, _| limits::sampling_time_s(s.experiment.duration_s),
     scale: Scale::Linear(0.1),
     unit: |_| "s",
-    lock: Control::Sampling,
-    ..ParamControl::PLAIN
+    ..ParamControl::locked_by(locks::SAMPLING)
 };
 
 /// The settings of the law.
@@ -106,7 +104,7 @@ pub fn LawCard() -> impl IntoView {
         (Pairing::Swapped, "free-swapped", say!(lab, pi.swapped)),
     ];
     let stability = Memo::new(move |_| sentences::of_loop(session));
-    let lock = Control::Gains;
+    let lock = locks::GAINS;
     view! {
         <Card name="law" title=say!(lab, free.law)>
             <div class="formula">{formula()}</div>
@@ -140,7 +138,7 @@ pub fn LawCard() -> impl IntoView {
                 choices=pairings
                 read=|s| s.controller.pairing
                 write=|s, pairing| s.controller.pairing = pairing
-                lock=Control::Pairing
+                lock=locks::PAIRING
             />
             <Sentence
                 id="free-stability"
@@ -189,7 +187,7 @@ fn EstimatorDetails() -> impl IntoView {
         (FedWith::Applied, "free-applied", say!(lab, free.applied)),
         (FedWith::Commanded, "free-commanded", say!(lab, free.commanded)),
     ];
-    let lock = Control::Gains;
+    let lock = locks::GAINS;
     view! {
         <Switch
             session

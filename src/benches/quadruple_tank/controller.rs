@@ -2,10 +2,10 @@
 
 use leptos::prelude::*;
 
+use super::flags::locks;
 use super::sentences;
 use super::session::use_session;
 use crate::controls::{ParamControl, ParamNumber, ParamRow};
-use crate::start::Control;
 use crate::texts::{say, tr};
 use crate::widgets::{Card, Scale, Segmented, Sentence, Tick};
 use quadtank::control::{AntiWindup, LoopMode, Pairing, PiSettings};
@@ -47,8 +47,7 @@ const INTEGRAL_TIME: ParamControl<Setup> = ParamControl {
 const OF_LOOP: ParamControl<Setup> = ParamControl {
     scale: Scale::Logarithmic,
     class: ["loop1-row", "loop2-row"],
-    lock: Control::Gains,
-    ..ParamControl::PLAIN
+    ..ParamControl::locked_by(locks::GAINS)
 };
 
 const WEIGHT: ParamControl<Setup> = ParamControl {
@@ -118,7 +117,7 @@ const MANUAL_OUTPUT: ParamControl<Setup> = ParamControl {
     ..FINE
 };
 const FINE: ParamControl<Setup> =
-    ParamControl { scale: Scale::Logarithmic, class: ["wide"; 2], lock: Control::Sampling, ..ParamControl::PLAIN };
+    ParamControl { scale: Scale::Logarithmic, class: ["wide"; 2], ..ParamControl::locked_by(locks::SAMPLING) };
 
 fn both(setup: &mut Setup, change: impl Fn(&mut PiSettings)) {
     setup.controller.loops.iter_mut().for_each(change);
@@ -199,7 +198,7 @@ fn PairingSwitch() -> impl IntoView {
             choices=vec![choice(Pairing::Diagonal, "pairing-diagonal"), choice(Pairing::Swapped, "pairing-swapped")]
             value=chosen
             on_choose=move |pairing| session.edit(|s| s.controller.pairing = pairing)
-            disabled=lab.locks(Control::Pairing)
+            disabled=lab.locks(locks::PAIRING)
         />
         <p class="remark warm" hidden=fits>{say!(lab, pi.against)}</p>
     }
@@ -236,7 +235,7 @@ fn FinePrint() -> impl IntoView {
             id="antiwindup"
             text=say!(lab, pi.antiwindup)
             ticked=session.part(is_guarded)
-            disabled=lab.locks(Control::Sampling)
+            disabled=lab.locks(locks::SAMPLING)
             on_tick=switch_windup
         />
         <ParamRow session control=&TRACKING />
@@ -275,14 +274,14 @@ fn ManualMode(index: usize) -> impl IntoView {
                 id=MANUAL_IDS[index]
                 text=say!(lab, pi.manual, level = index + 1)
                 ticked=by_hand
-                disabled=lab.locks(Control::Sampling)
+                disabled=lab.locks(locks::SAMPLING)
                 on_tick=switch
             />
             <button
                 type="button"
                 class="button small"
                 data-testid=SIGN_IDS[index]
-                disabled=lab.locks(Control::Gains)
+                disabled=lab.locks(locks::GAINS)
                 aria-label=say!(lab, pi.sign, level = index + 1)
                 on:click=move |_| session.edit(|s| s.controller.loops[index].gain *= -1.0)
             >

@@ -4,10 +4,10 @@ use crate::lab::Lab;
 use leptos::prelude::*;
 
 use super::cursor::PlayControls;
+use super::flags::locks;
 use super::session::{Session, use_session};
 use crate::controls::{ParamControl, ParamNumber, ParamRow};
 use crate::shown::{CM3_PER_M3, MM2_PER_M2, per_metre, to_shown, unit_name};
-use crate::start::Control;
 use crate::texts::{say, tr};
 use crate::widgets::{Card, Choice, Scale, Select, Tick};
 use quadtank::sim::{Experiment, Load, LoadStep, SetPointStep};
@@ -121,7 +121,7 @@ const TIME: ParamControl<Setup> = ParamControl {
     ..OF_EXPERIMENT
 };
 const OF_EXPERIMENT: ParamControl<Setup> =
-    ParamControl { digits: Some(2), class: ["wide"; 2], lock: Control::Experiment, ..ParamControl::PLAIN };
+    ParamControl { digits: Some(2), class: ["wide"; 2], ..ParamControl::locked_by(locks::EXPERIMENT) };
 
 /// The lowest wall of the lower tanks (m).
 fn lowest_wall(setup: &Setup) -> f64 {
@@ -188,7 +188,7 @@ pub fn ExperimentCard() -> impl IntoView {
                 id="quantised"
                 text=say!(lab, experiment.quantised)
                 ticked=session.part(|s| s.experiment.measurement.quantised)
-                disabled=lab.locks(Control::Experiment)
+                disabled=lab.locks(locks::EXPERIMENT)
                 on_tick=move |on| session.edit(|s| s.experiment.measurement.quantised = on)
             />
             <p class="remark" hidden=move || further() == 0>{say!(lab, experiment.further, count = further())}</p>
@@ -283,7 +283,7 @@ fn LoadControls() -> impl IntoView {
                 choices=Signal::derive(move || LoadPlace::ALL.map(|place| place.choice(lab)).to_vec())
                 chosen=session.part(LoadPlace::of)
                 on_choose=choose
-                disabled=lab.locks(Control::Experiment)
+                disabled=lab.locks(locks::EXPERIMENT)
             />
         </div>
         {move || present.get().then(|| view! { <Timed size=&LOAD time=&LOAD_TIME /> })}

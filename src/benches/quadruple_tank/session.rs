@@ -8,8 +8,9 @@ use quadtank::study::quadruple_tank::{Analysis, QuadrupleTankStudy, Results, Run
 use quadtank::study::{PinnedResults, StudyError};
 use quadtank_scenario::Scenario;
 
+use super::flags::{locks, panels};
 use crate::lab::Lab;
-use crate::session::{self, Bench, Outcome, part_of};
+use crate::session::{self, Bench, Lock, Outcome, Panel, part_of};
 use crate::texts::tr;
 
 /// The home bench: from two valves to the step response.
@@ -48,6 +49,8 @@ pub struct Own {
 impl Bench for QuadrupleTank {
     const ID: &'static str = "quadruple-tank";
     const CLASS: &'static str = "bench";
+    const PANELS: &'static [Panel] = panels::ALL;
+    const LOCKS: &'static [Lock] = locks::ALL;
     type Document = Scenario;
     type Study = QuadrupleTankStudy;
     type Found = Found;

@@ -3,10 +3,10 @@
 use leptos::ev::KeyboardEvent;
 use leptos::prelude::*;
 
+use super::flags::locks;
 use super::preset::{chosen, load, name_of};
 use super::session::{Session, use_session};
 use super::{pictures, sentences};
-use crate::start::Control;
 use crate::texts::{say, tr};
 use crate::widgets::{Card, ChartCanvas, ChartMenu, Nudge, PointHandle, Sentence, first_frame};
 use quadtank::literature::PresetId;
@@ -31,7 +31,7 @@ pub fn ValvePlaneCard() -> impl IntoView {
         let style = lab.number_style();
         tr!(lab, valves.summary, gamma1 = style.fixed(g1, 2), gamma2 = style.fixed(g2, 2))
     });
-    let hint = (!lab.locks(Control::Valves)).then(|| view! { <span class="remark">{say!(lab, valves.remark)}</span> });
+    let hint = (!lab.locks(locks::VALVES)).then(|| view! { <span class="remark">{say!(lab, valves.remark)}</span> });
     let beside = move || view! { {hint}<ChartMenu picture=for_menu file="valve-plane" title /> };
     view! {
         <Card name="plane" title beside>
@@ -105,7 +105,7 @@ fn PublishedPoint(id: PresetId, frames: RwSignal<Vec<Frame>>) -> impl IntoView {
         tr!(lab, valves.published, name = name_of(lab, id), gamma1 = gamma1, gamma2 = gamma2)
     });
     let choose = move || {
-        if !lab.locks(Control::Preset) {
+        if !lab.locks(locks::PRESET) {
             load(session, id);
         }
     };
@@ -157,7 +157,7 @@ fn SettingHandle(frames: RwSignal<Vec<Frame>>) -> impl IntoView {
             value=gamma_1
             limits=(0.0, 1.0)
             spoken=Signal::derive(spoken)
-            locked=lab.locks(Control::Valves)
+            locked=lab.locks(locks::VALVES)
             on_move=set
             on_nudge
             frames

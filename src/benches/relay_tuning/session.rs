@@ -11,8 +11,9 @@ use quadtank::study::relay_tuning::{
 use quadtank::tuning::TuningError;
 use quadtank_scenario::tuning::TuningScenario;
 
+use super::flags::{locks, panels};
 use crate::lab::Lab;
-use crate::session::{self, Bench, Outcome, part_of};
+use crate::session::{self, Bench, Lock, Outcome, Panel, part_of};
 use crate::texts::tr;
 
 /// The relay-tuning bench: relay tests and ultimate-point placement.
@@ -55,6 +56,8 @@ pub struct Own {
 impl Bench for RelayTuning {
     const ID: &'static str = "relay-tuning";
     const CLASS: &'static str = "bench relay";
+    const PANELS: &'static [Panel] = panels::ALL;
+    const LOCKS: &'static [Lock] = locks::ALL;
     type Document = TuningScenario;
     type Study = RelayTuningStudy;
     type Found = Found;
