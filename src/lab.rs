@@ -21,6 +21,8 @@ pub enum Notice {
     Refused(ScenarioError),
     /// The browser could not read the file.
     NotRead,
+    /// Parts of the address were not understood: which.
+    NotUnderstood(Vec<String>),
     /// The link is on the clipboard.
     Copied,
     /// The clipboard is out of reach: here is the link.

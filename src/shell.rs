@@ -142,6 +142,11 @@ fn start(benches: &'static [BenchEntry]) -> Lab {
     if let Some(outcome) = share::from_address() {
         lab.open(outcome);
     }
+    let unknown = lab.flags.with_value(|flags| flags.unknown.clone());
+    // A link that was refused matters more.
+    if !unknown.is_empty() && lab.notice.with_untracked(Option::is_none) {
+        lab.notice.set(Some(Notice::NotUnderstood(unknown)));
+    }
     lab
 }
 
@@ -279,6 +284,7 @@ fn Notices() -> impl IntoView {
         match notice {
         Notice::Refused(error) => view! { <div>{tr!(lab, refused.lead)} " " {of_error(lab, DisplayUnit::Cm, &error)}</div> }.into_any(),
         Notice::NotRead => view! { <div>{tr!(lab, refused.not_read)}</div> }.into_any(),
+        Notice::NotUnderstood(names) => view! { <div>{tr!(lab, app.not_understood, names = names.join(", "))}</div> }.into_any(),
         Notice::Copied => view! { <div>{tr!(lab, app.copied)}</div> }.into_any(),
         Notice::CopyByHand(link) => view! {
             <div>
@@ -292,7 +298,7 @@ fn Notices() -> impl IntoView {
     view! {
         <div role="status" aria-live="polite">
             {move || lab.notice.get().map(|notice| {
-                let class = if matches!(notice, Notice::Refused(_) | Notice::NotRead) { "notice" } else { "notice good" };
+                let class = if matches!(notice, Notice::Copied | Notice::CopyByHand(_)) { "notice good" } else { "notice" };
                 view! {
                     <div class=class data-testid="notice">
                         {content(notice)}

@@ -2,12 +2,25 @@
 //!
 //! `embed=1` hides the header and packs the bench; `panels=valves,zeros` shows only these cards; `lock=valves,gains` disables
 //! these controls; `lang=TAG` and `theme=light|dark` choose without being remembered; `preset=NAME` loads a
-//! published rig; `bench=NAME` shows that bench. A bench lists its own cards and controls. A flag that is not understood is ignored.
+//! published rig; `bench=NAME` shows that bench. A bench lists its own cards and controls. What is not
+//! understood has no effect, and the page names it.
 
 use super::benches::BenchEntry;
 use super::session::{Lock, Panel};
 use super::texts::Language;
 use quadtank::literature::PresetId;
+
+/// Most names that are told of what was not understood, and the longest of them (characters).
+const MOST_UNKNOWN: usize = 6;
+const LONGEST_UNKNOWN: usize = 40;
+
+/// Parameters that mail systems, social networks and analytics add to any link that they pass on. Neither who made the link nor
+/// who follows it can do anything about them, so they are tolerated. Everything else may be a misspelt flag.
+const TRACKING: [&str; 12] = [
+    "dclid", "fbclid", "gbraid", "gclid", "igsh", "igshid", "msclkid", "srsltid", "ttclid", "twclid", "wbraid", "yclid",
+];
+/// The same by how their names begin; an underscore is that of the linkers of several analytics (`_ga`, `_gl`, `_hsenc`).
+const TRACKING_FAMILIES: [&str; 4] = ["utm_", "mc_", "gad_", "_"];
 
 /// What the query asks for.
 #[derive(Clone, Default)]
@@ -26,6 +39,8 @@ pub struct StartFlags {
     pub dark: Option<bool>,
     /// Rig to begin with.
     pub preset: Option<PresetId>,
+    /// What was not understood, fit to be shown.
+    pub unknown: Vec<String>,
 }
 
 impl StartFlags {
@@ -39,27 +54,70 @@ impl StartFlags {
     }
 
     fn read(&mut self, name: &str, value: &str, benches: &'static [BenchEntry]) {
-        match name {
-            "bench" => self.bench = benches.iter().find(|bench| bench.id == value),
-            "embed" => self.embed = value == "1",
+        let is_understood = match name {
+            "bench" => {
+                self.bench = benches.iter().find(|bench| bench.id == value);
+                self.bench.is_some()
+            }
+            "embed" => {
+                self.embed = value == "1";
+                matches!(value, "0" | "1")
+            }
             "panels" => {
-                let panels = || benches.iter().flat_map(|bench| bench.panels).copied();
-                self.panels =
-                    value.split(',').filter_map(|name| panels().find(|panel| panel.0 == name.trim())).collect();
+                let named = |name: &str| benches.iter().flat_map(|bench| bench.panels).find(|panel| panel.0 == name);
+                self.panels = self.chosen("panels", value, named);
+                true
             }
             "lock" => {
-                let locks = || benches.iter().flat_map(|bench| bench.locks).copied();
-                self.locked = value.split(',').filter_map(|name| locks().find(|lock| lock.0 == name.trim())).collect();
+                let named = |name: &str| benches.iter().flat_map(|bench| bench.locks).find(|lock| lock.0 == name);
+                self.locked = self.chosen("lock", value, named);
+                true
             }
-            "lang" => self.language = Language::ALL.into_iter().find(|language| language.tag() == value),
+            "lang" => {
+                self.language = Language::ALL.into_iter().find(|language| language.tag() == value);
+                self.language.is_some()
+            }
             "theme" => {
                 self.dark = match value {
                     "light" => Some(false),
                     "dark" => Some(true),
                     _ => None,
                 };
+                self.dark.is_some()
             }
-            "preset" => self.preset = PresetId::ALL.into_iter().find(|id| id.name() == value),
+            "preset" => {
+                self.preset = PresetId::ALL.into_iter().find(|id| id.name() == value);
+                self.preset.is_some()
+            }
+            _ => is_tracking(name),
+        };
+        if !is_understood {
+            self.note_unknown(name, value);
+        }
+    }
+
+    /// The items that a list names, separated by commas.
+    fn chosen<T: Copy + 'static>(
+        &mut self,
+        flag: &str,
+        list: &str,
+        named: impl Fn(&str) -> Option<&'static T>,
+    ) -> Vec<T> {
+        let mut chosen = Vec::new();
+        for name in list.split(',').map(str::trim).filter(|name| !name.is_empty()) {
+            match named(name) {
+                Some(&item) => chosen.push(item),
+                None => self.note_unknown(flag, name),
+            }
+        }
+        chosen
+    }
+
+    fn note_unknown(&mut self, flag: &str, value: &str) {
+        let separator = if value.is_empty() { "" } else { "=" };
+        match self.unknown.len() {
+            0..MOST_UNKNOWN => self.unknown.push(shown(&format!("{flag}{separator}{value}"))),
+            MOST_UNKNOWN => self.unknown.push("…".to_owned()),
             _ => {}
         }
     }
@@ -75,6 +133,22 @@ impl StartFlags {
     }
 }
 
+fn is_tracking(name: &str) -> bool {
+    TRACKING.contains(&name) || TRACKING_FAMILIES.iter().any(|family| name.starts_with(family))
+}
+
+/// A piece of the query as it may stand in a sentence: short, and without what acts on the text around it (line breaks, marks
+/// of direction, characters without width), which Rust writes as an escape.
+fn shown(text: &str) -> String {
+    let is_plain = |&c: &char| matches!(c, '"' | '\'' | '\\') || c.escape_debug().len() == 1;
+    let mut characters = text.chars().map(|c| if is_plain(&c) { c } else { char::REPLACEMENT_CHARACTER });
+    let mut shown: String = characters.by_ref().take(LONGEST_UNKNOWN).collect();
+    if characters.next().is_some() {
+        shown.push('…');
+    }
+    shown
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::benches::BENCHES;
@@ -85,13 +159,38 @@ mod tests {
     }
 
     #[test]
-    fn flags_are_read_and_unknown_ones_ignored() {
-        let flags = parse("?embed=1&panels=valves,zeros,nonsense&lock=gains%2Cpairing&theme=blue&x=1");
+    fn flags_are_read() {
+        let flags = parse("?embed=1&panels=valves,zeros&lock=gains%2Cpairing&theme=dark&lang=pt-BR");
         assert!(flags.embed);
         assert_eq!(flags.panels, [Panel("valves"), Panel("zeros")]);
         assert!(flags.shows(Panel("zeros")) && !flags.shows(Panel("rga")));
         assert!(flags.locks(Lock("gains")) && flags.locks(Lock("pairing")) && !flags.locks(Lock("valves")));
-        assert_eq!(flags.dark, None);
+        assert_eq!((flags.dark, flags.language.map(Language::tag)), (Some(true), Some("pt-BR")));
+        assert_eq!(flags.unknown, [""; 0]);
+    }
+
+    #[test]
+    fn what_is_not_understood_is_named() {
+        let flags = parse("?pannels=valves&panels=valves,zeos&lock=gain&lang=xx&theme=blue&embed");
+        assert_eq!(flags.unknown, ["pannels=valves", "panels=zeos", "lock=gain", "lang=xx", "theme=blue", "embed"]);
+        assert_eq!(flags.panels, [Panel("valves")]);
+        assert_eq!(parse("preset=none&bench=other").unknown, ["preset=none", "bench=other"]);
+        assert_eq!(parse("panels=&lock=gains,&embed=0&").unknown, [""; 0]);
+    }
+
+    #[test]
+    fn what_other_systems_add_to_a_link_is_tolerated() {
+        assert_eq!(parse("utm_source=mail&fbclid=x&gclid=y&_ga=1.2&mc_cid=3").unknown, [""; 0]);
+    }
+
+    #[test]
+    fn names_of_what_is_not_understood_are_few_short_and_harmless() {
+        let flags = parse(&format!("<b>=%0A%00%E2%80%AE\u{200b}\"&{}&{}", "x".repeat(500), "y=1&".repeat(1000)));
+        assert_eq!(flags.unknown.len(), MOST_UNKNOWN + 1);
+        assert_eq!(flags.unknown[0], "<b>=\u{fffd}\u{fffd}\u{fffd}\u{fffd}\"");
+        assert_eq!(flags.unknown[1], "x".repeat(LONGEST_UNKNOWN) + "…");
+        assert_eq!(flags.unknown.last().map(String::as_str), Some("…"));
+        assert_eq!(parse("%FF%C3").unknown, ["\u{fffd}\u{fffd}"]);
     }
 
     #[test]
