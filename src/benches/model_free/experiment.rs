@@ -3,11 +3,12 @@
 use leptos::prelude::*;
 
 use super::flags::locks;
-use super::sentences::CM_PER_M;
 use super::session::use_session;
 use crate::controls::{ParamControl, ParamRow, Switch};
+use crate::shown::ShownUnit;
 use crate::texts::{say, tr};
 use crate::widgets::{Card, Scale};
+use quadtank::literature::DisplayUnit;
 use quadtank::literature::junqueira::{PublishedExperiment, PublishedValves};
 use quadtank::study::model_free::{LONG_RUN_S, ModelFreeSetup};
 use quadtank_scenario::{Limits, limits};
@@ -36,10 +37,9 @@ const STEP: ParamControl<ModelFreeSetup> = ParamControl {
         let (least, most) = s.set_point_steps(k);
         Limits::new(least, most)
     },
-    shown_per_unit: |_| CM_PER_M,
-    scale: Scale::Linear(0.1),
+    scale: Some(Scale::Linear(0.1)),
     digits: Some(2),
-    unit: |_| "cm",
+    shown_unit: Some(|_| ShownUnit::length(DisplayUnit::Cm)),
     ..ParamControl::locked_by(locks::EXPERIMENT)
 };
 const NOISE: ParamControl<ModelFreeSetup> = ParamControl {
@@ -61,10 +61,9 @@ const DURATION: ParamControl<ModelFreeSetup> = ParamControl {
     path: |_, _| "experiment.duration_s",
     // So long that each reference steps.
     within: |s, _| Limits { min: s.shortest_s(), ..limits::model_free_duration_s(s) },
-    shown_per_unit: |_| 1.0,
-    scale: Scale::Linear(10.0),
+    shown_unit: None,
+    scale: Some(Scale::Linear(10.0)),
     digits: Some(0),
-    unit: |_| "s",
     ..STEP
 };
 

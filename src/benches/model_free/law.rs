@@ -6,6 +6,7 @@ use super::flags::locks;
 use super::sentences::{self, CM_PER_M};
 use super::session::use_session;
 use crate::controls::{ParamControl, ParamRow, Switch};
+use crate::shown::ShownUnit;
 use crate::texts::{say, tr};
 use crate::widgets::{Card, Scale, Sentence};
 use quadtank::control::{
@@ -26,10 +27,9 @@ const MODEL_GAIN: ParamControl<ModelFreeSetup> = ParamControl {
     path: |_, _| "controller.loops[].model_gain",
     read: |s, _| s.controller.loops[0].model_gain,
     write: |s, _, gain| in_both(s, &|l| l.model_gain = gain),
-    shown_per_unit: |_| CM_PER_M,
     travel: Some(|_| (0.02, 1.0)),
-    unit: |_| "cm/(s V)",
-    ..FEEDBACK
+    shown_unit: Some(|_| ShownUnit { name: "cm/(s V)", per_unit: CM_PER_M }),
+    ..ParamControl::locked_by(locks::GAINS)
 };
 const PROPORTIONAL: ParamControl<ModelFreeSetup> = ParamControl {
     ids: [("free-kp", "free-kp-number"); 2],
@@ -39,8 +39,7 @@ const PROPORTIONAL: ParamControl<ModelFreeSetup> = ParamControl {
     read: |s, _| s.controller.loops[0].proportional,
     write: |s, _, gain| in_both(s, &|l| l.proportional = gain),
     travel: Some(|_| (0.05, 20.0)),
-    unit: |_| "1/s",
-    ..FEEDBACK
+    ..ParamControl::locked_by(locks::GAINS)
 };
 const INTEGRAL: ParamControl<ModelFreeSetup> = ParamControl {
     ids: [("free-ki", "free-ki-number"); 2],
@@ -50,11 +49,8 @@ const INTEGRAL: ParamControl<ModelFreeSetup> = ParamControl {
     read: |s, _| s.controller.loops[0].integral,
     write: |s, _, gain| in_both(s, &|l| l.integral = gain),
     travel: Some(|_| (0.001, 2.0)),
-    unit: |_| "1/s²",
-    ..FEEDBACK
+    ..ParamControl::locked_by(locks::GAINS)
 };
-const FEEDBACK: ParamControl<ModelFreeSetup> =
-    ParamControl { scale: Scale::Logarithmic, ..ParamControl::locked_by(locks::GAINS) };
 const WINDOW: ParamControl<ModelFreeSetup> = ParamControl {
     ids: [("", "free-window"); 2],
     label: |_, _| "T".to_owned(),
@@ -67,7 +63,6 @@ const WINDOW: ParamControl<ModelFreeSetup> = ParamControl {
         Limits::new(samples(2.0), samples(MAX_WINDOW_SAMPLES as f64))
     },
     grid: |s| s.controller.sampling_time_s,
-    unit: |_| "s",
     matters: Some(|s| s.controller.estimator.is_some()),
     ..ParamControl::locked_by(locks::GAINS)
 };
@@ -79,8 +74,7 @@ const SAMPLING: ParamControl<ModelFreeSetup> = ParamControl {
     write: |s, _, time_s| s.controller = s.controller.with_sampling_time(time_s),
     path: |_, _| "controller.sampling_time_s",
     within: |s, _| limits::sampling_time_s(s.experiment.duration_s),
-    scale: Scale::Linear(0.1),
-    unit: |_| "s",
+    scale: Some(Scale::Linear(0.1)),
     ..ParamControl::locked_by(locks::SAMPLING)
 };
 

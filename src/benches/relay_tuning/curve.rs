@@ -11,7 +11,7 @@ use super::session::{Session, time_unit, use_session};
 use super::step::Step;
 use crate::controls::{ParamControl, ParamRow};
 use crate::texts::{say, tr};
-use crate::widgets::{Figures, Nudge, PointHandle, Row, Scale, TableContent, first_frame};
+use crate::widgets::{Figures, Nudge, PointHandle, Row, TableContent, first_frame};
 use quadtank::study::relay_tuning::{CriticalSpec, TuningSetup};
 use quadtank::tuning::GainLimit;
 use quadtank_figure::Frame;
@@ -29,7 +29,6 @@ const IMPORTANCE: ParamControl<TuningSetup> = ParamControl {
     write: |s, _, r| s.design.critical = CriticalSpec::Importance(r),
     path: |_, _| "design.critical.importance",
     travel: Some(|_| IMPORTANCES),
-    scale: Scale::Logarithmic,
     ..ParamControl::locked_by(locks::POINT)
 };
 

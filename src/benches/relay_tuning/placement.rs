@@ -30,7 +30,7 @@ const TARGET: ParamControl<TuningSetup> = ParamControl {
     read: |s, k| s.design.target[k],
     write: |s, k, part| s.design.target[k] = part,
     path: |_, _| "design.target[]",
-    scale: Scale::Linear(STEP),
+    scale: Some(Scale::Linear(STEP)),
     ..ParamControl::locked_by(locks::TARGET)
 };
 

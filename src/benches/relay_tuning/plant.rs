@@ -4,7 +4,7 @@ use leptos::prelude::*;
 
 use super::flags::locks;
 use super::printed::{PrintedFigures, name_of_case};
-use super::session::{Session, load, time_unit, use_session};
+use super::session::{Session, load, use_session};
 use crate::benches::quadruple_tank::name_of;
 use crate::controls::{ParamControl, ParamRow, Switch};
 use crate::lab::Lab;
@@ -33,8 +33,7 @@ const BEHIND: ParamControl<TuningSetup> = ParamControl {
     read: |s, k| behind(s)[k],
     write: set_behind,
     path: |_, k| ["plant.quadruple_tank.dead_time_s", "plant.quadruple_tank.lag_s"][k],
-    scale: Scale::Linear(0.5),
-    unit: |s| time_unit(&s.plant),
+    scale: Some(Scale::Linear(0.5)),
     ..ParamControl::locked_by(locks::PLANT)
 };
 

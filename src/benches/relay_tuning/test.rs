@@ -11,6 +11,7 @@ use super::step::Step;
 use super::test_report::{sentence, table};
 use super::timeline::timeline;
 use crate::controls::{ParamControl, ParamRow, Switch};
+use crate::shown::ShownUnit;
 use crate::texts::{say, tr};
 use crate::widgets::{Choice, DataTable, Figures, Scale, Select, ZoomButtons};
 use quadtank::study::relay_tuning::{CriticalSpec, SeriesElement, TestKind, Tested, TuningSetup};
@@ -37,7 +38,7 @@ const RATIO: ParamControl<TuningSetup> = ParamControl {
         Limits::new(min / s.test.amplitudes[0], max / s.test.amplitudes[0])
     },
     travel: Some(|_| RATIOS),
-    scale: Scale::Logarithmic,
+    scale: Some(Scale::Logarithmic),
     ..OF_TEST
 };
 /// Of relay 1, with the ratio kept; of relay 2 where that one is alone.
@@ -57,7 +58,7 @@ const DURATION: ParamControl<TuningSetup> = ParamControl {
     read: |s, _| s.test.duration,
     write: |s, _, duration| set_duration(s, duration),
     path: |_, _| "test.duration",
-    unit: |s| time_unit(&s.plant),
+    shown_unit: Some(|s| ShownUnit::called(time_unit(&s.plant))),
     ..OF_TEST
 };
 const MODULUS: ParamControl<TuningSetup> = ParamControl {
@@ -104,12 +105,15 @@ const PASSES: ParamControl<TuningSetup> = ParamControl {
     read: |s, _| s.test.passes as f64,
     write: |s, _, passes| set_passes(s, passes),
     path: |_, _| "test.passes",
-    scale: Scale::Linear(1.0),
+    scale: Some(Scale::Linear(1.0)),
     digits: Some(0),
     ..OF_TEST
 };
-const OF_TEST: ParamControl<TuningSetup> =
-    ParamControl { scale: Scale::Linear(0.05), ..ParamControl::locked_by(locks::TEST) };
+const OF_TEST: ParamControl<TuningSetup> = ParamControl {
+    scale: Some(Scale::Linear(0.05)),
+    shown_unit: Some(|_| ShownUnit::called("")),
+    ..ParamControl::locked_by(locks::TEST)
+};
 const OF_LOOP: ParamControl<TuningSetup> = ParamControl { class: ["loop1", "loop2"], ..OF_TEST };
 
 /// The relay test.
