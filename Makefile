@@ -35,7 +35,7 @@ test: ## run everything: format, lints, native, browser and end-to-end tests
 
 bench: ## measure speed and size, check margins of 1000 loops (BENCH=--write puts the tables into docs/benchmarks.md; PEER=1, LIGHTHOUSE=1 add comparisons)
 	@tools/setup.sh >&2
-	@tools/run.sh cargo test --locked -p quadtank-scenario --test margins -- --ignored >&2
+	@tools/run.sh cargo test --locked -p quadtank-scenario --test documents margins -- --ignored >&2
 	@tools/build.sh >&2
 	@tools/run.sh node tools/bench.mjs $(BENCH)
 

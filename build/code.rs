@@ -22,8 +22,8 @@
 use std::collections::BTreeSet;
 use std::fmt::{Result, Write};
 
-use crate::languages::Language;
-use crate::locales::{COUNT, Form, Locale, OTHER, Text};
+use super::languages::Language;
+use super::locales::{COUNT, Form, Locale, OTHER, Text};
 
 /// The Rust of all texts, which are the same in all languages.
 ///

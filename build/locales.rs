@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::Value;
 
-use crate::languages::Language;
+use super::languages::Language;
 
 /// The plural category that every language has.
 pub const OTHER: &str = "other";

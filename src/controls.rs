@@ -5,11 +5,11 @@
 use leptos::prelude::*;
 
 use super::lab::Lab;
-use super::session::{Bench, Session, SetupOf};
-use super::start::Control;
+use super::session::{Bench, Lock, Session, SetupOf};
+use super::shown::ShownUnit;
 use super::widgets::{NumberField, Scale, Segmented, SliderField};
-use quadtank_scenario::Limits;
-use quadtank_scenario::params::Param;
+use quadtank_scenario::params::{self, Param};
+use quadtank_scenario::{BenchDocument, Limits};
 
 /// A stretch of numbers that depends on a setup.
 type Range<S> = fn(&S) -> (f64, f64);
@@ -30,71 +30,87 @@ pub struct ParamControl<S> {
     pub write: fn(&mut S, usize, f64),
     /// What other numbers of the setup leave of the limits of the row.
     pub within: fn(&S, usize) -> Limits,
-    /// Shown units in one of the row.
-    pub shown_per_unit: fn(&S) -> f64,
     /// Smallest allowed magnitude, where the sign is free but zero is not allowed.
     pub smallest: f64,
     /// Travel of the slider; `None` for a number field alone.
     pub travel: Option<Range<S>>,
-    /// How keys and slider move it.
-    pub scale: Scale,
+    /// How keys and slider move it; `None` for the scale of the row, in steps of 0.01 if it is linear.
+    pub scale: Option<Scale>,
     /// Decimals shown; `None` for three significant digits.
     pub digits: Option<usize>,
-    /// The shown unit.
-    pub unit: fn(&S) -> &'static str,
+    /// The shown unit; `None` for that of the row.
+    pub shown_unit: Option<fn(&S) -> ShownUnit>,
     /// Classes: the colours of the loops.
     pub class: [&'static str; 2],
     /// What it has to be a multiple of; 0 for any value.
     pub grid: fn(&S) -> f64,
     /// What locks it.
-    pub lock: Control,
+    pub lock: Lock,
     /// Whether there is anything to set; `None` where there always is.
     pub matters: Option<fn(&S) -> bool>,
 }
 
 impl<S> ParamControl<S> {
-    /// What most controls have in common.
-    pub const PLAIN: Self = Self {
-        ids: [("", ""); 2],
-        label: |_, _| String::new(),
-        name: |_, _| String::new(),
-        path: |_, _| "",
-        read: |_, _| 0.0,
-        write: |_, _, _| (),
-        within: |_, _| Limits::NONE,
-        shown_per_unit: |_| 1.0,
-        smallest: 0.0,
-        travel: None,
-        scale: Scale::Linear(0.01),
-        digits: None,
-        unit: |_| "",
-        class: [""; 2],
-        grid: |_| 0.0,
-        lock: Control::Plant,
-        matters: None,
-    };
+    /// What most controls have in common, disabled with the group of their bench.
+    pub const fn locked_by(lock: Lock) -> Self {
+        Self {
+            ids: [("", ""); 2],
+            label: |_, _| String::new(),
+            name: |_, _| String::new(),
+            path: |_, _| "",
+            read: |_, _| 0.0,
+            write: |_, _, _| (),
+            within: |_, _| Limits::NONE,
+            smallest: 0.0,
+            travel: None,
+            scale: None,
+            digits: None,
+            shown_unit: None,
+            class: [""; 2],
+            grid: |_| 0.0,
+            lock,
+            matters: None,
+        }
+    }
+
+    /// The row of the table of parameters.
+    fn row(&self, setup: &S, index: usize) -> Option<&'static Param> {
+        let path = (self.path)(setup, index);
+        let row = Param::at(path);
+        debug_assert!(row.is_some() || path.is_empty(), "no row for {path}");
+        row
+    }
 
     /// The values that are allowed now, in the unit of the row.
     pub fn limits(&self, setup: &S, index: usize) -> Limits {
-        let path = (self.path)(setup, index);
-        let param = Param::at(path);
-        debug_assert!(param.is_some() || path.is_empty(), "no row for {path}");
-        let row = param.map_or(Limits::NONE, |param| param.limits);
+        let row = self.row(setup, index).map_or(Limits::NONE, |row| row.limits);
         row.intersection((self.within)(setup, index))
     }
 
+    fn scale(&self, setup: &S, index: usize) -> Scale {
+        self.scale.unwrap_or_else(|| match self.row(setup, index).map(|row| row.scale) {
+            Some(params::Scale::Logarithmic) => Scale::Logarithmic,
+            Some(params::Scale::Linear) | None => Scale::Linear(0.01),
+        })
+    }
+
+    /// Shown units in one of the row.
+    fn shown_per_unit(&self, setup: &S) -> f64 {
+        self.shown_unit.map_or(1.0, |unit| unit(setup).per_unit)
+    }
+
     fn shown(&self, setup: &S, index: usize) -> f64 {
-        (self.read)(setup, index) * (self.shown_per_unit)(setup)
+        (self.read)(setup, index) * self.shown_per_unit(setup)
     }
 
     /// Rounding of the unit does not lead out of the limits.
     fn set_shown(&self, setup: &mut S, index: usize, shown: f64) {
-        let value = self.limits(setup, index).clamp(shown / (self.shown_per_unit)(setup));
+        let value = self.limits(setup, index).clamp(shown / self.shown_per_unit(setup));
         (self.write)(setup, index, value);
     }
 
     fn shown_limits(&self, setup: &S, index: usize) -> (f64, f64) {
-        let (limits, shown_per_unit) = (self.limits(setup, index), (self.shown_per_unit)(setup));
+        let (limits, shown_per_unit) = (self.limits(setup, index), self.shown_per_unit(setup));
         (limits.min * shown_per_unit, limits.max * shown_per_unit)
     }
 }
@@ -110,11 +126,11 @@ pub fn ParamRow<B: Bench>(
     #[prop(optional)]
     index: usize,
 ) -> impl IntoView {
-    let &ParamControl { ids, scale, digits, smallest, class, .. } = control;
+    let &ParamControl { ids, digits, smallest, class, .. } = control;
     let (id, class, lab) = (ids[index], class[index], session.lab);
     let label = Signal::derive(move || (control.label)(lab, index));
-    let unit = lab.throttled(Signal::derive(move || session.read(control.unit).to_owned()));
-    let Wires { name, value, on_change, limits, disabled } = wires(session, control, index);
+    let Wires { name, value, on_change, limits, scale, disabled } = wires(session, control, index);
+    let unit = unit_text(session, control, index);
     let Some(travel) = control.travel else {
         return view! {
             <div class=format!("field-row {class}")>
@@ -141,8 +157,8 @@ pub fn ParamNumber<B: Bench>(
     #[prop(optional)]
     index: usize,
 ) -> impl IntoView {
-    let &ParamControl { ids, scale, digits, smallest, .. } = control;
-    let Wires { name, value, on_change, limits, disabled } = wires(session, control, index);
+    let &ParamControl { ids, digits, smallest, .. } = control;
+    let Wires { name, value, on_change, limits, scale, disabled } = wires(session, control, index);
     let grid = Signal::derive(move || session.read(control.grid));
     view! { <NumberField id=ids[index].1 name value on_change limits scale digits smallest grid disabled /> }
 }
@@ -162,7 +178,7 @@ pub fn Switch<B, T>(
     /// Makes another choice.
     write: fn(&mut SetupOf<B>, T),
     /// What locks it.
-    lock: Control,
+    lock: Lock,
 ) -> impl IntoView
 where
     B: Bench,
@@ -179,6 +195,7 @@ struct Wires {
     value: Signal<f64>,
     on_change: Callback<f64>,
     limits: Signal<(f64, f64)>,
+    scale: Scale,
     disabled: Signal<bool>,
 }
 
@@ -190,9 +207,22 @@ fn wires<B: Bench>(session: Session<B>, control: &'static ParamControl<SetupOf<B
         value: Signal::derive(move || session.read(|s| control.shown(s, index))),
         on_change: Callback::new(move |shown| session.edit(|s| control.set_shown(s, index, shown))),
         limits: Signal::derive(move || session.read(|s| control.shown_limits(s, index))),
+        scale: session.document.with_untracked(|document| control.scale(document.setup(), index)),
         disabled: match control.matters {
             Some(matters) => Memo::new(move |_| locked || !session.read(matters)).into(),
             None => locked.into(),
         },
+    }
+}
+
+/// The name of the shown unit.
+fn unit_text<B: Bench>(session: Session<B>, control: &ParamControl<SetupOf<B>>, index: usize) -> Signal<String> {
+    match control.shown_unit {
+        Some(unit) => session.lab.throttled(Signal::derive(move || session.read(unit).name.to_owned())),
+        // Looked up once: a path that depends on the setup has a shown unit.
+        None => session.document.with_untracked(|document| {
+            let row = control.row(document.setup(), index);
+            Signal::stored(row.map_or("", |row| row.unit).to_owned())
+        }),
     }
 }

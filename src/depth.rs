@@ -43,9 +43,10 @@ impl Depth {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::benches::BENCHES;
 
     fn at_start(query: &str, has_link: bool, remembered: Option<&str>) -> Depth {
-        Depth::at_start(&StartFlags::parse(query), has_link, remembered)
+        Depth::at_start(&StartFlags::parse(query, &BENCHES), has_link, remembered)
     }
 
     #[test]

@@ -57,7 +57,9 @@ fn settle(lab: Lab) {
 /// Offers to go on with the last experiment, where the address asks for nothing else.
 fn offer_last(lab: Lab) {
     let asks_for_something = lab.flags.with_value(|f| f.embed || f.preset.is_some() || !f.panels.is_empty());
-    if asks_for_something || share::from_address().is_some() {
+    // What was said about the address matters more.
+    let is_told = lab.notice.with_untracked(Option::is_some);
+    if asks_for_something || is_told || share::from_address().is_some() {
         return;
     }
     if let Some(link) = LAST.read().filter(|link| document_from_link(link).is_ok()) {

@@ -9,8 +9,8 @@ use super::canvas;
 use super::depth::Depth;
 use super::format::NumberStyle;
 use super::frames::FrameScheduler;
-use super::session::{Bench, Session};
-use super::start::{Control, Panel, StartFlags};
+use super::session::{Bench, Lock, Panel, Session};
+use super::start::StartFlags;
 use super::texts::Language;
 use quadtank::literature::PresetId;
 use quadtank_figure::{Palette, Style};
@@ -26,6 +26,8 @@ pub enum Notice {
     Refused(ScenarioError),
     /// The browser could not read the file.
     NotRead,
+    /// Parts of the address were not understood: which.
+    NotUnderstood(Vec<String>),
     /// The link is on the clipboard.
     Copied,
     /// The clipboard is out of reach: here is the link.
@@ -95,10 +97,9 @@ impl Lab {
         depth: Depth,
         flags: StartFlags,
     ) -> Self {
-        let named = benches.iter().find(|bench| flags.bench.as_deref() == Some(bench.id));
         Self(Box::leak(Box::new(State {
             benches,
-            bench: RwSignal::new(named.unwrap_or(&benches[0])),
+            bench: RwSignal::new(flags.bench.unwrap_or(&benches[0])),
             texts_update: Trigger::new(),
             language: RwSignal::new(language),
             dark: RwSignal::new(dark),
@@ -184,12 +185,14 @@ impl Lab {
 
     /// Whether a card is shown.
     pub fn shows(self, panel: Panel) -> bool {
+        debug_assert!(self.benches.iter().any(|bench| bench.panels.contains(&panel)), "no bench lists {panel:?}");
         self.flags.with_value(|flags| flags.shows(panel))
     }
 
     /// Whether a group of controls is disabled.
-    pub fn locks(self, control: Control) -> bool {
-        self.flags.with_value(|f| f.locks(control))
+    pub fn locks(self, lock: Lock) -> bool {
+        debug_assert!(self.benches.iter().any(|bench| bench.locks.contains(&lock)), "no bench lists {lock:?}");
+        self.flags.with_value(|flags| flags.locks(lock))
     }
 
     /// How the chosen language writes numbers.

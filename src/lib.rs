@@ -28,5 +28,5 @@ mod widgets;
 
 pub use benches::{BENCHES, BenchEntry};
 pub use lab::Lab;
-pub use session::{Bench, ResultsOf, Session, SetupOf, part_of};
+pub use session::{Bench, Lock, Panel, ResultsOf, Session, SetupOf, part_of};
 pub use shell::{Laboratory, LaboratoryProps, mount};

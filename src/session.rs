@@ -20,6 +20,10 @@ pub trait Bench: Sized + 'static {
     const CLASS: &'static str;
     /// Whether it can be shown at less than full depth.
     const HAS_DEPTHS: bool = false;
+    /// The cards that `panels=` can name.
+    const PANELS: &'static [Panel] = &[];
+    /// The groups of controls that `lock=` can name.
+    const LOCKS: &'static [Lock] = &[];
     /// What files and links hold.
     type Document: BenchDocument<Setup = SetupOf<Self>> + Send + Sync;
     /// What computes the results.
@@ -49,6 +53,14 @@ pub trait Bench: Sized + 'static {
     /// The cards that the start flags ask for.
     fn cards(session: Session<Self>) -> AnyView;
 }
+
+/// A card of a bench, by its name in an address.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Panel(pub &'static str);
+
+/// A group of controls that can be disabled, by its name in an address.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Lock(pub &'static str);
 
 /// The setup of a bench.
 pub type SetupOf<B> = <<B as Bench>::Study as Study>::Setup;

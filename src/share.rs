@@ -112,14 +112,13 @@ pub fn go_to(lab: Lab, bench: &'static BenchEntry) {
 
 /// Shows what the address asks for after a step in the browser's history.
 pub fn follow_address(lab: Lab) {
-    let flags = StartFlags::parse(&search());
+    let flags = StartFlags::parse(&search(), lab.benches);
     if let Some(depth) = flags.view {
         lab.depth.set(depth);
     }
-    let named = |bench: &&BenchEntry| flags.bench.as_deref() == Some(bench.id);
     match from_address() {
         Some(outcome) => lab.open(outcome),
-        None => lab.bench.set(lab.benches.iter().find(named).unwrap_or(&lab.benches[0])),
+        None => lab.bench.set(flags.bench.unwrap_or(&lab.benches[0])),
     }
 }
 

@@ -152,18 +152,24 @@ fn close_menus(pressed: Option<web_sys::EventTarget>) {
 /// The state that the address and the remembered choices ask for.
 fn start(benches: &'static [BenchEntry]) -> Lab {
     let query = window().location().search().unwrap_or_default();
-    let flags = StartFlags::parse(&query);
+    let flags = StartFlags::parse(&query, benches);
     let usual_tag = || LANGUAGE.read().or_else(|| window().navigator().language()).unwrap_or_default();
     let language = flags.language.unwrap_or_else(|| Language::of_tag(&usual_tag()));
     let prefers_dark =
         || window().match_media("(prefers-color-scheme: dark)").ok().flatten().is_some_and(|query| query.matches());
-    let dark = flags.theme.clone().or_else(|| THEME.read()).map_or_else(prefers_dark, |theme| theme == "dark");
+    let remembered = || THEME.read().map(|theme| theme == "dark");
+    let dark = flags.dark.or_else(remembered).unwrap_or_else(prefers_dark);
     let linked = share::from_address();
     let depth = Depth::at_start(&flags, linked.is_some(), DEPTH.read().as_deref());
     let lab = Lab::new(benches, language, dark, depth, flags);
     // Before any bench is shown, so that its document is computed at once.
     if let Some(outcome) = linked {
         lab.open(outcome);
+    }
+    let unknown = lab.flags.with_value(|flags| flags.unknown.clone());
+    // A link that was refused matters more.
+    if !unknown.is_empty() && lab.notice.with_untracked(Option::is_none) {
+        lab.notice.set(Some(Notice::NotUnderstood(unknown)));
     }
     lab
 }
@@ -370,6 +376,7 @@ fn Notices() -> impl IntoView {
         match notice {
         Notice::Refused(error) => view! { <div>{tr!(lab, refused.lead)} " " {of_error(lab, DisplayUnit::Cm, &error)}</div> }.into_any(),
         Notice::NotRead => view! { <div>{tr!(lab, refused.not_read)}</div> }.into_any(),
+        Notice::NotUnderstood(names) => view! { <div>{tr!(lab, app.not_understood, names = names.join(", "))}</div> }.into_any(),
         Notice::Copied => view! { <div>{tr!(lab, app.copied)}</div> }.into_any(),
         Notice::CopyByHand(link) => view! {
             <div>
@@ -405,7 +412,8 @@ fn Notices() -> impl IntoView {
     view! {
         <div role="status" aria-live="polite" class="notices">
             {move || lab.notice.get().map(|notice| {
-                let class = if matches!(notice, Notice::Refused(_) | Notice::NotRead) { "notice" } else { "notice good" };
+                let is_bad = matches!(notice, Notice::Refused(_) | Notice::NotRead | Notice::NotUnderstood(_) | Notice::NotKept);
+                let class = if is_bad { "notice" } else { "notice good" };
                 view! {
                     <div class=class data-testid="notice">
                         {content(notice)}

@@ -36,7 +36,28 @@ pub const fn length_digits(unit: DisplayUnit) -> usize {
     }
 }
 
-/// Flows (m³/s) are shown in cm³/s.
-pub const CM3_PER_M3: f64 = 1e6;
-/// Small areas (m²) are shown in mm².
-pub const MM2_PER_M2: f64 = 1e6;
+/// The unit of a field that is not that of the document.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShownUnit {
+    /// Its abbreviation; empty for none.
+    pub name: &'static str,
+    /// How many make one unit of the document.
+    pub per_unit: f64,
+}
+
+impl ShownUnit {
+    /// Of flows (m³/s).
+    pub const FLOW: Self = Self { name: "cm³/s", per_unit: 1e6 };
+    /// Of small areas (m²).
+    pub const SMALL_AREA: Self = Self { name: "mm²", per_unit: 1e6 };
+
+    /// Of lengths (m).
+    pub const fn length(unit: DisplayUnit) -> Self {
+        Self { name: unit_name(unit), per_unit: per_metre(unit) }
+    }
+
+    /// The unit of the document, by a name of the bench.
+    pub const fn called(name: &'static str) -> Self {
+        Self { name, per_unit: 1.0 }
+    }
+}

@@ -8,7 +8,7 @@ use leptos::prelude::*;
 use quadtank_scenario::{Document, ScenarioError, to_json, to_link};
 
 use super::lab::Lab;
-use super::session::{Bench, Session};
+use super::session::{Bench, Lock, Panel, Session};
 pub use model_free::ModelFree;
 pub use quadruple_tank::{QuadrupleTank, load, name_of};
 pub use relay_tuning::RelayTuning;
@@ -25,6 +25,10 @@ pub struct BenchEntry {
     pub class: &'static str,
     /// Whether it can be shown at less than full depth.
     pub has_depths: bool,
+    /// The cards that `panels=` can name.
+    pub panels: &'static [Panel],
+    /// The groups of controls that `lock=` can name.
+    pub locks: &'static [Lock],
     /// What the navigation calls it.
     pub title: fn(Lab) -> String,
     /// One line on what one does there.
@@ -62,6 +66,8 @@ impl BenchEntry {
             id: B::ID,
             class: B::CLASS,
             has_depths: B::HAS_DEPTHS,
+            panels: B::PANELS,
+            locks: B::LOCKS,
             title: B::title,
             about: B::about,
             picture: B::PICTURE,

@@ -6,7 +6,7 @@ use crate::page::Page;
 
 #[wasm_bindgen_test]
 async fn on_the_home_bench_the_zero_crosses_with_the_valves() {
-    let page = Page::open("preset=johansson-minimum-phase&lang=en").await;
+    let page = Page::open("preset=johansson-2000-minimum-phase&lang=en").await;
     assert!(page.text("process-sentence").contains("minimum phase"), "{}", page.text("process-sentence"));
     assert!(page.number("lambda-11") > 1.0);
     page.set("gamma1-number", "0.4").await;

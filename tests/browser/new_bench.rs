@@ -5,7 +5,7 @@ use std::sync::Arc;
 use leptos::prelude::*;
 use quadtank::study::Study;
 use quadtank::study::quadruple_tank::Setup;
-use quadtank_lab::{Bench, BenchEntry, Lab, Session, part_of};
+use quadtank_lab::{Bench, BenchEntry, Lab, Lock, Panel, Session, part_of};
 use quadtank_scenario::{BenchDocument, Scenario, to_link};
 use wasm_bindgen_test::wasm_bindgen_test;
 
@@ -35,10 +35,15 @@ impl Study for GammaSum {
 
 struct GammaSumBench;
 
+const SUM: Panel = Panel("sum");
+const OPENING: Lock = Lock("opening");
+
 impl Bench for GammaSumBench {
     const ID: &'static str = "gamma-sum";
     const PICTURE: &'static str = "M4 4H44V28H4Z";
     const CLASS: &'static str = "bench";
+    const PANELS: &'static [Panel] = &[SUM];
+    const LOCKS: &'static [Lock] = &[OPENING];
     type Document = Scenario;
     type Study = GammaSum;
     type Found = Memo<Arc<f64>>;
@@ -60,9 +65,11 @@ impl Bench for GammaSumBench {
 
     fn cards(session: Session<Self>) -> AnyView {
         let open = move |event| session.edit(|setup| setup.valves[0] = event_target_value(&event).parse().unwrap());
+        let lab = session.lab;
+        let sum = move || view! { <p data-testid="sum">{move || format!("{:.2}", session.throttled.get())}</p> };
         view! {
-            <input type="range" min=0 max=1 step="any" data-testid="valve" on:input=open />
-            <p data-testid="sum">{move || format!("{:.2}", session.throttled.get())}</p>
+            <input type="range" min=0 max=1 step="any" data-testid="valve" disabled=lab.locks(OPENING) on:input=open />
+            {lab.shows(SUM).then(sum)}
         }
         .into_any()
     }
@@ -86,4 +93,14 @@ async fn a_link_opens_on_the_new_bench() {
     let link = to_link(&scenario).unwrap();
     let page = Page::with(&BENCHES, &format!("lang=en#lab={link}")).await;
     assert_eq!(page.text("sum"), "0.75");
+}
+
+#[wasm_bindgen_test]
+async fn a_new_bench_has_cards_and_locks_of_its_own() {
+    let page = Page::with(&BENCHES, "panels=sum&lock=opening").await;
+    assert_eq!(page.text("sum"), "1.30");
+    assert!(page.is_disabled("valve"));
+    let page = Page::with(&BENCHES, "panels=valves&lock=valves").await;
+    assert_eq!(page.text("sum"), "1.30");
+    assert!(!page.is_disabled("valve"));
 }

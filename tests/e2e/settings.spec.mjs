@@ -137,9 +137,28 @@ test('each panel can be shown alone', async ({ lab, page }) => {
     await expect(page.locator(`section.card.${card}`)).toBeVisible();
     await lab.clean();
   }
-  await lab.open('panels=nonsense&lock=nonsense&lang=xx&theme=blue&preset=none&embed=yes');
+});
+
+const NONSENSE = { panels: 'nonsense', lock: 'nonsense', lang: 'xx', theme: 'blue', preset: 'none', bench: 'none' };
+test('what is not understood in the address has no effect and is named', async ({ lab, page }) => {
+  const pairs = Object.entries(NONSENSE).map(([flag, value]) => `${flag}=${value}`);
+  await lab.open(pairs.join('&'));
   await expect(page.locator('section.card')).toHaveCount(8);
   await expect(page.locator('html')).toHaveAttribute('lang', 'en');
+  for (const pair of pairs) await expect(lab.id('notice')).toContainText(pair);
+  await lab.id('language').selectOption('pt-BR');
+  await expect(lab.id('notice')).toContainText('Partes do endereço');
+  await lab.id('notice').getByRole('button').click();
+  await expect(lab.id('notice')).toHaveCount(0);
+
+  await lab.open('embed=1&panels=valves,<b>x</b>&utm_source=mail&lang=en');
+  await expect(page.locator('section.card')).toHaveCount(1);
+  await expect(lab.id('notice')).toContainText('panels=<b>x</b>');
+  await expect(lab.id('notice')).not.toContainText('utm_source');
+  await lab.axe();
+
+  await lab.open('embed=1&panels=valves&utm_source=mail&fbclid=1');
+  await expect(lab.id('notice')).toHaveCount(0);
 });
 
 // What each lock disables, by data-testid.

@@ -1,3 +1,5 @@
+#[cfg(feature = "schema")]
+use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 
 use super::error::{malformed, quoted};
@@ -39,18 +41,14 @@ pub(super) const KINDS: [DocumentKind; 3] =
 /// The newest version.
 pub(super) const NEWEST: u32 = KINDS[KINDS.len() - 1].version;
 
-/// What a document has to derive beside [`BenchDocument`].
-#[cfg(feature = "schema")]
-pub(super) trait Derived: DeserializeOwned + schemars::JsonSchema {}
-#[cfg(feature = "schema")]
-impl<T: DeserializeOwned + schemars::JsonSchema> Derived for T {}
+/// What stands for the trait of the schema where there is none, since a bound cannot be conditional.
 #[cfg(not(feature = "schema"))]
-pub(super) trait Derived: DeserializeOwned {}
+trait JsonSchema {}
 #[cfg(not(feature = "schema"))]
-impl<T: DeserializeOwned> Derived for T {}
+impl<T> JsonSchema for T {}
 
 impl DocumentKind {
-    const fn of<D: BenchDocument + Derived>() -> Self {
+    const fn of<D: BenchDocument + DeserializeOwned + JsonSchema>() -> Self {
         Self {
             version: D::VERSION,
             root: D::ROOT,

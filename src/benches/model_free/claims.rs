@@ -2,9 +2,9 @@
 
 use leptos::prelude::*;
 
+use super::flags::locks;
 use super::sentences::in_cm;
 use super::session::{Session, load, use_session};
-use crate::start::Control;
 use crate::texts::{say, tr};
 use crate::widgets::{Card, marked};
 use quadtank::study::model_free::{CheckedClaim, Claim, Standing, check_claims};
@@ -56,7 +56,7 @@ fn Item(claim: CheckedClaim, id: &'static str) -> impl IntoView {
                 type="button"
                 class="button small"
                 data-testid=format!("{id}-show")
-                disabled=lab.locks(Control::Experiment)
+                disabled=lab.locks(locks::EXPERIMENT)
                 on:click=show
             >
                 {say!(lab, free.show)}

@@ -2,12 +2,13 @@
 
 use leptos::prelude::*;
 
-use super::sentences::CM_PER_M;
+use super::flags::locks;
 use super::session::use_session;
 use crate::controls::{ParamControl, ParamRow, Switch};
-use crate::start::Control;
+use crate::shown::ShownUnit;
 use crate::texts::{say, tr};
 use crate::widgets::{Card, Scale};
+use quadtank::literature::DisplayUnit;
 use quadtank::literature::junqueira::{PublishedExperiment, PublishedValves};
 use quadtank::study::model_free::{LONG_RUN_S, ModelFreeSetup};
 use quadtank_scenario::{Limits, limits};
@@ -22,8 +23,7 @@ const VALVE: ParamControl<ModelFreeSetup> = ParamControl {
     path: |_, _| "valves[].constant.gamma",
     within: |s, k| Limits::new(s.valves[k].swing(), 1.0 - s.valves[k].swing()),
     digits: Some(2),
-    lock: Control::Valves,
-    ..ParamControl::PLAIN
+    ..ParamControl::locked_by(locks::VALVES)
 };
 const STEP: ParamControl<ModelFreeSetup> = ParamControl {
     ids: [("", "free-step1"), ("", "free-step2")],
@@ -37,12 +37,10 @@ const STEP: ParamControl<ModelFreeSetup> = ParamControl {
         let (least, most) = s.set_point_steps(k);
         Limits::new(least, most)
     },
-    shown_per_unit: |_| CM_PER_M,
-    scale: Scale::Linear(0.1),
+    scale: Some(Scale::Linear(0.1)),
     digits: Some(2),
-    unit: |_| "cm",
-    lock: Control::Experiment,
-    ..ParamControl::PLAIN
+    shown_unit: Some(|_| ShownUnit::length(DisplayUnit::Cm)),
+    ..ParamControl::locked_by(locks::EXPERIMENT)
 };
 const NOISE: ParamControl<ModelFreeSetup> = ParamControl {
     ids: [("", "free-noise"); 2],
@@ -63,10 +61,9 @@ const DURATION: ParamControl<ModelFreeSetup> = ParamControl {
     path: |_, _| "experiment.duration_s",
     // So long that each reference steps.
     within: |s, _| Limits { min: s.shortest_s(), ..limits::model_free_duration_s(s) },
-    shown_per_unit: |_| 1.0,
-    scale: Scale::Linear(10.0),
+    shown_unit: None,
+    scale: Some(Scale::Linear(10.0)),
     digits: Some(0),
-    unit: |_| "s",
     ..STEP
 };
 
@@ -94,7 +91,7 @@ pub fn CaseCard() -> impl IntoView {
                 choices=cases
                 read=case_of
                 write=set_case
-                lock=Control::Valves
+                lock=locks::VALVES
             />
             <Switch
                 session
@@ -102,7 +99,7 @@ pub fn CaseCard() -> impl IntoView {
                 choices=experiments
                 read=experiment_of
                 write=set_experiment
-                lock=Control::Experiment
+                lock=locks::EXPERIMENT
             />
             <div class="pairs">
                 <ParamRow session control=&VALVE index=0 />
@@ -145,7 +142,7 @@ fn Pressed(
             class="button small"
             data-testid=id
             aria-pressed=move || value.get().to_string()
-            disabled=session.lab.locks(Control::Experiment)
+            disabled=session.lab.locks(locks::EXPERIMENT)
             on:click=move |_| session.edit(press)
         >
             {text}

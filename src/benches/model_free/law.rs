@@ -2,10 +2,11 @@
 
 use leptos::prelude::*;
 
+use super::flags::locks;
 use super::sentences::{self, CM_PER_M};
 use super::session::use_session;
 use crate::controls::{ParamControl, ParamRow, Switch};
-use crate::start::Control;
+use crate::shown::ShownUnit;
 use crate::texts::{say, tr};
 use crate::widgets::{Card, Scale, Sentence};
 use quadtank::control::{
@@ -26,10 +27,9 @@ const MODEL_GAIN: ParamControl<ModelFreeSetup> = ParamControl {
     path: |_, _| "controller.loops[].model_gain",
     read: |s, _| s.controller.loops[0].model_gain,
     write: |s, _, gain| in_both(s, &|l| l.model_gain = gain),
-    shown_per_unit: |_| CM_PER_M,
     travel: Some(|_| (0.02, 1.0)),
-    unit: |_| "cm/(s V)",
-    ..FEEDBACK
+    shown_unit: Some(|_| ShownUnit { name: "cm/(s V)", per_unit: CM_PER_M }),
+    ..ParamControl::locked_by(locks::GAINS)
 };
 const PROPORTIONAL: ParamControl<ModelFreeSetup> = ParamControl {
     ids: [("free-kp", "free-kp-number"); 2],
@@ -39,8 +39,7 @@ const PROPORTIONAL: ParamControl<ModelFreeSetup> = ParamControl {
     read: |s, _| s.controller.loops[0].proportional,
     write: |s, _, gain| in_both(s, &|l| l.proportional = gain),
     travel: Some(|_| (0.05, 20.0)),
-    unit: |_| "1/s",
-    ..FEEDBACK
+    ..ParamControl::locked_by(locks::GAINS)
 };
 const INTEGRAL: ParamControl<ModelFreeSetup> = ParamControl {
     ids: [("free-ki", "free-ki-number"); 2],
@@ -50,11 +49,8 @@ const INTEGRAL: ParamControl<ModelFreeSetup> = ParamControl {
     read: |s, _| s.controller.loops[0].integral,
     write: |s, _, gain| in_both(s, &|l| l.integral = gain),
     travel: Some(|_| (0.001, 2.0)),
-    unit: |_| "1/s²",
-    ..FEEDBACK
+    ..ParamControl::locked_by(locks::GAINS)
 };
-const FEEDBACK: ParamControl<ModelFreeSetup> =
-    ParamControl { scale: Scale::Logarithmic, lock: Control::Gains, ..ParamControl::PLAIN };
 const WINDOW: ParamControl<ModelFreeSetup> = ParamControl {
     ids: [("", "free-window"); 2],
     label: |_, _| "T".to_owned(),
@@ -67,10 +63,8 @@ const WINDOW: ParamControl<ModelFreeSetup> = ParamControl {
         Limits::new(samples(2.0), samples(MAX_WINDOW_SAMPLES as f64))
     },
     grid: |s| s.controller.sampling_time_s,
-    unit: |_| "s",
-    lock: Control::Gains,
     matters: Some(|s| s.controller.estimator.is_some()),
-    ..ParamControl::PLAIN
+    ..ParamControl::locked_by(locks::GAINS)
 };
 const SAMPLING: ParamControl<ModelFreeSetup> = ParamControl {
     ids: [("", "free-sampling"); 2],
@@ -80,10 +74,8 @@ const SAMPLING: ParamControl<ModelFreeSetup> = ParamControl {
     write: |s, _, time_s| s.controller = s.controller.with_sampling_time(time_s),
     path: |_, _| "controller.sampling_time_s",
     within: |s, _| limits::sampling_time_s(s.experiment.duration_s),
-    scale: Scale::Linear(0.1),
-    unit: |_| "s",
-    lock: Control::Sampling,
-    ..ParamControl::PLAIN
+    scale: Some(Scale::Linear(0.1)),
+    ..ParamControl::locked_by(locks::SAMPLING)
 };
 
 /// The settings of the law.
@@ -106,7 +98,7 @@ pub fn LawCard() -> impl IntoView {
         (Pairing::Swapped, "free-swapped", say!(lab, pi.swapped)),
     ];
     let stability = Memo::new(move |_| sentences::of_loop(session));
-    let lock = Control::Gains;
+    let lock = locks::GAINS;
     view! {
         <Card name="law" title=say!(lab, free.law)>
             <div class="formula">{formula()}</div>
@@ -140,7 +132,7 @@ pub fn LawCard() -> impl IntoView {
                 choices=pairings
                 read=|s| s.controller.pairing
                 write=|s, pairing| s.controller.pairing = pairing
-                lock=Control::Pairing
+                lock=locks::PAIRING
             />
             <Sentence
                 id="free-stability"
@@ -189,7 +181,7 @@ fn EstimatorDetails() -> impl IntoView {
         (FedWith::Applied, "free-applied", say!(lab, free.applied)),
         (FedWith::Commanded, "free-commanded", say!(lab, free.commanded)),
     ];
-    let lock = Control::Gains;
+    let lock = locks::GAINS;
     view! {
         <Switch
             session

@@ -3,6 +3,7 @@
 mod claims;
 mod course;
 mod experiment;
+mod flags;
 mod law;
 mod moment;
 mod pictures;
@@ -13,7 +14,7 @@ mod session;
 
 use leptos::prelude::*;
 
-use crate::start::Panel;
+use flags::panels;
 pub use session::ModelFree;
 use session::Session;
 
@@ -22,15 +23,15 @@ fn cards(session: Session) -> impl IntoView {
     let lab = session.lab;
     view! {
         <div class="side left">
-            {lab.shows(Panel::Process).then(|| view! { <process::ProcessCard /> })}
-            {lab.shows(Panel::Valves).then(|| view! { <plane::ValvePlaneCard /> })}
-            {lab.shows(Panel::Zeros).then(|| view! { <plane::ZerosCard /> })}
+            {lab.shows(panels::PROCESS).then(|| view! { <process::ProcessCard /> })}
+            {lab.shows(panels::VALVES).then(|| view! { <plane::ValvePlaneCard /> })}
+            {lab.shows(panels::ZEROS).then(|| view! { <plane::ZerosCard /> })}
         </div>
-        {lab.shows(Panel::Responses).then(|| view! { <course::CourseCard /> })}
+        {lab.shows(panels::RESPONSES).then(|| view! { <course::CourseCard /> })}
         <div class="side right">
-            {lab.shows(Panel::Experiment).then(|| view! { <experiment::CaseCard /> })}
-            {lab.shows(Panel::Controller).then(|| view! { <law::LawCard /> })}
+            {lab.shows(panels::EXPERIMENT).then(|| view! { <experiment::CaseCard /> })}
+            {lab.shows(panels::CONTROLLER).then(|| view! { <law::LawCard /> })}
         </div>
-        {lab.shows(Panel::Claims).then(|| view! { <claims::ClaimsCard /> })}
+        {lab.shows(panels::CLAIMS).then(|| view! { <claims::ClaimsCard /> })}
     }
 }

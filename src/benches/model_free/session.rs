@@ -7,9 +7,10 @@ use quadtank::study::StudyError;
 use quadtank::study::model_free::{ModelFreeAnalysis, ModelFreeAnswer, ModelFreeSetup, ModelFreeStudy, Results};
 use quadtank_scenario::model_free::ModelFreeScenario;
 
+use super::flags::{locks, panels};
 use super::moment::Shown;
 use crate::lab::Lab;
-use crate::session::{self, Bench, Outcome, part_of};
+use crate::session::{self, Bench, Lock, Outcome, Panel, part_of};
 use crate::texts::tr;
 
 /// The model-free bench: ultra-local model, estimator, still and moving valves.
@@ -47,6 +48,8 @@ impl Bench for ModelFree {
     const ID: &'static str = "model-free";
     const PICTURE: &'static str = "M4 26C12 26 10 8 20 8S30 8 44 8M4 8H44M6 28H44";
     const CLASS: &'static str = "bench free";
+    const PANELS: &'static [Panel] = panels::ALL;
+    const LOCKS: &'static [Lock] = locks::ALL;
     type Document = ModelFreeScenario;
     type Study = ModelFreeStudy;
     type Found = Found;

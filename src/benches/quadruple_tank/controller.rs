@@ -2,10 +2,10 @@
 
 use leptos::prelude::*;
 
+use super::flags::locks;
 use super::sentences;
 use super::session::use_session;
 use crate::controls::{ParamControl, ParamNumber, ParamRow};
-use crate::start::Control;
 use crate::texts::{say, terms, tr};
 use crate::widgets::{Card, Scale, Segmented, Sentence, Text, Tick};
 use quadtank::control::{AntiWindup, LoopMode, Pairing, PiSettings};
@@ -30,7 +30,6 @@ const GAIN: ParamControl<Setup> = ParamControl {
     path: |_, _| "controller.loops[].gain",
     smallest: limits::GAIN_MAGNITUDE.min,
     travel: Some(|_| (0.05, 50.0)),
-    unit: |_| "V/V",
     ..OF_LOOP
 };
 const INTEGRAL_TIME: ParamControl<Setup> = ParamControl {
@@ -41,15 +40,10 @@ const INTEGRAL_TIME: ParamControl<Setup> = ParamControl {
     write: |s, k, time_s| s.controller.loops[k].integral_time_s = time_s,
     path: |_, _| "controller.loops[].integral_time_s",
     travel: Some(|_| (3.0, 3000.0)),
-    unit: |_| "s",
     ..OF_LOOP
 };
-const OF_LOOP: ParamControl<Setup> = ParamControl {
-    scale: Scale::Logarithmic,
-    class: ["loop1-row", "loop2-row"],
-    lock: Control::Gains,
-    ..ParamControl::PLAIN
-};
+const OF_LOOP: ParamControl<Setup> =
+    ParamControl { class: ["loop1-row", "loop2-row"], ..ParamControl::locked_by(locks::GAINS) };
 
 const WEIGHT: ParamControl<Setup> = ParamControl {
     ids: [("weight", "weight-number"); 2],
@@ -59,7 +53,7 @@ const WEIGHT: ParamControl<Setup> = ParamControl {
     write: |s, _, weight| both(s, |l| l.set_point_weight = weight),
     path: |_, _| "controller.loops[].set_point_weight",
     travel: Some(|_| (limits::SET_POINT_WEIGHT.min, limits::SET_POINT_WEIGHT.max)),
-    scale: Scale::Linear(0.05),
+    scale: Some(Scale::Linear(0.05)),
     digits: Some(2),
     ..FINE
 };
@@ -75,7 +69,6 @@ const SAMPLING: ParamControl<Setup> = ParamControl {
         let limits = limits::sampling_time_s(s.experiment.duration_s);
         (limits.min, limits.max)
     }),
-    unit: |_| "s",
     ..FINE
 };
 const TRACKING: ParamControl<Setup> = ParamControl {
@@ -98,7 +91,7 @@ const MANUAL_UNTIL: ParamControl<Setup> = ParamControl {
     read: |s, k| manual(s, k).1,
     write: |s, k, until_s| s.controller.loops[k].mode = LoopMode::Manual { output: manual(s, k).0, until_s },
     path: |_, _| "controller.loops[].mode.manual.until_s",
-    scale: Scale::Linear(10.0),
+    scale: Some(Scale::Linear(10.0)),
     digits: Some(0),
     ..FINE
 };
@@ -113,12 +106,11 @@ const MANUAL_OUTPUT: ParamControl<Setup> = ParamControl {
         let (min, max) = s.plant().controller_limits()[s.controller.pairing.pump_of(k)];
         Limits::new(min, max)
     },
-    scale: Scale::Linear(0.1),
+    scale: Some(Scale::Linear(0.1)),
     digits: Some(2),
     ..FINE
 };
-const FINE: ParamControl<Setup> =
-    ParamControl { scale: Scale::Logarithmic, class: ["wide"; 2], lock: Control::Sampling, ..ParamControl::PLAIN };
+const FINE: ParamControl<Setup> = ParamControl { class: ["wide"; 2], ..ParamControl::locked_by(locks::SAMPLING) };
 
 fn both(setup: &mut Setup, change: impl Fn(&mut PiSettings)) {
     setup.controller.loops.iter_mut().for_each(change);
@@ -202,7 +194,7 @@ fn PairingSwitch() -> impl IntoView {
             choices=vec![choice(Pairing::Diagonal, "pairing-diagonal"), choice(Pairing::Swapped, "pairing-swapped")]
             value=chosen
             on_choose=move |pairing| session.edit(|s| s.controller.pairing = pairing)
-            disabled=lab.locks(Control::Pairing)
+            disabled=lab.locks(locks::PAIRING)
         />
         <p class="remark warm" hidden=fits>{say!(lab, pi.against)}</p>
     }
@@ -239,7 +231,7 @@ fn FinePrint() -> impl IntoView {
             id="antiwindup"
             text=say!(lab, pi.antiwindup)
             ticked=session.part(is_guarded)
-            disabled=lab.locks(Control::Sampling)
+            disabled=lab.locks(locks::SAMPLING)
             on_tick=switch_windup
         />
         <ParamRow session control=&TRACKING />
@@ -278,14 +270,14 @@ fn ManualMode(index: usize) -> impl IntoView {
                 id=MANUAL_IDS[index]
                 text=say!(lab, pi.manual, level = index + 1)
                 ticked=by_hand
-                disabled=lab.locks(Control::Sampling)
+                disabled=lab.locks(locks::SAMPLING)
                 on_tick=switch
             />
             <button
                 type="button"
                 class="button small"
                 data-testid=SIGN_IDS[index]
-                disabled=lab.locks(Control::Gains)
+                disabled=lab.locks(locks::GAINS)
                 aria-label=say!(lab, pi.sign, level = index + 1)
                 on:click=move |_| session.edit(|s| s.controller.loops[index].gain *= -1.0)
             >

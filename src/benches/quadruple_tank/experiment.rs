@@ -4,10 +4,10 @@ use crate::lab::Lab;
 use leptos::prelude::*;
 
 use super::cursor::PlayControls;
+use super::flags::locks;
 use super::session::{Session, use_session};
 use crate::controls::{ParamControl, ParamNumber, ParamRow};
-use crate::shown::{CM3_PER_M3, MM2_PER_M2, per_metre, to_shown, unit_name};
-use crate::start::Control;
+use crate::shown::{ShownUnit, to_shown};
 use crate::texts::{say, terms, tr};
 use crate::widgets::{Card, Choice, Scale, Select, Text, Tick};
 use quadtank::sim::{Experiment, Load, LoadStep, SetPointStep};
@@ -36,12 +36,11 @@ const REFERENCE: ParamControl<Setup> = ParamControl {
     write: |s, k, size| first_step_mut(&mut s.experiment, k).size = size,
     // A reference above the walls says nothing.
     within: |s, _| Limits::new(-lowest_wall(s), lowest_wall(s)),
-    shown_per_unit: |s| per_metre(s.plant.display_unit()),
     travel: Some(|s| {
         let reach = to_shown(REFERENCE_TRAVEL * lowest_wall(s), s.plant.display_unit());
         (-reach, reach)
     }),
-    unit: |s| unit_name(s.plant.display_unit()),
+    shown_unit: Some(|s| ShownUnit::length(s.plant.display_unit())),
     class: ["loop1-row", "loop2-row"],
     ..OF_EXPERIMENT
 };
@@ -73,10 +72,9 @@ const LOAD: ParamControl<Setup> = ParamControl {
         Some(Load::Leak { area, .. }) => *area = size,
         None => {}
     },
-    shown_per_unit: |s| if is_leak(s) { MM2_PER_M2 } else { CM3_PER_M3 },
     travel: Some(|s| if is_leak(s) { (0.0, 10.0) } else { (-5.0, 5.0) }),
-    scale: Scale::Linear(0.1),
-    unit: |s| if is_leak(s) { "mm²" } else { "cm³/s" },
+    scale: Some(Scale::Linear(0.1)),
+    shown_unit: Some(|s| if is_leak(s) { ShownUnit::SMALL_AREA } else { ShownUnit::FLOW }),
     class: [""; 2],
     ..OF_EXPERIMENT
 };
@@ -95,9 +93,8 @@ const NOISE: ParamControl<Setup> = ParamControl {
     path: |_, _| "experiment.measurement.noise_std",
     read: |s, _| s.experiment.measurement.noise_std,
     write: |s, _, noise| s.experiment.measurement.noise_std = noise,
-    shown_per_unit: |s| per_metre(s.plant.display_unit()),
     travel: Some(|s| (0.0, to_shown(NOISE_TRAVEL, s.plant.display_unit()))),
-    unit: |s| unit_name(s.plant.display_unit()),
+    shown_unit: Some(|s| ShownUnit::length(s.plant.display_unit())),
     ..OF_EXPERIMENT
 };
 const DURATION: ParamControl<Setup> = ParamControl {
@@ -109,19 +106,17 @@ const DURATION: ParamControl<Setup> = ParamControl {
     write: |s, _, duration_s| s.experiment.duration_s = duration_s,
     within: |s, _| limits::duration_s(s.controller.sampling_time_s),
     travel: Some(|_| (100.0, 20_000.0)),
-    scale: Scale::Logarithmic,
     digits: Some(0),
-    unit: |_| "s",
     ..OF_EXPERIMENT
 };
 const TIME: ParamControl<Setup> = ParamControl {
     within: |s, _| Limits::new(0.0, s.experiment.duration_s),
-    scale: Scale::Linear(10.0),
+    scale: Some(Scale::Linear(10.0)),
     digits: Some(0),
     ..OF_EXPERIMENT
 };
 const OF_EXPERIMENT: ParamControl<Setup> =
-    ParamControl { digits: Some(2), class: ["wide"; 2], lock: Control::Experiment, ..ParamControl::PLAIN };
+    ParamControl { digits: Some(2), class: ["wide"; 2], ..ParamControl::locked_by(locks::EXPERIMENT) };
 
 /// The lowest wall of the lower tanks (m).
 fn lowest_wall(setup: &Setup) -> f64 {
@@ -203,7 +198,7 @@ pub fn ExperimentCard() -> impl IntoView {
                 id="quantised"
                 text=say!(lab, experiment.quantised)
                 ticked=session.part(|s| s.experiment.measurement.quantised)
-                disabled=lab.locks(Control::Experiment)
+                disabled=lab.locks(locks::EXPERIMENT)
                 on_tick=move |on| session.edit(|s| s.experiment.measurement.quantised = on)
             />
             <p class="remark" hidden=move || further() == 0>{say!(lab, experiment.further, count = further())}</p>
@@ -298,7 +293,7 @@ fn LoadControls() -> impl IntoView {
                 choices=Signal::derive(move || LoadPlace::ALL.map(|place| place.choice(lab)).to_vec())
                 chosen=session.part(LoadPlace::of)
                 on_choose=choose
-                disabled=lab.locks(Control::Experiment)
+                disabled=lab.locks(locks::EXPERIMENT)
             />
         </div>
         {move || present.get().then(|| view! { <Timed size=&LOAD time=&LOAD_TIME /> })}

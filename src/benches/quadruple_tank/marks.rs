@@ -4,10 +4,10 @@ use leptos::prelude::*;
 use leptos::svg::Svg;
 
 use super::experiment::{first_step_mut, holdable, step_size, step_time};
+use super::flags::locks;
 use super::rig::{TANK, TANKS, VIEW};
 use super::session::use_session;
 use crate::shown::{length_digits, per_metre, to_metres, to_shown, unit_name};
-use crate::start::Control;
 use crate::texts::say;
 use crate::widgets::{Drag, Handle, Nudge};
 
@@ -82,7 +82,7 @@ pub fn ReferenceMark(level: usize, drawing: NodeRef<Svg>) -> impl IntoView {
                 value=shown
                 limits
                 spoken=Signal::derive(spoken)
-                locked=lab.locks(Control::Experiment)
+                locked=lab.locks(locks::EXPERIMENT)
                 on_grab
                 on_drag
                 on_nudge

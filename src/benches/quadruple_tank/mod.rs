@@ -4,6 +4,7 @@ mod controller;
 mod cursor;
 mod experiment;
 mod explore;
+mod flags;
 mod marks;
 mod metrics;
 mod moment;
@@ -25,7 +26,7 @@ mod why;
 use leptos::prelude::*;
 
 use crate::depth::Depth;
-use crate::start::Panel;
+use flags::panels;
 pub use moment::RigState;
 use moment::provide_moment;
 pub use preset::{load, name_of};
@@ -45,16 +46,16 @@ fn all_cards(session: Session) -> impl IntoView {
     let lab = session.lab;
     view! {
         <div class="side left">
-            {lab.shows(Panel::Process).then(|| view! { <process::ProcessCard /> })}
-            {lab.shows(Panel::Why).then(|| view! { <why::WhyCard /> })}
+            {lab.shows(panels::PROCESS).then(|| view! { <process::ProcessCard /> })}
+            {lab.shows(panels::WHY).then(|| view! { <why::WhyCard /> })}
         </div>
-        {lab.shows(Panel::Valves).then(|| view! { <valves::ValvePlaneCard /> })}
-        {lab.shows(Panel::Zeros).then(|| view! { <poles::PolesAndZerosCard /> })}
-        {lab.shows(Panel::Rga).then(|| view! { <rga::RelativeGainCard /> })}
+        {lab.shows(panels::VALVES).then(|| view! { <valves::ValvePlaneCard /> })}
+        {lab.shows(panels::ZEROS).then(|| view! { <poles::PolesAndZerosCard /> })}
+        {lab.shows(panels::RGA).then(|| view! { <rga::RelativeGainCard /> })}
         <div class="side right">
-            {lab.shows(Panel::Controller).then(|| view! { <controller::ControllerCard /> })}
-            {lab.shows(Panel::Experiment).then(|| view! { <experiment::ExperimentCard /> })}
+            {lab.shows(panels::CONTROLLER).then(|| view! { <controller::ControllerCard /> })}
+            {lab.shows(panels::EXPERIMENT).then(|| view! { <experiment::ExperimentCard /> })}
         </div>
-        {lab.shows(Panel::Responses).then(|| view! { <responses::ResponsesCard /> })}
+        {lab.shows(panels::RESPONSES).then(|| view! { <responses::ResponsesCard /> })}
     }
 }

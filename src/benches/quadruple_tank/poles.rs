@@ -3,9 +3,9 @@
 use leptos::prelude::*;
 
 use super::experiment::FIRST_STEP_AT_S;
+use super::flags::locks;
 use super::session::{Session, use_session};
 use super::{pictures, sentences};
-use crate::start::Control;
 use crate::texts::{say, terms, tr};
 use crate::widgets::{Card, ChartCanvas, ChartMenu, Sentence, Text};
 use quadtank::linear::Complex;
@@ -52,7 +52,7 @@ fn DirectionButtons() -> impl IntoView {
         matches!(zero, Some(ZeroEffect::Opposed | ZeroEffect::Together | ZeroEffect::OneLevel { .. }))
     };
     let button = move |id: &'static str, text: Signal<String>, direction: Direction| {
-        let disabled = lab.locks(Control::Experiment);
+        let disabled = lab.locks(locks::EXPERIMENT);
         view! {
             <button type="button" class="button small" data-testid=id disabled=disabled on:click=move |_| try_direction(session, direction)>
                 {text}

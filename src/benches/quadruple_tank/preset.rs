@@ -2,9 +2,9 @@
 
 use leptos::prelude::*;
 
+use super::flags::locks;
 use super::session::{Session, use_session};
 use crate::lab::{Lab, Notice};
-use crate::start::Control;
 use crate::texts::{say, tr};
 use crate::widgets::{Choice, Select};
 use quadtank::literature::PresetId;
@@ -103,7 +103,7 @@ pub fn PresetSelect() -> impl IntoView {
             choices
             chosen=intact
             on_choose=choose
-            disabled=lab.locks(Control::Preset)
+            disabled=lab.locks(locks::PRESET)
         />
     }
 }

@@ -2,6 +2,7 @@
 
 use leptos::prelude::*;
 
+use super::flags::locks;
 use super::moment::use_moment;
 use super::preset::{PresetRemark, PresetSelect};
 use super::published::PublishedFigures;
@@ -9,7 +10,6 @@ use super::rig::Rig;
 use super::sentences;
 use super::session::use_session;
 use crate::controls::{ParamControl, ParamRow};
-use crate::start::Control;
 use crate::texts::{say, terms, tr};
 use crate::widgets::{Card, NumberField, Scale, Text, Verdict, marked};
 use quadtank::study::quadruple_tank::{OperatingPointSpec, Setup};
@@ -24,8 +24,7 @@ const GAMMA: ParamControl<Setup> = ParamControl {
     travel: Some(|_| (0.0, 1.0)),
     digits: Some(2),
     class: ["loop1-row", "loop2-row"],
-    lock: Control::Valves,
-    ..ParamControl::PLAIN
+    ..ParamControl::locked_by(locks::VALVES)
 };
 const VOLTAGE_IDS: [&str; 2] = ["voltage1", "voltage2"];
 
@@ -40,7 +39,7 @@ pub fn ProcessCard() -> impl IntoView {
     let moment = use_moment();
     let remark = move || match moment.get().and_then(|m| m.time_s) {
         Some(time) => tr!(lab, process.at_time, time = lab.number_style().fixed(time, 0)),
-        None if lab.locks(Control::Valves) => tr!(lab, process.at_rest),
+        None if lab.locks(locks::VALVES) => tr!(lab, process.at_rest),
         None => tr!(lab, process.drag_valves),
     };
     view! {
@@ -134,7 +133,7 @@ fn VoltageField(pump: usize) -> impl IntoView {
                 limits=range
                 scale=Scale::Linear(0.05)
                 digits=Some(2)
-                disabled=lab.locks(Control::Voltages)
+                disabled=lab.locks(locks::VOLTAGES)
             />
             <span class="unit">"V"</span>
         </div>

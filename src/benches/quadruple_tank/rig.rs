@@ -3,12 +3,12 @@
 use crate::lab::Lab;
 use leptos::prelude::*;
 
+use super::flags::locks;
 use super::marks::ReferenceMark;
 use super::moment::{RigState, use_moment};
 use super::session::use_session;
 use super::valves::{STEP, on_grid};
 use crate::shown::{length_digits, to_shown, unit_name};
-use crate::start::Control;
 use crate::texts::{say, tr};
 use crate::widgets::{Drag, Handle, Nudge};
 use quadtank::literature::DisplayUnit;
@@ -225,7 +225,7 @@ fn Valve(index: usize) -> impl IntoView {
             value=gamma
             limits=(0.0, 1.0)
             spoken=Signal::derive(move || lab.number_style().fixed(gamma.get(), 2))
-            locked=lab.locks(Control::Valves)
+            locked=lab.locks(locks::VALVES)
             on_grab=move |()| grabbed.set_value(gamma.get_untracked())
             on_drag=move |drag: Drag| set(grabbed.get_value() - drag.moved.1 / VALVE_TRAVEL_PX)
             on_nudge=move |by: Nudge| set(gamma.get_untracked() + STEP * by.along())

@@ -8,9 +8,10 @@ use quadtank::study::quadruple_tank::{Analysis, QuadrupleTankStudy, Results, Run
 use quadtank::study::{PinnedResults, StudyError};
 use quadtank_scenario::Scenario;
 
+use super::flags::{locks, panels};
 use crate::depth::Depth;
 use crate::lab::Lab;
-use crate::session::{self, Bench, Outcome, part_of};
+use crate::session::{self, Bench, Lock, Outcome, Panel, part_of};
 use crate::texts::tr;
 
 /// The home bench: from two valves to the step response.
@@ -53,6 +54,8 @@ impl Bench for QuadrupleTank {
     const PICTURE: &'static str =
         "M8 4v10h10v-10M30 4v10h10v-10M8 18v10h10v-10M30 18v10h10v-10M13 14v4M35 14v4M9 24h8M31 22h8";
     const CLASS: &'static str = "bench";
+    const PANELS: &'static [Panel] = panels::ALL;
+    const LOCKS: &'static [Lock] = locks::ALL;
     type Document = Scenario;
     type Study = QuadrupleTankStudy;
     type Found = Found;

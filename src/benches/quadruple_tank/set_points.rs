@@ -3,9 +3,9 @@
 use leptos::prelude::*;
 
 use super::experiment::{first_step_mut, holdable, step_size, step_time};
+use super::flags::locks;
 use super::session::use_session;
 use crate::shown::{length_digits, per_metre, to_metres, to_shown, unit_name};
-use crate::start::Control;
 use crate::texts::{say, tr};
 use crate::widgets::{Drag, Handle, Nudge};
 use quadtank_figure::Frame;
@@ -98,7 +98,7 @@ fn SetPoint(level: usize, frames: RwSignal<Vec<Frame>>, held: RwSignal<Option<(f
                 value
                 limits
                 spoken=Signal::derive(spoken)
-                locked=lab.locks(Control::Experiment)
+                locked=lab.locks(locks::EXPERIMENT)
                 on_grab
                 on_drag
                 on_release=move |()| held.set(None)

@@ -3,11 +3,11 @@
 use leptos::ev::KeyboardEvent;
 use leptos::prelude::*;
 
+use super::flags::locks;
 use super::preset::{chosen, name_of};
 use super::session::{Session, use_session};
 use super::{pictures, sentences};
 use crate::lab::Notice;
-use crate::start::Control;
 use crate::texts::{say, terms, tr};
 use crate::widgets::{Card, ChartCanvas, ChartMenu, Nudge, PointHandle, Sentence, Text, first_frame};
 use quadtank::literature::PresetId;
@@ -31,7 +31,7 @@ pub fn ValvePlaneCard() -> impl IntoView {
     let for_menu = picture.clone();
     let title = say!(lab, valves.title);
     let summary = Signal::derive(move || summary(session));
-    let hint = (!lab.locks(Control::Valves)).then(|| view! { <span class="remark">{say!(lab, valves.remark)}</span> });
+    let hint = (!lab.locks(locks::VALVES)).then(|| view! { <span class="remark">{say!(lab, valves.remark)}</span> });
     let beside = move || view! { {hint}<ChartMenu picture=for_menu file="valve-plane" title /> };
     view! {
         <Card name="plane" title terms=TERMS beside>
@@ -129,9 +129,9 @@ fn PublishedPoint(id: PresetId, frames: RwSignal<Vec<Frame>>) -> impl IntoView {
         tr!(lab, valves.published, name = name_of(lab, id), gamma1 = gamma1, gamma2 = gamma2)
     });
     let choose = move || {
-        if !lab.locks(Control::Valves) {
+        if !lab.locks(locks::VALVES) {
             session.edit(|s| s.valves = valves);
-            if !lab.locks(Control::Preset) {
+            if !lab.locks(locks::PRESET) {
                 lab.notice.set(Some(Notice::ValvesOf(id)));
             }
         }
@@ -184,7 +184,7 @@ fn SettingHandle(frames: RwSignal<Vec<Frame>>) -> impl IntoView {
             value=gamma_1
             limits=(0.0, 1.0)
             spoken=Signal::derive(spoken)
-            locked=lab.locks(Control::Valves)
+            locked=lab.locks(locks::VALVES)
             on_move=set
             on_nudge
             frames

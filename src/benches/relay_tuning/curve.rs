@@ -5,13 +5,13 @@ use leptos::prelude::*;
 use leptos::wasm_bindgen::JsCast;
 
 use super::errors;
+use super::flags::locks;
 use super::pictures;
 use super::session::{Session, time_unit, use_session};
 use super::step::Step;
 use crate::controls::{ParamControl, ParamRow};
-use crate::start::Control;
 use crate::texts::{say, tr};
-use crate::widgets::{Figures, Nudge, PointHandle, Row, Scale, TableContent, first_frame};
+use crate::widgets::{Figures, Nudge, PointHandle, Row, TableContent, first_frame};
 use quadtank::study::relay_tuning::{CriticalSpec, TuningSetup};
 use quadtank::tuning::GainLimit;
 use quadtank_figure::Frame;
@@ -29,9 +29,7 @@ const IMPORTANCE: ParamControl<TuningSetup> = ParamControl {
     write: |s, _, r| s.design.critical = CriticalSpec::Importance(r),
     path: |_, _| "design.critical.importance",
     travel: Some(|_| IMPORTANCES),
-    scale: Scale::Logarithmic,
-    lock: Control::Point,
-    ..ParamControl::PLAIN
+    ..ParamControl::locked_by(locks::POINT)
 };
 
 /// The critical curve.
@@ -90,7 +88,7 @@ fn choose(session: Session, (x, y): (f64, f64)) {
 }
 
 fn set_importance(session: Session, r: f64) {
-    if r.is_finite() && !session.lab.locks(Control::Point) {
+    if r.is_finite() && !session.lab.locks(locks::POINT) {
         session.edit(|s| s.design.critical = CriticalSpec::Importance(r.clamp(IMPORTANCES.0, IMPORTANCES.1)));
     }
 }
@@ -116,7 +114,7 @@ fn CriticalHandle(frames: RwSignal<Vec<Frame>>, chosen: Signal<Option<(f64, f64)
             value
             limits=IMPORTANCES
             spoken=Signal::derive(spoken)
-            locked=lab.locks(Control::Point)
+            locked=lab.locks(locks::POINT)
             on_move=move |place: (f64, f64)| choose(session, place)
             on_nudge=move |by: Nudge| {
                 let steps = (by.up - by.right + by.page).clamp(-200.0, 200.0);

@@ -4,6 +4,7 @@ mod controls;
 mod curve;
 mod details;
 mod errors;
+mod flags;
 mod pictures;
 mod placement;
 mod plant;
@@ -18,7 +19,7 @@ mod timeline;
 
 use leptos::prelude::*;
 
-use crate::start::Panel;
+use flags::panels;
 pub use session::RelayTuning;
 use session::Session;
 
@@ -26,10 +27,10 @@ use session::Session;
 fn cards(session: Session) -> impl IntoView {
     let lab = session.lab;
     view! {
-        {lab.shows(Panel::Plant).then(|| view! { <plant::PlantCard /> })}
-        {lab.shows(Panel::Test).then(|| view! { <test::TestCard /> })}
-        {lab.shows(Panel::Curve).then(|| view! { <curve::CurveCard /> })}
-        {lab.shows(Panel::Placement).then(|| view! { <placement::PlacementCard /> })}
-        {lab.shows(Panel::Responses).then(|| view! { <response::ResponseCard /> })}
+        {lab.shows(panels::PLANT).then(|| view! { <plant::PlantCard /> })}
+        {lab.shows(panels::TEST).then(|| view! { <test::TestCard /> })}
+        {lab.shows(panels::CURVE).then(|| view! { <curve::CurveCard /> })}
+        {lab.shows(panels::PLACEMENT).then(|| view! { <placement::PlacementCard /> })}
+        {lab.shows(panels::RESPONSES).then(|| view! { <response::ResponseCard /> })}
     }
 }

@@ -5,12 +5,12 @@ use leptos::prelude::*;
 use super::controls::symbol;
 use super::details::OtherForms;
 use super::errors;
+use super::flags::locks;
 use super::pictures::{self, short_name};
 use super::session::{Session, use_session};
 use super::step::Step;
 use crate::controls::{ParamControl, ParamRow, Switch};
 use crate::lab::Lab;
-use crate::start::Control;
 use crate::texts::{say, tr};
 use crate::widgets::{Choice, Figures, Nudge, PointHandle, Row, Scale, Select, TableContent};
 use quadtank::linear::{Closure, LoopStability};
@@ -30,9 +30,8 @@ const TARGET: ParamControl<TuningSetup> = ParamControl {
     read: |s, k| s.design.target[k],
     write: |s, k, part| s.design.target[k] = part,
     path: |_, _| "design.target[]",
-    scale: Scale::Linear(STEP),
-    lock: Control::Target,
-    ..ParamControl::PLAIN
+    scale: Some(Scale::Linear(STEP)),
+    ..ParamControl::locked_by(locks::TARGET)
 };
 
 /// The placement.
@@ -63,7 +62,7 @@ pub fn PlacementCard() -> impl IntoView {
 fn Settings() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
-    let lock = Control::Target;
+    let lock = locks::TARGET;
     view! {
         <Switch
             session
@@ -133,7 +132,7 @@ fn RuleSelect() -> impl IntoView {
             choices
             chosen
             on_choose=choose
-            disabled=lab.locks(Control::Target)
+            disabled=lab.locks(locks::TARGET)
         />
     }
 }
@@ -160,7 +159,7 @@ fn TargetHandle(frames: RwSignal<Vec<Frame>>) -> impl IntoView {
             value=re
             limits=TARGETS
             spoken=Signal::derive(spoken)
-            locked=lab.locks(Control::Target)
+            locked=lab.locks(locks::TARGET)
             on_move=move |(x, y): (f64, f64)| set([x, y])
             on_nudge=move |by: Nudge| {
                 let (re, im) = (re.get_untracked(), im.get_untracked());

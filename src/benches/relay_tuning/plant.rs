@@ -2,13 +2,12 @@
 
 use leptos::prelude::*;
 
-use super::controls::TIME;
+use super::flags::locks;
 use super::printed::{PrintedFigures, name_of_case};
 use super::session::{Session, load, use_session};
 use crate::benches::quadruple_tank::name_of;
 use crate::controls::{ParamControl, ParamRow, Switch};
 use crate::lab::Lab;
-use crate::start::Control;
 use crate::texts::{say, tr};
 use crate::widgets::{Card, Choice, Scale, Select};
 use quadtank::control::Pairing;
@@ -25,7 +24,7 @@ const VALVE: ParamControl<TuningSetup> = ParamControl {
     path: |_, _| "plant.quadruple_tank.valves[]",
     read: |s, k| valves(s)[k],
     write: set_valve,
-    ..ParamControl::PLAIN
+    ..ParamControl::locked_by(locks::PLANT)
 };
 const BEHIND: ParamControl<TuningSetup> = ParamControl {
     ids: [("", "rig-dead-time"), ("", "rig-lag")],
@@ -34,8 +33,8 @@ const BEHIND: ParamControl<TuningSetup> = ParamControl {
     read: |s, k| behind(s)[k],
     write: set_behind,
     path: |_, k| ["plant.quadruple_tank.dead_time_s", "plant.quadruple_tank.lag_s"][k],
-    scale: Scale::Linear(0.5),
-    ..TIME
+    scale: Some(Scale::Linear(0.5)),
+    ..ParamControl::locked_by(locks::PLANT)
 };
 
 /// The choice of the plant, the parameters of a rig, and the published cases with their figures.
@@ -67,7 +66,7 @@ pub fn PlantCard() -> impl IntoView {
 fn RigSettings() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
-    let lock = Control::Plant;
+    let lock = locks::PLANT;
     view! {
         <ParamRow session control=&VALVE index=0 />
         <ParamRow session control=&VALVE index=1 />
@@ -216,7 +215,7 @@ fn PlantSelect() -> impl IntoView {
             choices
             chosen
             on_choose=choose
-            disabled=lab.locks(Control::Plant)
+            disabled=lab.locks(locks::PLANT)
         />
     }
 }
@@ -249,7 +248,7 @@ fn CaseSelect() -> impl IntoView {
             choices
             chosen=session.own.case
             on_choose=choose
-            disabled=lab.locks(Control::Plant)
+            disabled=lab.locks(locks::PLANT)
         />
     }
 }

@@ -4,6 +4,7 @@ use leptos::prelude::*;
 
 use super::controls::symbol;
 use super::errors;
+use super::flags::locks;
 use super::pictures;
 use super::readout::{Surface, readout};
 use super::session::{Session, time_unit, use_session};
@@ -11,7 +12,6 @@ use super::step::Step;
 use super::timeline::timeline;
 use crate::controls::Switch;
 use crate::lab::Lab;
-use crate::start::Control;
 use crate::texts::{say, tr};
 use crate::widgets::{Choice, DataTable, Figures, Row, Select, TableContent, ZoomButtons};
 use quadtank::linear::LoopStability;
@@ -97,7 +97,7 @@ fn Settings() -> impl IntoView {
             choices=vec![(FIRST, "step1", symbol("r = [1 0]")), (SECOND, "step2", symbol("r = [0 1]"))]
             read=|s| if s.response.references[1] == 0.0 { FIRST } else { SECOND }
             write=|s, references| s.response.references = references
-            lock=Control::Experiment
+            lock=locks::EXPERIMENT
         />
         <Select
             id="decoupler"
@@ -105,7 +105,7 @@ fn Settings() -> impl IntoView {
             choices=Signal::derive(move || decouplers(lab))
             chosen=Signal::derive(move || session.throttled.setup.with(|s| s.design.decoupler))
             on_choose=move |chosen| session.edit(|s| s.design.decoupler = chosen)
-            disabled=lab.locks(Control::Experiment)
+            disabled=lab.locks(locks::EXPERIMENT)
         />
         <Select
             id="compare"
@@ -113,7 +113,7 @@ fn Settings() -> impl IntoView {
             choices=Signal::derive(move || comparisons(session))
             chosen=Signal::derive(move || session.throttled.setup.with(|s| s.response.compare))
             on_choose=move |chosen| session.edit(|s| s.response.compare = chosen)
-            disabled=lab.locks(Control::Experiment)
+            disabled=lab.locks(locks::EXPERIMENT)
         />
         <Figures name="response-figures" caption=say!(lab, relay.response_caption)>{move || table(session)}</Figures>
     }

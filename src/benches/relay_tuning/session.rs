@@ -11,8 +11,9 @@ use quadtank::study::relay_tuning::{
 use quadtank::tuning::TuningError;
 use quadtank_scenario::tuning::TuningScenario;
 
+use super::flags::{locks, panels};
 use crate::lab::Lab;
-use crate::session::{self, Bench, Outcome, part_of};
+use crate::session::{self, Bench, Lock, Outcome, Panel, part_of};
 use crate::texts::tr;
 
 /// The relay-tuning bench: relay tests and ultimate-point placement.
@@ -56,6 +57,8 @@ impl Bench for RelayTuning {
     const ID: &'static str = "relay-tuning";
     const PICTURE: &'static str = "M4 20V10H12V24H20V10H28V24H36V10H44M4 17q4-9 8 0t8 0 8 0 8 0 8 0";
     const CLASS: &'static str = "bench relay";
+    const PANELS: &'static [Panel] = panels::ALL;
+    const LOCKS: &'static [Lock] = locks::ALL;
     type Document = TuningScenario;
     type Study = RelayTuningStudy;
     type Found = Found;

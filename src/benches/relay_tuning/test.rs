@@ -2,16 +2,16 @@
 
 use leptos::prelude::*;
 
-use super::controls::TIME;
 use super::details::TestDetails;
+use super::flags::locks;
 use super::pictures::{self, record_of, short_name};
 use super::readout::{Surface, readout};
-use super::session::use_session;
+use super::session::{time_unit, use_session};
 use super::step::Step;
 use super::test_report::{sentence, table};
 use super::timeline::timeline;
 use crate::controls::{ParamControl, ParamRow, Switch};
-use crate::start::Control;
+use crate::shown::ShownUnit;
 use crate::texts::{say, tr};
 use crate::widgets::{Choice, DataTable, Figures, Scale, Select, ZoomButtons};
 use quadtank::study::relay_tuning::{CriticalSpec, SeriesElement, TestKind, Tested, TuningSetup};
@@ -38,7 +38,7 @@ const RATIO: ParamControl<TuningSetup> = ParamControl {
         Limits::new(min / s.test.amplitudes[0], max / s.test.amplitudes[0])
     },
     travel: Some(|_| RATIOS),
-    scale: Scale::Logarithmic,
+    scale: Some(Scale::Logarithmic),
     ..OF_TEST
 };
 /// Of relay 1, with the ratio kept; of relay 2 where that one is alone.
@@ -58,7 +58,7 @@ const DURATION: ParamControl<TuningSetup> = ParamControl {
     read: |s, _| s.test.duration,
     write: |s, _, duration| set_duration(s, duration),
     path: |_, _| "test.duration",
-    unit: TIME.unit,
+    shown_unit: Some(|s| ShownUnit::called(time_unit(&s.plant))),
     ..OF_TEST
 };
 const MODULUS: ParamControl<TuningSetup> = ParamControl {
@@ -105,12 +105,15 @@ const PASSES: ParamControl<TuningSetup> = ParamControl {
     read: |s, _| s.test.passes as f64,
     write: |s, _, passes| set_passes(s, passes),
     path: |_, _| "test.passes",
-    scale: Scale::Linear(1.0),
+    scale: Some(Scale::Linear(1.0)),
     digits: Some(0),
     ..OF_TEST
 };
-const OF_TEST: ParamControl<TuningSetup> =
-    ParamControl { scale: Scale::Linear(0.05), lock: Control::Test, ..ParamControl::PLAIN };
+const OF_TEST: ParamControl<TuningSetup> = ParamControl {
+    scale: Some(Scale::Linear(0.05)),
+    shown_unit: Some(|_| ShownUnit::called("")),
+    ..ParamControl::locked_by(locks::TEST)
+};
 const OF_LOOP: ParamControl<TuningSetup> = ParamControl { class: ["loop1", "loop2"], ..OF_TEST };
 
 /// The relay test.
@@ -174,7 +177,7 @@ fn TakeOver() -> impl IntoView {
             class="button small"
             data-testid="test-take"
             hidden=nothing
-            disabled=session.lab.locks(Control::Point)
+            disabled=session.lab.locks(locks::POINT)
             on:click=take
         >
             {say!(session.lab, relay.take_over)}
@@ -206,7 +209,7 @@ fn Settings() -> impl IntoView {
             choices=kinds
             read=|s| s.test.kind
             write=|s, kind| s.test.kind = kind
-            lock=Control::Test
+            lock=locks::TEST
         />
         <div hidden=session.throttled_part(|s| s.test.kind != TestKind::Single)><SingleTest /></div>
         <div hidden=session.throttled_part(|s| s.test.kind == TestKind::Single)><ParamRow session control=&RATIO /></div>
@@ -267,7 +270,7 @@ fn SingleTest() -> impl IntoView {
             choices=loops
             read=|s| s.test.number
             write=|s, number| s.test.number = number
-            lock=Control::Test
+            lock=locks::TEST
         />
         <Select
             id="test-behind"
@@ -275,7 +278,7 @@ fn SingleTest() -> impl IntoView {
             choices=behinds
             chosen=behind
             on_choose=move |behind| session.edit(|s| s.test.behind = behind)
-            disabled=lab.locks(Control::Test)
+            disabled=lab.locks(locks::TEST)
         />
         <div hidden=session.throttled_part(|s| !matches!(s.test.behind, SeriesElement::Modulus(_)))>
             <ParamRow session control=&MODULUS />
@@ -296,7 +299,7 @@ fn RuleSelect() -> impl IntoView {
             choices=Signal::stored(choices)
             chosen=Signal::derive(move || session.throttled.setup.with(|s| s.test.rule))
             on_choose=move |rule| session.edit(|s| s.test.rule = rule)
-            disabled=lab.locks(Control::Test)
+            disabled=lab.locks(locks::TEST)
         />
     }
 }

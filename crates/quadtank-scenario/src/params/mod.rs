@@ -20,7 +20,7 @@ use super::limits::Limits;
 pub enum Scale {
     /// Evenly.
     Linear,
-    /// By their magnitude.
+    /// By their magnitude, whatever their sign; 0 may be allowed beside.
     Logarithmic,
 }
 
@@ -163,7 +163,8 @@ mod tests {
             assert!(PARAMS[..index].iter().all(|other| other.path != *path), "{path}");
             assert!(!description.is_empty() && !description.ends_with('.'), "{path}");
             assert!(limits.min < limits.max && limits.min.is_finite() && limits.max.is_finite(), "{path}");
-            assert!(*scale == Scale::Linear || limits.min > 0.0, "{path}: no logarithm");
+            let has_magnitude = limits.min >= 0.0 || limits.min == -limits.max;
+            assert!(*scale == Scale::Linear || has_magnitude, "{path}: no logarithm");
         }
     }
 }

@@ -44,7 +44,7 @@ pub const PARAMS: &[Param] = &[
     row("operating_point.levels[]", "m", limits::LEVEL, Linear, "Levels of tanks 1 and 2 at rest; the voltages follow"),
 
     // Two PI loops.
-    row("controller.loops[].gain", "V/V", limits::GAIN, Linear, "Gain K of the loop, of either sign but not 0"),
+    row("controller.loops[].gain", "V/V", limits::GAIN, Logarithmic, "Gain K of the loop, of either sign but not 0"),
     row("controller.loops[].integral_time_s", "s", limits::INTEGRAL_TIME_S, Logarithmic, "Integral time Ti of the loop"),
     row("controller.loops[].set_point_weight", "", limits::SET_POINT_WEIGHT, Linear, "Set-point weight b in the proportional part"),
     row("controller.loops[].anti_windup.back_calculation.tracking_ratio", "", limits::TRACKING_RATIO, Logarithmic, "Tracking time over integral time, Tt/Ti"),
@@ -54,8 +54,8 @@ pub const PARAMS: &[Param] = &[
 
     // The model-free law.
     row("controller.loops[].model_gain", "m/(s V)", limits::MODEL_GAIN, Logarithmic, "Gain α̂ of the ultra-local model"),
-    row("controller.loops[].proportional", "1/s", limits::MODEL_FREE_FEEDBACK, Linear, "Proportional gain Kp of the law"),
-    row("controller.loops[].integral", "1/s²", limits::MODEL_FREE_FEEDBACK, Linear, "Integral gain Ki of the law"),
+    row("controller.loops[].proportional", "1/s", limits::MODEL_FREE_FEEDBACK, Logarithmic, "Proportional gain Kp of the law"),
+    row("controller.loops[].integral", "1/s²", limits::MODEL_FREE_FEEDBACK, Logarithmic, "Integral gain Ki of the law"),
     row("controller.loops[].anti_windup.back_calculation.tracking_time_s", "s", limits::INTEGRAL_TIME_S, Logarithmic, "Tracking time Tt of the anti-windup"),
     row("controller.estimator.window_s", "s", limits::WINDOW_S, Linear, "Length T of the window of the estimator: a whole number of samples, two at least"),
     row("start.rest[]", "m", limits::LEVEL, Linear, "Levels of tanks 1 and 2 at which the run begins at rest"),

@@ -1,4 +1,4 @@
-//! Documents of every version: what is read, refused, and answered.
+//! Documents of every version: what is read, refused, and answered; margins against brute force.
 
 mod answers;
 mod bounded_work;
@@ -6,6 +6,7 @@ mod every_version;
 mod examples;
 mod extremes;
 mod junqueira;
+mod margins;
 mod model_free;
 mod model_free_properties;
 mod noise;

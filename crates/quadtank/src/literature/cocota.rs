@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::units::{MM, MM2, MM3};
-use super::{DisplayUnit, PiExperiment, Preset, PresetId, Printed, Remark};
+use super::{DisplayUnit, PiExperiment, Preset, PresetId, Printed};
 use crate::control::Pairing;
 use crate::plant::{CrossSection, Outlet, Pump, QuadrupleTank, Sensor, Tank};
 
@@ -100,7 +100,6 @@ fn rig(
         },
         pump_voltage: CONTROLLER_OUTPUT.map(|c| POWER_GAIN * c),
         pi,
-        remarks: &[Remark::TrapezoidalTank, Remark::PrintedLevelsNotAtRest],
         printed: Some(printed),
     }
 }

@@ -1,7 +1,7 @@
 //! Johansson (2000), "The quadruple-tank process": two settings of one rig, with two PI loops.
 
 use super::units::{CM, CM2, CM3};
-use super::{DisplayUnit, PiExperiment, Preset, PresetId, Printed, Remark};
+use super::{DisplayUnit, PiExperiment, Preset, PresetId, Printed};
 use crate::control::Pairing;
 use crate::plant::{CrossSection, Outlet, Pump, QuadrupleTank, Sensor, Tank};
 
@@ -63,7 +63,6 @@ fn rig(
         },
         pump_voltage,
         pi,
-        remarks: &[Remark::PrintedLevelsNotAtRest],
         printed: Some(printed),
     }
 }

@@ -1,7 +1,7 @@
 //! Junqueira, Neves and Angelico: the model-free law on a quadruple tank with still and moving valves.
 
 use super::units::{CM, CM2, CM3};
-use super::{DisplayUnit, PiExperiment, Preset, PresetId, Remark};
+use super::{DisplayUnit, PiExperiment, Preset, PresetId};
 use crate::control::Pairing;
 use crate::plant::{CrossSection, Outlet, Pump, QuadrupleTank, Sensor, Tank, ValveSchedule};
 use crate::sim::{Experiment, Measurement, SetPointStep};
@@ -55,7 +55,6 @@ pub(super) fn case(id: PresetId, gamma: f64) -> Preset {
                 duration_s: 1100.0,
             }
         },
-        remarks: &[Remark::AssumedHeight, Remark::ChosenOperatingPoint],
         printed: None,
     }
 }

@@ -9,4 +9,4 @@ pub mod junqueira;
 mod rig;
 mod units;
 
-pub use rig::{DisplayUnit, PiExperiment, Preset, PresetId, Printed, Remark};
+pub use rig::{DisplayUnit, PiExperiment, Preset, PresetId, Printed};

@@ -80,23 +80,10 @@ pub enum DisplayUnit {
     Mm,
 }
 
-/// What a reader of a preset should know before comparing numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Remark {
-    /// The printed levels are measured or rounded: the printed parameters and inputs have another exact equilibrium.
-    PrintedLevelsNotAtRest,
-    /// Tank 2 is trapezoidal.
-    TrapezoidalTank,
-    /// The source gives no height of the tanks: ours is assumed.
-    AssumedHeight,
-    /// The source gives no operating point: ours is a level of 10 cm in tanks 1 and 2.
-    ChosenOperatingPoint,
-}
-
 /// Numbers as a source prints them, in SI, to compare with.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Printed {
-    /// Levels h1…h4 (m).
+    /// Levels h1…h4 (m), measured or rounded: the printed parameters and inputs have another exact equilibrium.
     pub levels: [f64; 4],
     /// Time constants T1…T4 (s).
     pub time_constants_s: [f64; 4],
@@ -140,8 +127,6 @@ pub struct Preset {
     pub pump_voltage: [f64; 2],
     /// Two PI loops for it.
     pub pi: PiExperiment,
-    /// What to know before comparing numbers.
-    pub remarks: &'static [Remark],
     /// What the source prints, where it prints anything.
     pub printed: Option<Printed>,
 }

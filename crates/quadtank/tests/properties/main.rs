@@ -1,7 +1,9 @@
-//! Properties over random plants, controllers and experiments.
+//! Properties over random plants, controllers and experiments; figures of an independent computation; the floors of the crate.
 
+mod architecture;
 mod full_and_dry;
 mod linear;
+mod oracle;
 mod plant;
 mod sim;
 mod tuning;

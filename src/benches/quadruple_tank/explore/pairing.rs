@@ -2,8 +2,8 @@
 
 use leptos::prelude::*;
 
+use super::super::flags::locks;
 use super::super::session::{Session, use_session};
-use crate::start::Control;
 use crate::texts::{say, terms, tr};
 use crate::widgets::{Card, Text, marked};
 use quadtank::control::Pairing;
@@ -40,7 +40,7 @@ pub fn PairingCard() -> impl IntoView {
     let finding = Memo::new(move |_| finding(session));
     let beside = move || {
         view! {
-            <button type="button" class="button small" data-testid="swap" disabled=lab.locks(Control::Pairing) on:click=swap>
+            <button type="button" class="button small" data-testid="swap" disabled=lab.locks(locks::PAIRING) on:click=swap>
                 "⇅ " {say!(lab, explore.swap)}
             </button>
         }
@@ -62,7 +62,7 @@ pub fn PairingCard() -> impl IntoView {
                 class="button"
                 data-testid="calm"
                 hidden=move || finding.get() != Some(Finding::TooEager)
-                disabled=lab.locks(Control::Gains)
+                disabled=lab.locks(locks::GAINS)
                 on:click=move |_| calm(session)
             >
                 {say!(lab, explore.calm)}

@@ -1,10 +1,10 @@
 //! What the build script says of files of texts with faults, and what it writes for sound ones.
 
-#[path = "../build/code.rs"]
+#[path = "../../build/code.rs"]
 mod code;
-#[path = "../build/languages.rs"]
+#[path = "../../build/languages.rs"]
 mod languages;
-#[path = "../build/locales.rs"]
+#[path = "../../build/locales.rs"]
 mod locales;
 
 use languages::{LANGUAGES, Language};

@@ -348,7 +348,7 @@ fn placed(plant: &TransferMatrix, period: f64, target: Complex64) -> [PidMatrix;
 fn a_dip_between_grid_points_is_found() {
     // Root 2: recomputed by an independent program on a grid of 1e-5 rad, from these controllers. Found from outside, on a
     // coarser grid: distance 0.02684 at ω = 21.836, gain margin 1.0273.
-    let text = include_str!("data/margins-between-grid-points.json");
+    let text = include_str!("../data/margins-between-grid-points.json");
     let Document::Tuning(scenario) = document_from_json(text).unwrap() else { panic!("a session of tuning") };
     let study = PlantStudy::of(&scenario.tuning.plant).unwrap();
     let design = study.design(&scenario.tuning).unwrap().unwrap();

@@ -9,7 +9,7 @@ use quadtank::plant::{OperatingPoint, QuadrupleTank};
 use quadtank::sim::{EventKind, Experiment, Measurement, SetPointStep, Trajectory, loop_metrics, simulate};
 use serde::Deserialize;
 
-use crate::reference::Parameters;
+use super::reference::Parameters;
 
 /// Allowed deviation, as a fraction of the set-point step (of the step times sensor gain for controller outputs).
 const BAR: f64 = 1e-6;
@@ -111,7 +111,7 @@ impl Loop {
 }
 
 fn cases() -> Vec<Case> {
-    let reference: Reference = serde_json::from_str(include_str!("../data/quadruple-tank.json")).unwrap();
+    let reference: Reference = serde_json::from_str(include_str!("../../data/quadruple-tank.json")).unwrap();
     reference.cases
 }
 

@@ -53,7 +53,7 @@ fn matrix(rows: &[Vec<f64>]) -> DMatrix<f64> {
 }
 
 fn cases() -> Vec<Case> {
-    let reference: Reference = serde_json::from_str(include_str!("../data/quadruple-tank.json")).unwrap();
+    let reference: Reference = serde_json::from_str(include_str!("../../data/quadruple-tank.json")).unwrap();
     assert_eq!(reference.cases.len(), 14);
     reference.cases
 }

@@ -4,7 +4,7 @@ use approx::assert_relative_eq;
 use quadtank::literature::PresetId;
 use serde::Deserialize;
 
-use crate::reference::Parameters;
+use super::reference::Parameters;
 
 /// Two implementations of the same closed formulas: only rounding is between them.
 const RELATIVE: f64 = 1e-9;
@@ -27,7 +27,7 @@ struct Case {
 }
 
 fn cases() -> Vec<Case> {
-    let reference: Reference = serde_json::from_str(include_str!("../data/quadruple-tank.json")).unwrap();
+    let reference: Reference = serde_json::from_str(include_str!("../../data/quadruple-tank.json")).unwrap();
     assert_eq!(reference.cases.len(), 14);
     reference.cases
 }
