@@ -128,6 +128,12 @@ impl Experiment {
         Self { measurement: Measurement { noise_std: 0.0, ..self.measurement }, ..self.clone() }
     }
 
+    /// When the reference of a level (index) would first step at the end of the experiment or after it (s).
+    pub fn step_after_end_s(&self, level: usize) -> Option<f64> {
+        let steps = self.set_point_steps.iter().filter(|step| step.level == level && step.size != 0.0);
+        steps.map(|step| step.time_s).filter(|&time_s| time_s >= self.duration_s).min_by(f64::total_cmp)
+    }
+
     /// When a load first changes after `time_s` (s). Loads that cancel or have no size change nothing.
     pub(super) fn next_load_s(&self, time_s: f64) -> Option<f64> {
         self.load_changes_s().filter(|&begin| begin > time_s).min_by(f64::total_cmp)

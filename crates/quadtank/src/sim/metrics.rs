@@ -6,7 +6,7 @@ use crate::control::DecentralisedPi;
 use crate::plant::QuadrupleTank;
 
 use super::experiment::Experiment;
-use super::response::{NoResponse, Response, Settling, first_step_after_end};
+use super::response::{NoResponse, Response, Settling};
 use super::trajectory::Trajectory;
 
 /// How one loop answered its first set-point step, within one window for all figures of it, and what the whole run cost.
@@ -88,7 +88,7 @@ fn figures_of_step(
 ) -> LoopMetrics {
     let window = Response::first(trajectory, experiment, sampling_time_s, index);
     let window = window.as_ref();
-    let without_step = || match first_step_after_end(experiment, index) {
+    let without_step = || match experiment.step_after_end_s(index) {
         Some(time_s) => NoResponse::StepAfterEnd { time_s },
         None => NoResponse::NoStep,
     };

@@ -21,9 +21,9 @@ pub enum Settling {
 }
 
 /// How far a level may be from its old reference when the new one comes (a share of the step): what counts as settled.
-const AT_REST: f64 = 0.02;
+pub(super) const AT_REST: f64 = 0.02;
 /// How long it has to have been there, as a share of the time since anything was done to the plant.
-const AT_REST_FOR: f64 = 0.1;
+pub(super) const AT_REST_FOR: f64 = 0.1;
 
 /// Why a loop has no figures of a step response.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -229,10 +229,4 @@ fn reference_steps(
         .map(|steps| ReferenceStep { row: steps[0].row, size: net(steps.iter().map(|step| step.size)) })
         .filter(|step| step.size != 0.0)
         .collect()
-}
-
-/// When a level that never steps within a run would first step after its end (s).
-pub(super) fn first_step_after_end(experiment: &Experiment, level: usize) -> Option<f64> {
-    let steps = experiment.set_point_steps.iter().filter(|step| step.level == level && step.size != 0.0);
-    steps.map(|step| step.time_s).filter(|&time_s| time_s >= experiment.duration_s).min_by(f64::total_cmp)
 }
