@@ -29,7 +29,7 @@ pub use point::{PointHandle, first_frame};
 pub use readout::Readout;
 pub use segmented::Segmented;
 pub use select::{Choice, Select};
-pub use table::{Caption, Cells, Figures, Folded, Headings, Row, TableContent};
+pub use table::{Caption, Cells, Figure, Figures, Folded, Headings, ReasonedRow, Row, TableContent};
 pub use terms::Text;
 pub use tick::Tick;
 pub use time_surface::{TimeAxis, TimeSurface, ZoomButtons};

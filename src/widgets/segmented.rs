@@ -14,6 +14,9 @@ pub fn Segmented<T>(
     /// Called with the new choice.
     #[prop(into)]
     on_choose: Callback<T>,
+    /// The choice that carries a tag, with the text of that.
+    #[prop(optional, into)]
+    tag: Option<Signal<Option<(T, String)>>>,
     /// Whether the choice is locked.
     #[prop(into)]
     disabled: Signal<bool>,
@@ -24,6 +27,10 @@ where
     let buttons = choices
         .into_iter()
         .map(|(choice, name, text)| {
+            let tag = move || {
+                let of_this = tag.and_then(|tag| tag.get()).filter(|(tagged, _)| *tagged == choice);
+                of_this.map(|(_, text)| view! { " "<span class="tag">{text}</span> })
+            };
             view! {
                 <button
                     type="button"
@@ -33,6 +40,7 @@ where
                     on:click=move |_| on_choose.run(choice)
                 >
                     {text}
+                    {tag}
                 </button>
             }
         })

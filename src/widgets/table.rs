@@ -109,3 +109,36 @@ pub fn Cells(
 ) -> impl IntoView {
     texts.into_iter().map(|text| view! { <td>{text}</td> }).collect_view()
 }
+
+/// What stands in a cell: a figure, or why there is none.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Figure {
+    /// The figure as it is shown.
+    Shown(String),
+    /// Why there is none: shown as a dash, with the reason for the pointer and for screen readers.
+    None(String),
+}
+
+/// A row with a heading, some of whose figures may be missing for a reason.
+#[component]
+pub fn ReasonedRow(
+    /// Class of the heading: the colour of a loop.
+    #[prop(optional, into)]
+    class: String,
+    /// The heading.
+    #[prop(into)]
+    name: String,
+    /// Its figures.
+    figures: Vec<Figure>,
+) -> impl IntoView {
+    let cells = figures.into_iter().map(|figure| {
+        let (text, why) = match figure {
+            Figure::Shown(text) => (text, None),
+            Figure::None(why) => ("–".to_owned(), Some(why)),
+        };
+        let hidden = why.is_some().then_some("true");
+        let spoken = why.clone().map(|why| view! { <span class="visually-hidden">{why}</span> });
+        view! { <td title=why><span aria-hidden=hidden>{text}</span>{spoken}</td> }
+    });
+    view! { <tr><th scope="row" class=class>{name}</th>{cells.collect_view()}</tr> }
+}

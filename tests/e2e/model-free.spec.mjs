@@ -17,11 +17,18 @@ async function tabTo(page, name) {
   throw new Error(`Tab does not reach ${name}`);
 }
 
-/** The table of figures: numbers by rows, null where there is none. */
+/** Both tables of figures by rows: IAE, ISE, overshoot, settling, total variation, time at a limit, lost; null where there is none. */
 async function figures(lab) {
-  const rows = await lab.id('free-figures').locator('tbody tr').allInnerTexts();
-  const number = (text) => (text.trim() === '–' ? null : Number.parseFloat(text.replace('−', '-')));
-  return rows.map((row) => row.split('\t').slice(1).map(number));
+  const number = (text) => (text.startsWith('–') ? null : Number.parseFloat(text.replace('−', '-')));
+  const table = async (name) => {
+    const rows = await lab.id(name).locator('tbody tr').all();
+    return Promise.all(rows.map(async (row) => (await row.locator('td').allTextContents()).map(number)));
+  };
+  const [steps, costs] = [await table('free-figures'), await table('free-costs')];
+  return steps.map(([overshoot, settling, lost], k) => {
+    const [iae, ise, variation, limit] = costs[k];
+    return [iae, ise, overshoot, settling, variation, limit, lost];
+  });
 }
 
 /** Levels 1 to 4 on the drawing (cm). */
@@ -252,7 +259,9 @@ test('a link restores the run, its settings and the cursor in a new page', async
   expect(await other.getByTestId('free-alpha-number').inputValue()).toBe('0.150');
   expect(await other.getByTestId('free-time-number').inputValue()).toBe('77');
   await expect(other.getByTestId('free-sliding')).toHaveAttribute('aria-pressed', 'true');
-  expect(await other.getByTestId('free-figures').innerText()).toBe(await lab.id('free-figures').innerText());
+  for (const table of ['free-figures', 'free-costs']) {
+    expect(await other.getByTestId(table).innerText()).toBe(await lab.id(table).innerText());
+  }
 });
 
 test('the claims of the paper have the verdicts that the numbers give them, and each shows its case', async ({ lab }) => {

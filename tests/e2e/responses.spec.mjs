@@ -269,6 +269,8 @@ test('a sentence tells how long a response was looked at, and that a load ends i
   await lab.open();
   await lab.type('step2-time', '120');
   expect(await lab.text('responses-sentence')).toMatch(/Level 1 settles 17\.8 s after its step \(watched for 20\.0 s\)/);
+  // Level 2 still answers the first step.
+  expect(await lab.text('responses-sentence')).toMatch(/Level 2 was not at rest before its step, but up to 0\.\d+ cm from its reference/);
   await lab.type('step2-time', '103');
   expect(await lab.text('responses-sentence')).toContain('Level 1 does not settle in the 3.00 s to the next step, load or end');
   await lab.type('step2-time', '1500');
@@ -280,7 +282,44 @@ test('a run that does not begin at rest has no step response and says why', asyn
   await lab.type('gamma1-number', '0.3');
   await lab.type('gamma2-number', '0.7');
   expect(await lab.text('responses-sentence')).toContain('does not begin at rest');
-  expect(await page.locator('[data-testid="metrics"] tbody tr').first().textContent()).toMatch(/level 1–––––/);
+  expect(await page.locator('[data-testid="metrics"] tbody tr').first().textContent()).toMatch(/level 1–.*does not begin at rest/);
+});
+
+test('figures of a step and costs of the run stand apart, and what has no figure says why', async ({ lab, page }) => {
+  await lab.open();
+  const cell = (row, column) => lab.id('metrics').locator('tbody tr').nth(row).locator('td').nth(column);
+  await expect(lab.id('costs').locator('tbody tr')).toHaveCount(2);
+  const settling = await cell(0, 1).textContent();
+  // With noise the twin without it is judged, and the table says so.
+  await lab.type('noise-number', '0.05');
+  expect(await cell(0, 1).textContent()).toBe(settling);
+  expect(await lab.text('metrics-note')).toContain('without noise');
+  await lab.type('noise-number', '0');
+  expect(await lab.text('metrics-note')).toBe('');
+  // A pinned run follows the experiment.
+  await lab.id('pin').click();
+  await lab.type('step1-number', '1.2');
+  expect(await lab.text('metrics-note')).toContain('in the present experiment');
+  expect(await cell(2, 3).textContent()).toBe(await cell(0, 3).textContent());
+  await lab.id('unpin').click();
+  // A level that still answers another step.
+  await lab.type('step2-time', '120');
+  await expect(cell(1, 0)).toHaveAttribute('title', /Level 2 was not at rest/);
+  await expect(cell(1, 0)).toContainText('Level 2 was not at rest');
+  // Steps that never come.
+  await lab.type('step2-time', '2500');
+  await lab.type('duration-number', '2000');
+  await expect(lab.id('after-end')).toContainText('at 2500 s, when the experiment is over (2000 s)');
+  await expect(cell(1, 0)).toHaveAttribute('title', /when the experiment is over/);
+  expect(await lab.text('responses-sentence')).toContain('The step of reference 2 at 2500 s');
+  // Singular: no settling time anywhere.
+  await lab.type('gamma1-number', '0.625');
+  await lab.type('gamma2-number', '0.375');
+  expect(await lab.text('responses-sentence')).toContain('on the border of stability');
+  expect(await lab.text('responses-sentence')).not.toContain('settles');
+  await expect(cell(0, 1)).toHaveAttribute('title', /border of stability/);
+  await lab.axe();
+  await lab.clean();
 });
 
 test('without a step there is nothing but sums, and none of rounding', async ({ lab, page }) => {
@@ -288,5 +327,6 @@ test('without a step there is nothing but sums, and none of rounding', async ({ 
   await lab.type('step1-number', '0');
   await lab.type('step2-number', '0');
   expect(await lab.text('responses-sentence')).toContain('No reference moves');
-  expect(await page.locator('[data-testid="metrics"] tbody tr').first().textContent()).toMatch(/level 1––––––000/);
+  expect(await page.locator('[data-testid="metrics"] tbody tr').first().textContent()).toMatch(/level 1–.*does not move/);
+  expect(await page.locator('[data-testid="costs"] tbody tr').first().textContent()).toMatch(/level 10000/);
 });

@@ -7,10 +7,10 @@ use super::sentences::{self, in_cm};
 use super::session::{Session, set_cursor, shown, use_session};
 use crate::texts::{say, tr};
 use crate::widgets::{
-    Card, ChartCanvas, ChartMenu, DataTable, Figures, Readout, Row, Sentence, TableContent, TimeAxis, TimeSurface,
-    Verdict, ZoomButtons, marked, unmarked,
+    Card, ChartCanvas, ChartMenu, DataTable, Figure, Figures, Readout, ReasonedRow, Row, Sentence, TableContent,
+    TimeAxis, TimeSurface, Verdict, ZoomButtons, marked, unmarked,
 };
-use quadtank::sim::TrackingMetrics;
+use quadtank::sim::{NoResponse, TrackingMetrics};
 use quadtank_figure::Frame;
 
 /// The shortest stretch of time that can be shown (s).
@@ -26,6 +26,7 @@ pub fn CourseCard() -> impl IntoView {
     let picture = pictures::course(session, axis.window);
     let (for_menu, for_table) = (picture.clone(), picture.clone());
     let title = say!(lab, free.course);
+    let (of_step, of_run) = (say!(lab, free.step_figures), say!(lab, responses.run_costs));
     // Read in three places, worked out once.
     let found = Memo::new(move |_| sentences::of_run(session));
     let readout = Signal::derive(move || session.own.cursor.get().and_then(|_| readout(session)));
@@ -52,7 +53,11 @@ pub fn CourseCard() -> impl IntoView {
                 />
                 <TimeSurface axis frames label=say!(lab, responses.cursor) spoken readout id="free-surface" />
             </div>
-            <Figures name="free-figures" caption=say!(lab, responses.metrics)>{move || table(session)}</Figures>
+            <h3>{of_step}</h3>
+            <Figures name="free-figures" caption=of_step>{move || step_table(session)}</Figures>
+            <h3>{of_run}</h3>
+            <Figures name="free-costs" caption=of_run>{move || cost_table(session)}</Figures>
+            <p class="remark" data-testid="free-note">{move || note(session)}</p>
             <Sentence id="free-comparison" text=Signal::derive(move || sentences::of_comparison(session)) />
             <DataTable picture=for_table id="free-table" />
         </Card>
@@ -98,23 +103,42 @@ fn readout(session: Session) -> Option<Readout> {
     Some(Readout { time: format!("t = {} s", style.fixed(shown.time_s, 0)), pairs })
 }
 
-/// How the loops did, those of the comparison below them.
-fn table(session: Session) -> impl IntoView {
+/// How each level answered its last step.
+fn step_table(session: Session) -> impl IntoView {
+    let lab = session.lab;
+    let columns = vec![
+        tr!(lab, responses.run),
+        tr!(lab, responses.overshoot),
+        tr!(lab, responses.settling_2),
+        tr!(lab, free.lost),
+    ];
+    let row = |name: String, k: usize, figures: &TrackingMetrics| {
+        let figures = figures_of_step(session, k, figures);
+        view! { <ReasonedRow class=["loop1", "loop2"][k] name figures /> }.into_any()
+    };
+    view! { <TableContent caption=tr!(lab, free.step_figures) columns rows=rows(session, row) /> }
+}
+
+/// What the whole run cost.
+fn cost_table(session: Session) -> impl IntoView {
     let lab = session.lab;
     let unit = "cm";
     let columns = vec![
         tr!(lab, responses.run),
         tr!(lab, responses.iae, unit = unit),
         tr!(lab, responses.ise, unit = unit),
-        tr!(lab, responses.overshoot),
-        tr!(lab, responses.settling_2),
         tr!(lab, responses.variation),
         tr!(lab, responses.saturated),
-        tr!(lab, free.lost),
     ];
     let row = |name: String, k: usize, figures: &TrackingMetrics| {
-        view! { <Row class=["loop1", "loop2"][k] name figures=figures_of(session, figures) /> }.into_any()
+        view! { <Row class=["loop1", "loop2"][k] name figures=costs_of_run(session, figures) /> }.into_any()
     };
+    view! { <TableContent caption=tr!(lab, responses.run_costs) columns rows=rows(session, row) /> }
+}
+
+/// A row for each loop of the law, those of the comparison below them.
+fn rows(session: Session, row: impl Fn(String, usize, &TrackingMetrics) -> AnyView) -> Vec<AnyView> {
+    let lab = session.lab;
     let rows = session.throttled.with_answer(|answer| {
         let law = answer.figures.iter().enumerate();
         let law = law.map(|(k, figures)| row(tr!(lab, responses.row, number = k + 1), k, figures));
@@ -122,19 +146,69 @@ fn table(session: Session) -> impl IntoView {
         let pi = pi.map(|(k, figures)| row(tr!(lab, free.row_pi, number = k + 1), k, figures));
         law.chain(pi).collect::<Vec<_>>()
     });
-    view! { <TableContent caption=tr!(lab, responses.metrics) columns rows=rows.unwrap_or_default() /> }
+    rows.unwrap_or_default()
 }
 
-fn figures_of(session: Session, figures: &TrackingMetrics) -> [String; 7] {
+fn figures_of_step(session: Session, index: usize, figures: &TrackingMetrics) -> Vec<Figure> {
+    let lab = session.lab;
+    let style = lab.number_style();
+    let [overshoot, settling] = match figures.no_response {
+        Some(reason) => [0, 1].map(|_| Figure::None(why(session, index, reason))),
+        None => [
+            Figure::Shown(format!("{}\u{a0}%", style.fixed(100.0 * figures.overshoot.unwrap_or_default(), 1))),
+            match figures.settling_s {
+                Some(time_s) => Figure::Shown(style.fixed(time_s, 0)),
+                None => Figure::None(tr!(lab, free.not_settled, level = index + 1)),
+            },
+        ],
+    };
+    let lost = match figures.lost_at_s {
+        Some(time_s) => Figure::Shown(style.fixed(time_s, 0)),
+        None => Figure::None(tr!(lab, free.not_lost, level = index + 1)),
+    };
+    vec![overshoot, settling, lost]
+}
+
+fn costs_of_run(session: Session, figures: &TrackingMetrics) -> [String; 4] {
     let style = session.lab.number_style();
-    let never = || "–".to_owned();
     [
         style.fixed(in_cm(figures.iae), 1),
         style.fixed(in_cm(in_cm(figures.ise)), 1),
-        figures.overshoot.map_or_else(never, |share| format!("{}\u{a0}%", style.fixed(100.0 * share, 1))),
-        figures.settling_s.map_or_else(never, |time| style.fixed(time, 0)),
         style.fixed(figures.total_variation, 1),
         style.fixed(figures.saturated_s, 0),
-        figures.lost_at_s.map_or_else(never, |time| style.fixed(time, 0)),
     ]
+}
+
+/// Why a level (index) has no figures of a step.
+fn why(session: Session, index: usize, reason: NoResponse) -> String {
+    let lab = session.lab;
+    let style = lab.number_style();
+    let level = index + 1;
+    match reason {
+        NoResponse::NoStep | NoResponse::StepTooSmall { .. } => tr!(lab, responses.no_step, level = level),
+        NoResponse::StepAfterEnd { time_s } => {
+            tr!(lab, responses.step_after_end, level = level, time = style.fixed(time_s, 0))
+        }
+        NoResponse::NotAtRest { distance } => {
+            let distance = style.significant(in_cm(distance), 2);
+            tr!(lab, responses.level_moves, level = level, distance = distance, unit = "cm")
+        }
+        NoResponse::UnstableLoop => tr!(lab, free.why_unstable),
+        NoResponse::MarginalLoop => tr!(lab, responses.marginal),
+        NoResponse::StartOverflows => tr!(lab, responses.not_at_rest),
+    }
+}
+
+/// What the figures of the step are of, and which steps come too late.
+fn note(session: Session) -> String {
+    let lab = session.lab;
+    let parts = session.throttled.with_answer(|answer| {
+        let judged = answer.judged_without_noise.then(|| tr!(lab, responses.without_noise));
+        let reasons = answer.figures.iter().enumerate().filter_map(|(k, figures)| Some((k, figures.no_response?)));
+        // Others are said of the run or of the loop already.
+        let said = reasons
+            .filter(|(_, reason)| matches!(reason, NoResponse::StepAfterEnd { .. } | NoResponse::NotAtRest { .. }));
+        judged.into_iter().chain(said.map(|(k, reason)| why(session, k, reason))).collect::<Vec<_>>()
+    });
+    parts.unwrap_or_default().join(" ")
 }

@@ -9,7 +9,7 @@ use crate::texts::tr;
 use quadtank::control::Pairing;
 use quadtank::linear::Stability;
 use quadtank::literature::DisplayUnit;
-use quadtank::sim::{TrackingMetrics, ZeroDynamicsEnd};
+use quadtank::sim::ZeroDynamicsEnd;
 use quadtank::study::model_free::{LossBy, ModelFreeVerdict};
 use quadtank::study::{StudyError, StudyFault};
 
@@ -132,8 +132,8 @@ pub fn of_loop(session: Session) -> (bool, String) {
     if session.throttled.setup.with(|s| s.valves.iter().any(|valve| !valve.is_constant())) {
         return (true, tr!(lab, free.loop_moves));
     }
-    let looks_good =
-        session.throttled.with_answer(|answer| answer.figures.iter().all(TrackingMetrics::looks_settled)) == Some(true);
+    let looks_good = session.throttled.with_answer(|answer| answer.figures.iter().all(|figures| figures.looks_settled))
+        == Some(true);
     session.throttled.analysis.with(|analysis| {
         if let Err(error) = &analysis.rest {
             let reason = of_plant_error(lab, DisplayUnit::Cm, error);

@@ -178,12 +178,9 @@ fn PairingSwitch() -> impl IntoView {
             .flatten()
     };
     let choice = move |pairing: Pairing, id: &'static str| {
-        let text = Signal::derive(move || {
-            let name = match pairing {
-                Pairing::Diagonal => tr!(lab, pi.diagonal),
-                Pairing::Swapped => tr!(lab, pi.swapped),
-            };
-            if suggested() == Some(pairing) { format!("{name} ✓") } else { name }
+        let text = Signal::derive(move || match pairing {
+            Pairing::Diagonal => tr!(lab, pi.diagonal),
+            Pairing::Swapped => tr!(lab, pi.swapped),
         });
         (pairing, id, text)
     };
@@ -193,6 +190,7 @@ fn PairingSwitch() -> impl IntoView {
             label=say!(lab, pi.pairing)
             choices=vec![choice(Pairing::Diagonal, "pairing-diagonal"), choice(Pairing::Swapped, "pairing-swapped")]
             value=chosen
+            tag=Signal::derive(move || suggested().map(|pairing| (pairing, tr!(lab, pi.advised))))
             on_choose=move |pairing| session.edit(|s| s.controller.pairing = pairing)
             disabled=lab.locks(locks::PAIRING)
         />

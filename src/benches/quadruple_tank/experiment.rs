@@ -216,6 +216,17 @@ fn Timed(
 ) -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
+    // A set-point that does not move has nothing to say of its time.
+    let late = move || {
+        session.throttled.setup.with(|s| {
+            let (time_s, end_s) = ((time.read)(s, index), s.experiment.duration_s);
+            ((size.read)(s, index) != 0.0 && time_s >= end_s).then_some((time_s, end_s))
+        })
+    };
+    let said = move |(time_s, end_s): (f64, f64)| {
+        let style = lab.number_style();
+        tr!(lab, experiment.after_end, time = style.fixed(time_s, 0), end = style.fixed(end_s, 0))
+    };
     view! {
         <div class="timed">
             <ParamRow session control=size index />
@@ -225,6 +236,7 @@ fn Timed(
                 <span class="unit">"s"</span>
             </div>
         </div>
+        {move || late().map(|times| view! { <p class="remark warm" data-testid="after-end">{said(times)}</p> })}
     }
 }
 

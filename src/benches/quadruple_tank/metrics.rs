@@ -1,25 +1,33 @@
-//! How the runs did, as a table.
+//! How the runs did: figures of the first step within its window, and apart from them the costs of the whole run.
 
 use leptos::prelude::*;
 
 use super::session::{Session, use_session};
 use crate::shown::{length_digits, per_metre, to_shown, unit_name};
 use crate::texts::{say, tr};
-use crate::widgets::{Figures, Row, TableContent};
-use quadtank::sim::{LoopMetrics, Settling};
+use crate::widgets::{Figure, Figures, ReasonedRow, Row, TableContent};
+use quadtank::sim::{LoopMetrics, NoResponse, Settling};
+use quadtank::study::quadruple_tank::Run;
 
 /// Integrals below this, in the shown unit, are what rounding leaves of a run at rest.
 const ROUNDING: f64 = 1e-7;
 
-/// Metrics of the nonlinear run and of the pinned ones.
+/// Figures of the step, costs, and what to know of both.
 #[component]
 pub fn MetricsTable() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
-    view! { <Figures name="metrics" caption=say!(lab, responses.metrics)>{move || content(session)}</Figures> }
+    let (of_step, of_run) = (say!(lab, responses.step_figures), say!(lab, responses.run_costs));
+    view! {
+        <h3>{of_step}</h3>
+        <Figures name="metrics" caption=of_step>{move || step_table(session)}</Figures>
+        <h3>{of_run}</h3>
+        <Figures name="costs" caption=of_run>{move || cost_table(session)}</Figures>
+        <p class="remark" data-testid="metrics-note">{move || note(session)}</p>
+    }
 }
 
-fn content(session: Session) -> impl IntoView {
+fn step_table(session: Session) -> impl IntoView {
     let lab = session.lab;
     let unit = unit_name(session.own.unit.get());
     let columns = vec![
@@ -31,65 +39,141 @@ fn content(session: Session) -> impl IntoView {
         tr!(lab, responses.undershoot),
         tr!(lab, responses.other, unit = unit),
         tr!(lab, responses.iae, unit = unit),
+        tr!(lab, responses.window),
+    ];
+    let row = |name: String, k: usize, metrics: &LoopMetrics| {
+        let figures = figures_of_step(session, k, metrics);
+        view! { <ReasonedRow class=["loop1", "loop2"][k] name figures /> }.into_any()
+    };
+    view! { <TableContent caption=tr!(lab, responses.step_figures) columns rows=rows(session, row) /> }
+}
+
+fn cost_table(session: Session) -> impl IntoView {
+    let lab = session.lab;
+    let unit = unit_name(session.own.unit.get());
+    let columns = vec![
+        tr!(lab, responses.run),
+        tr!(lab, responses.iae, unit = unit),
         tr!(lab, responses.ise, unit = unit),
         tr!(lab, responses.itae, unit = unit),
         tr!(lab, responses.variation),
         tr!(lab, responses.saturated),
     ];
-    view! { <TableContent caption=tr!(lab, responses.metrics) columns rows=rows(session) /> }
+    let row = |name: String, k: usize, metrics: &LoopMetrics| {
+        view! { <Row class=["loop1", "loop2"][k] name figures=costs_of_run(session, metrics) /> }.into_any()
+    };
+    view! { <TableContent caption=tr!(lab, responses.run_costs) columns rows=rows(session, row) /> }
 }
 
-fn rows(session: Session) -> Vec<AnyView> {
+/// A row for each loop of the run, then of the pinned ones.
+fn rows(session: Session, row: impl Fn(String, usize, &LoopMetrics) -> AnyView) -> Vec<AnyView> {
     let lab = session.lab;
     let mut rows = Vec::new();
+    let mut add = |run: &Run, name: &dyn Fn(usize) -> String| {
+        rows.extend(run.metrics.iter().enumerate().map(|(k, metrics)| row(name(k + 1), k, metrics)));
+    };
     session.throttled.run.with(|outcome| {
-        let Ok(run) = outcome.as_ref() else { return };
-        for (k, metrics) in run.metrics.iter().enumerate() {
-            let name = tr!(lab, responses.row, number = k + 1);
-            rows.push(row(session, name, k, metrics));
+        if let Ok(run) = outcome.as_ref() {
+            add(run, &|number| tr!(lab, responses.row, number = number));
         }
     });
     session.throttled.pinned.with(|runs| {
         for (at, pinned) in runs.iter().enumerate() {
-            let Ok(run) = pinned.result.as_ref() else { continue };
-            for (k, metrics) in run.metrics.iter().enumerate() {
-                let name = tr!(lab, responses.row_pinned, run = at + 1, number = k + 1);
-                rows.push(row(session, name, k, metrics));
+            if let Ok(run) = pinned.result.as_ref() {
+                add(run, &|number| tr!(lab, responses.row_pinned, run = at + 1, number = number));
             }
         }
     });
     rows
 }
 
-fn row(session: Session, name: String, index: usize, metrics: &LoopMetrics) -> AnyView {
-    view! { <Row class=["loop1", "loop2"][index] name figures=figures(session, metrics) /> }.into_any()
-}
-
-fn figures(session: Session, m: &LoopMetrics) -> [String; 11] {
+fn figures_of_step(session: Session, index: usize, m: &LoopMetrics) -> Vec<Figure> {
     let lab = session.lab;
     let style = lab.number_style();
     let unit = session.own.unit.get();
-    let none = || "–".to_owned();
-    let time = |t: Option<f64>| t.map_or_else(none, |t| style.significant(t, 3));
-    let settling = |s: Option<Settling>| match s {
-        None => none(),
-        Some(Settling::Never) => tr!(lab, responses.never),
-        Some(Settling::After { time_s }) => style.significant(time_s, 3),
+    if let Some(reason) = m.no_response {
+        return vec![Figure::None(why(session, index, reason)); 8];
+    }
+    let or_never = |text: Option<String>| Figure::Shown(text.unwrap_or_else(|| tr!(lab, responses.never)));
+    let time = |time_s: f64| style.significant(time_s, 3);
+    let settling = |settling: Option<Settling>| {
+        or_never(match settling {
+            Some(Settling::After { time_s }) => Some(time(time_s)),
+            Some(Settling::Never) | None => None,
+        })
     };
-    let percent = |share: Option<f64>| share.map_or_else(none, |s| format!("{}\u{a0}%", style.fixed(100.0 * s, 1)));
-    // What rounding alone adds up to is nothing.
-    let sum = |value: f64| style.significant(if value < ROUNDING { 0.0 } else { value }, 3);
-    [
-        time(m.rise_time_s),
+    let share =
+        |share: Option<f64>| Figure::Shown(format!("{}\u{a0}%", style.fixed(100.0 * share.unwrap_or_default(), 1)));
+    vec![
+        or_never(m.rise_time_s.map(time)),
         settling(m.settling_2_percent),
         settling(m.settling_5_percent),
-        percent(m.overshoot),
-        percent(m.undershoot),
-        m.step_time_s.map_or_else(none, |_| style.fixed(to_shown(m.other_peak, unit), length_digits(unit))),
-        sum(to_shown(m.iae, unit)),
-        sum(m.ise * per_metre(unit).powi(2)),
-        sum(to_shown(m.itae, unit)),
+        share(m.overshoot),
+        share(m.undershoot),
+        Figure::Shown(style.fixed(to_shown(m.other_peak, unit), length_digits(unit))),
+        Figure::Shown(sum(session, to_shown(m.window_iae.unwrap_or_default(), unit))),
+        Figure::Shown(time(m.window_s.unwrap_or_default())),
+    ]
+}
+
+fn costs_of_run(session: Session, m: &LoopMetrics) -> [String; 5] {
+    let style = session.lab.number_style();
+    let unit = session.own.unit.get();
+    [
+        sum(session, to_shown(m.iae, unit)),
+        sum(session, m.ise * per_metre(unit).powi(2)),
+        sum(session, to_shown(m.itae, unit)),
         style.fixed(m.total_variation, 2),
         style.fixed(m.saturated_s, 0),
     ]
+}
+
+/// What rounding alone adds up to is nothing.
+fn sum(session: Session, value: f64) -> String {
+    session.lab.number_style().significant(if value < ROUNDING { 0.0 } else { value }, 3)
+}
+
+/// Why a level (index) has no figures of a step.
+pub fn why(session: Session, index: usize, reason: NoResponse) -> String {
+    let lab = session.lab;
+    let style = lab.number_style();
+    let level = index + 1;
+    match reason {
+        NoResponse::NoStep => tr!(lab, responses.no_step, level = level),
+        NoResponse::StepTooSmall { .. } => tr!(lab, responses.step_too_small, level = level),
+        NoResponse::StepAfterEnd { time_s } => {
+            tr!(lab, responses.step_after_end, level = level, time = style.fixed(time_s, 0))
+        }
+        NoResponse::NotAtRest { distance } => {
+            let unit = session.own.unit.get();
+            let distance = style.significant(to_shown(distance, unit), 2);
+            tr!(lab, responses.level_moves, level = level, distance = distance, unit = unit_name(unit))
+        }
+        NoResponse::UnstableLoop => tr!(lab, responses.unstable),
+        NoResponse::MarginalLoop => tr!(lab, responses.marginal),
+        NoResponse::StartOverflows => tr!(lab, responses.not_at_rest),
+    }
+}
+
+/// What the runs in the tables are.
+fn note(session: Session) -> String {
+    let lab = session.lab;
+    let mut parts = Vec::new();
+    if session.throttled.run.with(|outcome| outcome.as_ref().as_ref().is_ok_and(|run| run.judged_without_noise)) {
+        parts.push(tr!(lab, responses.without_noise));
+    }
+    let setup = session.throttled.setup.get();
+    session.throttled.pinned.with(|runs| {
+        if !runs.is_empty() {
+            parts.push(tr!(lab, responses.pinned_same));
+        }
+        for (at, pinned) in runs.iter().enumerate() {
+            if pinned.result.is_err() {
+                parts.push(tr!(lab, responses.pinned_none, run = at + 1));
+            } else if !pinned.setup.is_same_rig(&setup) {
+                parts.push(tr!(lab, responses.pinned_other_rig, run = at + 1));
+            }
+        }
+    });
+    parts.join(" ")
 }

@@ -90,8 +90,8 @@ pub fn levels(session: Session, held: RwSignal<Option<(f64, f64)>>) -> Picture {
         let unit = session.own.unit.get();
         let names = [1, 2].map(|k| tr!(lab, responses.level, number = k));
         let references = [1, 2].map(|k| format!("{} {k}", tr!(lab, responses.reference)));
-        let settled = run.metrics.each_ref().map(|metrics| match (metrics.step_time_s, metrics.settling_2_percent) {
-            (Some(step_s), Some(Settling::After { time_s })) => {
+        let settled = run.metrics.each_ref().map(|m| match (m.no_response, m.step_time_s, m.settling_2_percent) {
+            (None, Some(step_s), Some(Settling::After { time_s })) => {
                 let text = tr!(lab, explore.settled, time = lab.number_style().significant(time_s, 2));
                 Some((step_s + time_s, text))
             }

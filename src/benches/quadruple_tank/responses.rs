@@ -2,7 +2,7 @@
 
 use leptos::prelude::*;
 
-use super::metrics::MetricsTable;
+use super::metrics::{MetricsTable, why};
 use super::moment::{RigState, use_moment};
 use super::pictures;
 use super::session::{Session, use_session};
@@ -13,8 +13,8 @@ use crate::texts::{say, terms, tr};
 use crate::widgets::{
     Card, ChartCanvas, ChartMenu, DataTable, Readout, Sentence, Text, TimeAxis, TimeSurface, ZoomButtons, unmarked,
 };
-use quadtank::linear::Stability;
-use quadtank::sim::{EventKind, LoopMetrics, Settling};
+use quadtank::sim::{EventKind, LoopMetrics, NoResponse, Settling};
+use quadtank::study::quadruple_tank::Run;
 use quadtank::study::{StudyError, StudyFault};
 use quadtank_figure::Frame;
 use quadtank_scenario::Scenario;
@@ -70,7 +70,7 @@ pub fn ResponsesCard() -> impl IntoView {
             <Sentence id="responses-sentence" text=sentence status=true />
             <div class="folded">
                 <details class="more" data-testid="metrics-fold">
-                    <summary>{say!(lab, responses.metrics)}</summary>
+                    <summary>{say!(lab, responses.figures)}</summary>
                     <MetricsTable />
                 </details>
                 <DataTable picture=for_table id="data-table" />
@@ -179,23 +179,7 @@ pub fn sentence(session: Session) -> String {
             }
             Err(_) => return tr!(lab, responses.none),
         };
-        let mut parts: Vec<String> =
-            run.metrics.iter().enumerate().filter_map(|(k, m)| of_metrics(session, k, m)).collect();
-        let unstable = session.throttled.with_analysis(|a| a.closed_loop.stability == Stability::Unstable);
-        if unstable == Some(true) {
-            parts = vec![tr!(lab, responses.unstable)];
-        } else if parts.is_empty() {
-            let has_step = run.metrics.iter().any(|m| m.step_time_s.is_some());
-            let has_load = session.throttled.setup.with(|s| !s.experiment.load_steps.is_empty());
-            let text = match (has_step, has_load) {
-                (true, _) => tr!(lab, responses.not_at_rest),
-                (false, true) => tr!(lab, responses.load_alone),
-                (false, false) => tr!(lab, responses.sentence_still),
-            };
-            parts.push(text);
-        } else if session.throttled.setup.with(|s| s.experiment.is_disturbed()) {
-            parts.push(tr!(lab, responses.disturbed));
-        }
+        let mut parts = of_steps(session, run);
         parts.extend(run.nonlinear.events.iter().take(MOST_EVENTS).map(|event| {
             let time = lab.number_style().fixed(event.time_s, 0);
             match event.kind {
@@ -210,6 +194,36 @@ pub fn sentence(session: Session) -> String {
         }));
         parts.join(" ")
     })
+}
+
+/// How each level answered its step, or why that is not said.
+fn of_steps(session: Session, run: &Run) -> Vec<String> {
+    let lab = session.lab;
+    let reasons = run.metrics.map(|metrics| metrics.no_response);
+    // What holds for the whole run is said once.
+    let of_run = |reason: &NoResponse| {
+        matches!(reason, NoResponse::UnstableLoop | NoResponse::MarginalLoop | NoResponse::StartOverflows)
+    };
+    if let Some(reason) = reasons.into_iter().flatten().find(of_run) {
+        return vec![why(session, 0, reason)];
+    }
+    let has_load = session.throttled.setup.with(|s| !s.experiment.load_steps.is_empty());
+    if reasons == [Some(NoResponse::NoStep); 2] {
+        return vec![if has_load { tr!(lab, responses.load_alone) } else { tr!(lab, responses.sentence_still) }];
+    }
+    let of_level = |(k, m): (usize, &LoopMetrics)| match m.no_response {
+        None => of_metrics(session, k, m),
+        Some(NoResponse::NoStep) => None,
+        Some(reason) => Some(why(session, k, reason)),
+    };
+    let mut parts: Vec<String> = run.metrics.iter().enumerate().filter_map(of_level).collect();
+    if run.judged_without_noise && reasons.contains(&None) {
+        parts.push(tr!(lab, responses.without_noise));
+    }
+    if has_load || session.throttled.setup.with(|s| s.experiment.measurement.quantised) {
+        parts.push(tr!(lab, responses.disturbed));
+    }
+    parts
 }
 
 /// Most events that the sentence tells.

@@ -13,7 +13,7 @@ use super::timeline::timeline;
 use crate::controls::Switch;
 use crate::lab::Lab;
 use crate::texts::{say, tr};
-use crate::widgets::{Choice, DataTable, Figures, Row, Select, TableContent, ZoomButtons};
+use crate::widgets::{Choice, DataTable, Figure, Figures, ReasonedRow, Select, TableContent, ZoomButtons};
 use quadtank::linear::LoopStability;
 use quadtank::literature::campestrini::PublishedPlant;
 use quadtank::sim::Halt;
@@ -225,7 +225,12 @@ fn table(session: Session) -> impl IntoView {
     });
     for (k, pinned) in session.throttled.pinned.get().iter().enumerate() {
         if let Ok(Some(design)) = pinned.result.as_ref() {
-            rows.push(group(tr!(lab, relay.row_pinned, number = k + 1)));
+            let same = session.throttled.setup.with(|s| s.plant.has_same_clock(&pinned.setup.plant));
+            rows.push(group(if same {
+                tr!(lab, relay.row_pinned, number = k + 1)
+            } else {
+                tr!(lab, relay.row_pinned_other, number = k + 1)
+            }));
             rows.extend(rows_of(session, &design.response));
         }
     }
@@ -238,18 +243,26 @@ fn group(name: String) -> AnyView {
 }
 
 fn rows_of(session: Session, response: &StepResponse) -> [AnyView; 2] {
-    let style = session.lab.number_style();
-    let number = |v: Option<f64>| v.map_or_else(|| "–".to_owned(), |v| style.significant(v, 3));
-    let percent =
-        |v: Option<f64>| v.map_or_else(|| "–".to_owned(), |v| format!("{}\u{a0}%", style.fixed(100.0 * v, 1)));
+    let lab = session.lab;
+    let style = lab.number_style();
+    let number = |v: f64| style.significant(v, 3);
+    let percent = |v: f64| format!("{}\u{a0}%", style.fixed(100.0 * v, 1));
+    let or_why = |text: Option<String>, why: String| text.map_or(Figure::None(why), Figure::Shown);
     [0, 1].map(|k| {
-        let of = response.is_bounded.then(|| response.figures[k]);
-        let figures = [
-            percent(of.and_then(|of| of.overshoot)),
-            number(of.and_then(|of| of.settling_time)),
-            number(of.and_then(|of| of.peak)),
-            number(of.map(|of| of.iae)),
-        ];
-        view! { <Row class=["loop1", "loop2"][k] name=["y₁", "y₂"][k] figures /> }.into_any()
+        let of = response.figures[k];
+        let does_not_step = || tr!(lab, relay.why_no_step, number = k + 1);
+        let why_not_settled =
+            if of.overshoot.is_some() { tr!(lab, relay.why_not_settled, number = k + 1) } else { does_not_step() };
+        let figures = if response.is_bounded {
+            vec![
+                or_why(of.overshoot.map(percent), does_not_step()),
+                or_why(of.settling_time.map(number), why_not_settled),
+                or_why(of.peak.map(number), tr!(lab, relay.why_no_peak, number = k + 1)),
+                Figure::Shown(number(of.iae)),
+            ]
+        } else {
+            vec![Figure::None(tr!(lab, relay.why_unbounded)); 4]
+        };
+        view! { <ReasonedRow class=["loop1", "loop2"][k] name=["y₁", "y₂"][k] figures /> }.into_any()
     })
 }

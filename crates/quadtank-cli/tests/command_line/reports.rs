@@ -107,6 +107,11 @@ fn reports_about_the_quadruple_tank_are_what_their_schemas_say() {
         with(&first, &[("/setup/valves", json!([0.3, 0.7]))]),
         with(&first, &[("/setup/valves", json!([0.0, 0.0])), ("/setup/experiment/set_point_steps", json!([]))]),
         with(&first, &[("/setup/experiment/set_point_steps/0/size", json!(1e-10))]),
+        // On the border of stability; after the end; not at rest; noisy.
+        with(&first, &[("/setup/valves", json!([0.625, 0.375]))]),
+        with(&first, &[("/setup/experiment/set_point_steps/0/time_s", json!(4000.0))]),
+        with(&first, &[("/setup/experiment/set_point_steps/1/time_s", json!(120.0))]),
+        with(&first, &[("/setup/experiment/measurement/noise_std", json!(1e-3))]),
     ]);
     assert_reported(1, &documents);
 }
@@ -154,7 +159,9 @@ fn reports_about_model_free_control_are_what_their_schemas_say() {
     let compared = parsed(&preset(PresetId::JunqueiraA))["setup"]["controller"].clone();
     let mut with_comparison = documents[0].clone();
     with_comparison["model_free"]["compare"] = compared;
-    documents.push(with_comparison);
+    let mut noisy = with_comparison.clone();
+    noisy["model_free"]["experiment"]["measurement"]["noise_std"] = json!(1e-4);
+    documents.extend([with_comparison, noisy]);
     assert_reported(3, &documents);
 }
 

@@ -68,6 +68,8 @@ pub struct ModelFreeReport {
     pub figures: [TrackingMetrics; 2],
     /// The same of two PI loops in the same experiment; null where none are asked for.
     pub comparison: Option<[TrackingMetrics; 2]>,
+    /// Whether the figures of the responses are those of the same experiment without noise, since this one has some.
+    pub judged_without_noise: bool,
     /// What the zero dynamics foretell once both levels are held; null where they never are, while valves move, and where the
     /// linear loop is stable.
     pub predicted: Option<PredictedLossReport>,
@@ -151,6 +153,7 @@ impl From<&ModelFreeAnswer> for ModelFreeReport {
         Self {
             figures: found.figures,
             comparison: found.comparison.as_ref().map(|(_, figures)| *figures),
+            judged_without_noise: found.judged_without_noise,
             predicted: found.predicted.map(PredictedLossReport::from),
             events: found.run.trajectory.events.clone(),
         }

@@ -122,14 +122,35 @@ impl Experiment {
         times.into_iter().map(step_at).find(|step| *step != [0.0; 2])
     }
 
+    /// The same experiment measured without noise.
+    #[must_use]
+    pub fn without_noise(&self) -> Self {
+        Self { measurement: Measurement { noise_std: 0.0, ..self.measurement }, ..self.clone() }
+    }
+
+    /// When the reference of a level (index) would first step at the end of the experiment or after it (s).
+    pub fn step_after_end_s(&self, level: usize) -> Option<f64> {
+        let steps = self.set_point_steps.iter().filter(|step| step.level == level && step.size != 0.0);
+        steps.map(|step| step.time_s).filter(|&time_s| time_s >= self.duration_s).min_by(f64::total_cmp)
+    }
+
     /// When a load first changes after `time_s` (s). Loads that cancel or have no size change nothing.
     pub(super) fn next_load_s(&self, time_s: f64) -> Option<f64> {
+        self.load_changes_s().filter(|&begin| begin > time_s).min_by(f64::total_cmp)
+    }
+
+    /// When a load last changed before `time_s` (s).
+    pub(super) fn last_load_s(&self, time_s: f64) -> Option<f64> {
+        self.load_changes_s().filter(|&begin| begin < time_s).max_by(f64::total_cmp)
+    }
+
+    /// When loads change (s), those left out that cancel or have no size.
+    fn load_changes_s(&self) -> impl Iterator<Item = f64> {
         let changes_at = |begin: f64| {
             let acting = || self.load_steps.iter().filter(|step| step.time_s == begin).map(|step| step.load.change());
             acting().any(|(index, _)| net(acting().filter(|change| change.0 == index).map(|change| change.1)) != 0.0)
         };
-        let later = self.load_steps.iter().map(|step| step.time_s).filter(|&begin| begin > time_s);
-        later.filter(|&begin| changes_at(begin)).min_by(f64::total_cmp)
+        self.load_steps.iter().map(|step| step.time_s).filter(move |&begin| changes_at(begin))
     }
 }
 
@@ -199,5 +220,6 @@ mod tests {
             flow(30.0, 1, -1e-6),
         ];
         assert_eq!([0.0, 30.0, 40.0].map(|after| experiment.next_load_s(after)), [Some(30.0), Some(40.0), None]);
+        assert_eq!([30.0, 40.0, 99.0].map(|before| experiment.last_load_s(before)), [None, Some(30.0), Some(40.0)]);
     }
 }

@@ -9,7 +9,9 @@ use super::experiment::Experiment;
 use super::response::{NoResponse, Response, Settling};
 use super::trajectory::Trajectory;
 
-/// How one loop answered its first set-point step, within its window; sums over the whole run.
+/// How one loop answered its first set-point step, within one window for all figures of it, and what the whole run cost.
+///
+/// Figures of the step are those up to `other_peak`; `iae` to `saturated_s` are costs of the whole run.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct LoopMetrics {
@@ -17,7 +19,8 @@ pub struct LoopMetrics {
     pub step_time_s: Option<f64>,
     /// How long the response to that step is looked at (s): until anything else is done to the plant, or to the end.
     pub window_s: Option<f64>,
-    /// Why there are no figures of a step response; `None` where there are.
+    /// Why the figures of the step are not those of an answer to it alone; `None` where they are. A level that was not at rest has
+    /// figures that count from the step itself, and any other reason leaves none.
     pub no_response: Option<NoResponse>,
     /// From 10 % to 90 % of the step (s); `None` also when 90 % is never reached.
     pub rise_time_s: Option<f64>,
@@ -29,18 +32,20 @@ pub struct LoopMetrics {
     pub overshoot: Option<f64>,
     /// Furthest in the wrong direction, as a fraction of the step; 0 for none.
     pub undershoot: Option<f64>,
-    /// Σ |r − h| Δt (m s), Δt from row to row; with a row per sample Σ |r − h| Ts.
-    pub iae: f64,
-    /// Σ (r − h)² Δt (m² s).
-    pub ise: f64,
-    /// Σ (t − `t_step`) |r − h| Δt from the step on, or from the start where there is none (m s²).
-    pub itae: f64,
+    /// Σ |r − h| Δt within the window (m s).
+    pub window_iae: Option<f64>,
     /// Furthest that the *other* level moves, within the window of this step, from where it was when this reference
     /// stepped (m); 0 without a step.
     pub other_peak: f64,
-    /// Σ |Δu| of the controller output of this loop (V).
+    /// Σ |r − h| Δt over the whole run (m s), Δt from row to row; with a row per sample Σ |r − h| Ts.
+    pub iae: f64,
+    /// Σ (r − h)² Δt over the whole run (m² s).
+    pub ise: f64,
+    /// Σ (t − `t_step`) |r − h| Δt from the step to the end of the run, or from the start where there is none (m s²).
+    pub itae: f64,
+    /// Σ |Δu| of the controller output of this loop over the whole run (V).
     pub total_variation: f64,
-    /// How long the output of this loop was at a limit (s).
+    /// How long the output of this loop was at a limit in the whole run (s).
     pub saturated_s: f64,
 }
 
@@ -56,22 +61,43 @@ pub fn loop_metrics(
     controller: &DecentralisedPi,
     experiment: &Experiment,
 ) -> [LoopMetrics; 2] {
-    let limits = controller.pairing.by_loop(plant.controller_limits());
-    std::array::from_fn(|index| metrics_of(trajectory, experiment, controller.sampling_time_s, index, limits[index]))
+    loop_metrics_judging(trajectory, trajectory, plant, controller, experiment)
 }
 
-fn metrics_of(
+/// The same with the figures of the step from another run of the experiment, `judged`: its twin without noise, since the
+/// extremes of noise are no overshoot and its excursions no want of settling. The costs are those of `trajectory`.
+pub fn loop_metrics_judging(
+    judged: &Trajectory,
+    trajectory: &Trajectory,
+    plant: &QuadrupleTank,
+    controller: &DecentralisedPi,
+    experiment: &Experiment,
+) -> [LoopMetrics; 2] {
+    let limits = controller.pairing.by_loop(plant.controller_limits());
+    std::array::from_fn(|index| {
+        let mut metrics = figures_of_step(judged, experiment, controller.sampling_time_s, index);
+        metrics.add_up(trajectory, index, limits[index]);
+        metrics
+    })
+}
+
+fn figures_of_step(
     trajectory: &Trajectory,
     experiment: &Experiment,
     sampling_time_s: f64,
     index: usize,
-    limits: (f64, f64),
 ) -> LoopMetrics {
     let window = Response::first(trajectory, experiment, sampling_time_s, index);
     let window = window.as_ref();
-    let no_response = window.map_or(Some(NoResponse::NoStep), Response::refusal);
-    let response = window.filter(|_| no_response.is_none());
-    let mut metrics = LoopMetrics {
+    let without_step = || match experiment.step_after_end_s(index) {
+        Some(time_s) => NoResponse::StepAfterEnd { time_s },
+        None => NoResponse::NoStep,
+    };
+    let no_response = window.map_or_else(|| Some(without_step()), Response::refusal);
+    // How a level that was under way goes on is counted as well, for who asks with the reason in view.
+    let is_counted = no_response.is_none_or(|reason| matches!(reason, NoResponse::NotAtRest { .. }));
+    let response = window.filter(|_| is_counted);
+    LoopMetrics {
         step_time_s: window.map(Response::step_time),
         window_s: window.map(Response::duration),
         no_response,
@@ -80,28 +106,30 @@ fn metrics_of(
         settling_5_percent: response.map(|response| response.settling(0.05)),
         overshoot: response.map(Response::overshoot),
         undershoot: response.map(Response::undershoot),
+        window_iae: response.map(Response::iae),
         other_peak: window.map_or(0.0, Response::other_peak),
         iae: 0.0,
         ise: 0.0,
         itae: 0.0,
         total_variation: 0.0,
         saturated_s: 0.0,
-    };
-    metrics.add_up(trajectory, index, limits);
-    metrics
+    }
 }
 
 impl LoopMetrics {
-    /// The same without the figures of a step response, for a reason that holds for any step.
+    /// The same without the figures of a step response, for a reason that holds for any step. It goes before that of a level
+    /// which was not at rest, being the cause of that.
     #[must_use]
     pub fn without_response(self, reason: NoResponse) -> Self {
+        let own = self.no_response.filter(|own| !matches!(own, NoResponse::NotAtRest { .. }));
         Self {
-            no_response: self.no_response.or(Some(reason)),
+            no_response: own.or(Some(reason)),
             rise_time_s: None,
             settling_2_percent: None,
             settling_5_percent: None,
             overshoot: None,
             undershoot: None,
+            window_iae: None,
             ..self
         }
     }
@@ -258,6 +286,30 @@ mod tests {
     }
 
     #[test]
+    fn a_level_that_is_not_at_rest_is_called_so() {
+        let steps = [(1, 10.0), (0, 40.0)];
+        let figures = |away: f64, row: usize| {
+            let mut run = run(&steps, |t| 1.0 - (-t / 8.0).exp());
+            run.levels[0][row] = 0.1 + away * STEP;
+            first(&run, &experiment(&steps, vec![]))
+        };
+        let at_rest = figures(0.0, 40);
+        assert!(at_rest.no_response.is_none() && at_rest.window_iae.is_some());
+        // In the last tenth of the 30 s since the other step, further from the old reference than what counts as settled.
+        for row in [37, 40] {
+            let moving = figures(0.03, row);
+            let Some(NoResponse::NotAtRest { distance }) = moving.no_response else { panic!("{moving:?}") };
+            assert_relative_eq!(distance, 0.03 * STEP, max_relative = 1e-9);
+            assert_eq!(moving.window_s, Some(60.0));
+        }
+        for (away, row) in [(0.03, 36), (0.019, 37), (-0.019, 40)] {
+            assert_eq!(figures(away, row).no_response, None);
+        }
+        let unstable = figures(0.03, 40).without_response(NoResponse::UnstableLoop);
+        assert_eq!(unstable.no_response, Some(NoResponse::UnstableLoop));
+    }
+
+    #[test]
     fn a_level_under_way_counts_from_the_step_itself() {
         // Beyond 10 % when the reference steps, and 8 s from 90 % of it.
         let steps = [(0, 10.0)];
@@ -268,6 +320,53 @@ mod tests {
         // Beyond 90 % there is nothing left to rise.
         run.levels[0][10] = 0.1 + STEP;
         assert_eq!(first(&run, &experiment(&steps, vec![])).rise_time_s, Some(0.0));
+    }
+
+    #[test]
+    fn a_level_that_a_load_moves_is_not_at_rest() {
+        let steps = [(0, 40.0)];
+        let mut run = run(&steps, |t| 1.0 - (-t / 8.0).exp());
+        run.levels[0][38] = 0.1 + 0.5 * STEP;
+        let figures = |time_s: f64| {
+            let load = LoadStep { time_s, load: Load::PumpFlow { pump: 0, flow: 1e-6 } };
+            first(&run, &experiment(&steps, vec![load])).no_response
+        };
+        // 3.5 s and 1 s before the step.
+        assert!(matches!(figures(5.0), Some(NoResponse::NotAtRest { .. })));
+        assert_eq!(figures(30.0), None);
+    }
+
+    #[test]
+    fn a_step_after_the_end_is_called_so() {
+        for (time, is_late) in [(99.0, false), (99.5, true), (100.0, true), (250.0, true)] {
+            let metrics = first(&run(&[], |_| 0.0), &sized(&[(0, time, STEP)]));
+            assert_eq!(metrics.no_response.is_some(), is_late, "{time}");
+            assert_eq!(metrics.step_time_s.is_none(), is_late, "{time}");
+        }
+        let late = first(&run(&[], |_| 0.0), &sized(&[(0, 300.0, STEP), (0, 250.0, STEP)]));
+        assert_eq!(late.no_response, Some(NoResponse::StepAfterEnd { time_s: 250.0 }));
+    }
+
+    #[test]
+    fn the_window_bounds_its_sum_and_the_run_the_others() {
+        let steps = [(0, 10.0)];
+        let load = LoadStep { time_s: 30.25, load: Load::PumpFlow { pump: 0, flow: 1e-6 } };
+        let metrics = first(&run(&steps, |_| 0.5), &experiment(&steps, vec![load]));
+        // A whole step at first, half of one from the first second on.
+        assert_relative_eq!(metrics.window_iae.unwrap(), STEP * (1.0 + 0.5 * 19.25), max_relative = 1e-9);
+        assert_relative_eq!(metrics.iae, STEP * (1.0 + 0.5 * 89.0), max_relative = 1e-9);
+    }
+
+    #[test]
+    fn figures_of_the_step_are_those_of_the_run_that_is_judged() {
+        let steps = [(0, 10.0)];
+        let (calm, noisy) = (run(&steps, |t| 1.0 - (-t / 8.0).exp()), run(&steps, |_| 3.0));
+        let experiment = experiment(&steps, vec![]);
+        let plant = PresetId::JohanssonMinimumPhase.preset().plant;
+        let judge = |judged, run| loop_metrics_judging(judged, run, &plant, &law(), &experiment)[0];
+        let (twin, alone, both) = (judge(&calm, &calm), judge(&noisy, &noisy), judge(&calm, &noisy));
+        assert_eq!((both.overshoot, both.settling_2_percent), (Some(0.0), twin.settling_2_percent));
+        assert_eq!((both.window_iae, both.iae), (twin.window_iae, alone.iae));
     }
 
     fn sized(steps: &[(usize, f64, f64)]) -> Experiment {

@@ -25,7 +25,7 @@ pub use course::{MAX_ROWS, MAX_RUN_WORK};
 pub use experiment::{Experiment, Load, LoadStep, Measurement, SetPointStep};
 pub use held_tank::HeldTank;
 pub use linear::simulate_linear;
-pub use metrics::{LoopMetrics, loop_metrics};
+pub use metrics::{LoopMetrics, loop_metrics, loop_metrics_judging};
 pub use model_free::{ModelFreeRun, simulate_model_free, simulate_with_valves};
 pub use nonlinear::simulate;
 pub use response::{NoResponse, Settling};

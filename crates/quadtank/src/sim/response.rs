@@ -20,6 +20,11 @@ pub enum Settling {
     Never,
 }
 
+/// How far a level may be from its old reference when the new one comes (a share of the step): what counts as settled.
+pub(super) const AT_REST: f64 = 0.02;
+/// How long it has to have been there, as a share of the time since anything was done to the plant.
+pub(super) const AT_REST_FOR: f64 = 0.1;
+
 /// Why a loop has no figures of a step response.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -32,8 +37,21 @@ pub enum NoResponse {
         /// Size of the step (m).
         size: f64,
     },
+    /// Every step of the reference is at the end of the experiment or after it.
+    StepAfterEnd {
+        /// When the first of them would be (s).
+        time_s: f64,
+    },
+    /// The level was not at rest at its old reference when the new one came, so that what follows is not the answer to the step
+    /// alone.
+    NotAtRest {
+        /// How far from it (m), at the most, in the last tenth of the time since anything was done to the plant.
+        distance: f64,
+    },
     /// The linear loop is unstable: an oscillation that only limits hold has no step response.
     UnstableLoop,
+    /// The linear loop is on the border of stability, as that of a singular plant is: what it was moved by stays.
+    MarginalLoop,
     /// A tank overflows at the operating point, so the run does not begin at rest.
     StartOverflows,
 }
@@ -52,6 +70,10 @@ pub(super) struct Response<'a> {
     time: &'a [f64],
     level: &'a [f64],
     other_level: &'a [f64],
+    /// The reference of the level, which moves in the last row at the earliest.
+    reference: &'a [f64],
+    /// The level in the last tenth of the time since anything was done to the plant, up to the step.
+    approach: &'a [f64],
     /// Size of the step (m).
     step: f64,
     /// The reference before and after it (m).
@@ -76,6 +98,13 @@ impl<'a> Response<'a> {
         let slack = TIME_SLACK * sampling_time_s;
         let begin_s = trajectory.time_s[first];
         let later_steps = [0, 1].into_iter().flat_map(steps_of).filter(|later| later.row > first);
+        let earlier_steps = [0, 1].into_iter().flat_map(steps_of).filter(|earlier| earlier.row < first);
+        let moved_s = earlier_steps
+            .map(|earlier| trajectory.time_s[earlier.row])
+            .chain(experiment.last_load_s(begin_s - slack))
+            .fold(0.0, f64::max);
+        let rest_s = begin_s - AT_REST_FOR * (begin_s - moved_s);
+        let rest = trajectory.time_s.partition_point(|&time| time < rest_s - slack).min(first);
         let end_s = later_steps
             .map(|later| trajectory.time_s[later.row])
             .chain(experiment.next_load_s(begin_s + slack))
@@ -89,6 +118,8 @@ impl<'a> Response<'a> {
             time: &trajectory.time_s[first..end],
             level: &trajectory.levels[index][first..end],
             other_level: &trajectory.levels[other][first..end],
+            reference: &reference[first..end],
+            approach: &trajectory.levels[index][rest..=first],
             step,
             before: if first == 0 { after - step } else { reference[first - 1] },
             after,
@@ -98,7 +129,18 @@ impl<'a> Response<'a> {
 
     /// Why the step has no figures, where it has none.
     pub(super) fn refusal(&self) -> Option<NoResponse> {
-        (self.step.abs() <= LEAST_STEP).then_some(NoResponse::StepTooSmall { size: self.step })
+        if self.step.abs() <= LEAST_STEP {
+            return Some(NoResponse::StepTooSmall { size: self.step });
+        }
+        let distance = self.approach.iter().map(|level| (level - self.before).abs()).fold(0.0, f64::max);
+        (distance > AT_REST * self.step.abs()).then_some(NoResponse::NotAtRest { distance })
+    }
+
+    /// Σ |r − h| Δt from the step to the end of the window (m s).
+    pub(super) fn iae(&self) -> f64 {
+        let ends = self.time.iter().skip(1).copied().chain([self.end_s]).map(|time| time.min(self.end_s));
+        let errors = self.reference.iter().zip(self.level).map(|(reference, level)| (reference - level).abs());
+        self.time.iter().zip(ends).zip(errors).map(|((begin, end), error)| (end - begin).max(0.0) * error).sum()
     }
 
     /// When the reference stepped (s).
@@ -179,7 +221,8 @@ fn reference_steps(
     let steps = experiment.set_point_steps.iter().filter(|step| step.level == level);
     let mut steps: Vec<ReferenceStep> =
         steps.map(|step| ReferenceStep { row: row_of(step.time_s), size: step.size }).collect();
-    steps.retain(|step| step.row < trajectory.time_s.len());
+    // What acts at the last row shows nowhere.
+    steps.retain(|step| step.row + 1 < trajectory.time_s.len());
     steps.sort_by_key(|step| step.row);
     let at_once = steps.chunk_by(|one, next| one.row == next.row);
     at_once

@@ -4,6 +4,7 @@ use crate::control::Pairing;
 use crate::plant::QuadrupleTank;
 
 use super::experiment::LEAST_STEP;
+use super::response::{AT_REST, AT_REST_FOR, NoResponse};
 use super::trajectory::Trajectory;
 
 /// Band around the new reference that counts as settled, as a share of the step.
@@ -17,8 +18,8 @@ const SHOWN: f64 = 0.1;
 /// Samples in a row inside the band that show that a level was there, not only passed.
 const HELD: usize = 20;
 
-/// How one level followed its reference, from samples: sums over all of them, the last included; figures of the response from
-/// the last step of this reference by more than 1 nm on.
+/// How one level followed its reference, from samples: costs of the whole run, the last sample included, and figures of the
+/// response to the last step of this reference by more than 1 nm.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct TrackingMetrics {
@@ -26,10 +27,12 @@ pub struct TrackingMetrics {
     pub iae: f64,
     /// Σ (r − h)² Ts (m² s).
     pub ise: f64,
-    /// Furthest beyond the reference, as a share of the step; `None` when it never steps.
+    /// Why there are no figures of a response; `None` where there are.
+    pub no_response: Option<NoResponse>,
+    /// Furthest beyond the reference, as a share of the step.
     pub overshoot: Option<f64>,
-    /// From the step to the last time outside 2 % of it (s); `None` when it never steps, or is outside at the end or in the last
-    /// tenth of the time.
+    /// From the step to the last time outside 2 % of it (s); `None` also when it is outside at the end or in the last tenth of the
+    /// time.
     pub settling_s: Option<f64>,
     /// Σ |Δu| of the loop (V).
     pub total_variation: f64,
@@ -38,12 +41,23 @@ pub struct TrackingMetrics {
     /// When the level left 5 % of its reference for good (s), after it had been there for 20 samples; `None` when it did not, or
     /// only in the last tenth of the time since the step.
     pub lost_at_s: Option<f64>,
+    /// Whether the level is where it should be, as far as a plot of it shows; so is one that was never asked to move.
+    pub looks_settled: bool,
 }
 
 impl TrackingMetrics {
-    /// Whether the level is where it should be, as far as a plot of it shows; so is one that was never asked to move.
-    pub fn looks_settled(&self) -> bool {
-        self.lost_at_s.is_none() && (self.overshoot.is_none() || self.settling_s.is_some())
+    /// The same without the figures of a response, for a reason that holds for any step.
+    #[must_use]
+    pub fn without_response(self, reason: NoResponse) -> Self {
+        let own = self.no_response.filter(|own| !matches!(own, NoResponse::NotAtRest { .. }));
+        Self { no_response: own.or(Some(reason)), overshoot: None, settling_s: None, ..self }
+    }
+
+    /// The same with the figures of the response from another run of the experiment: its twin without noise.
+    #[must_use]
+    pub fn judged_by(self, twin: &Self) -> Self {
+        let Self { no_response, overshoot, settling_s, looks_settled, .. } = *twin;
+        Self { no_response, overshoot, settling_s, looks_settled, ..self }
     }
 }
 
@@ -83,20 +97,38 @@ impl Samples {
         let sum = |f: &dyn Fn(usize) -> f64| (0..self.time.len()).map(f).sum::<f64>();
         let limited = |k: usize| self.output[k] <= min || self.output[k] >= max;
         let step = self.last_step();
-        TrackingMetrics {
+        let lost_at_s = self.lost_at(step.map_or(0, |(first, _)| first));
+        let settling_s = step.and_then(|(first, size)| {
+            let outside = |k: &usize| error(*k).abs() > SETTLED * f64::abs(size);
+            let settled = (first..self.time.len()).rev().find(outside).map_or(first, |k| k + 1);
+            let stays = self.time.len() - settled;
+            (stays >= self.shown(first)).then(|| self.time[settled] - self.time[first])
+        });
+        let figures = TrackingMetrics {
             iae: sampling_time * sum(&|k| error(k).abs()),
             ise: sampling_time * sum(&|k| error(k).powi(2)),
             overshoot: step.map(|(first, size)| (first..self.time.len()).map(|k| -error(k) / size).fold(0.0, f64::max)),
-            settling_s: step.and_then(|(first, size)| {
-                let outside = |k: &usize| error(*k).abs() > SETTLED * f64::abs(size);
-                let settled = (first..self.time.len()).rev().find(outside).map_or(first, |k| k + 1);
-                let stays = self.time.len() - settled;
-                (stays >= self.shown(first)).then(|| self.time[settled] - self.time[first])
-            }),
+            no_response: None,
+            settling_s,
             total_variation: self.output.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum(),
             saturated_s: sampling_time * sum(&|k| f64::from(limited(k))),
-            lost_at_s: self.lost_at(step.map_or(0, |(first, _)| first)),
-        }
+            lost_at_s,
+            looks_settled: lost_at_s.is_none() && (step.is_none() || settling_s.is_some()),
+        };
+        let reason = step.map_or(Some(NoResponse::NoStep), |(first, size)| self.unrest(first, size));
+        reason.map_or(figures, |reason| figures.without_response(reason))
+    }
+
+    /// What was wrong with the level when its reference stepped by `size` (m) at sample `first`, if it was not at rest. At the start
+    /// nothing has moved it yet.
+    fn unrest(&self, first: usize, size: f64) -> Option<NoResponse> {
+        let steps = |k: &usize| (self.reference[*k] - self.reference[*k - 1]).abs() > LEAST_STEP;
+        let before = self.reference[first.checked_sub(1)?];
+        let moved = (1..first).rev().find(steps).unwrap_or(0);
+        let rest_s = self.time[first] - AT_REST_FOR * (self.time[first] - self.time[moved]);
+        let approach = (moved..=first).filter(|&k| self.time[k] >= rest_s);
+        let distance = approach.map(|k| (self.level[k] - before).abs()).fold(0.0, f64::max);
+        (distance > AT_REST * size.abs()).then_some(NoResponse::NotAtRest { distance })
     }
 
     /// Sample of the last step of the reference, and its size (m).

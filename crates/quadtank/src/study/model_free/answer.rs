@@ -1,12 +1,12 @@
 use crate::control::{
-    DecentralisedPi, ModelFree, ModelFreePoles, Pairing, continuous_model_free_poles, model_free_poles,
+    DecentralisedPi, ModelFree, ModelFreePoles, Pairing, closed_loop, continuous_model_free_poles, model_free_poles,
     smallest_model_gain, smallest_model_gain_of_integrator,
 };
 use crate::linear::{Complex, LinearError, Stability};
 use crate::plant::{OperatingPoint, PlantError, QuadrupleTank, ValveSchedule};
 use crate::sim::{
-    Experiment, ModelFreeRun, TrackingMetrics, Trajectory, ZeroDynamics, ZeroDynamicsEnd, simulate_model_free,
-    simulate_with_valves, tracking_metrics,
+    Experiment, ModelFreeRun, NoResponse, TrackingMetrics, Trajectory, ZeroDynamics, ZeroDynamicsEnd,
+    simulate_model_free, simulate_with_valves, tracking_metrics,
 };
 use crate::study::{LinearPlant, StudyError, whole};
 
@@ -75,10 +75,12 @@ pub struct PredictedLoss {
 pub struct ModelFreeAnswer {
     /// The run.
     pub run: ModelFreeRun,
-    /// How both loops did.
+    /// How both loops did. Where the linear loop is not stable, or the level was not at rest, they have no figures of a response.
     pub figures: [TrackingMetrics; 2],
     /// The same experiment with two PI loops, where one is asked for.
     pub comparison: Option<(Trajectory, [TrackingMetrics; 2])>,
+    /// Whether the figures of the responses are those of the same experiment without noise, since this one has some.
+    pub judged_without_noise: bool,
     /// What the zero dynamics say once both levels are held at their last references; `None` where they never are, while
     /// valves move, and where the linear loop is stable: it does not hold the levels at any price. Loads are not foreseen.
     pub predicted: Option<PredictedLoss>,
@@ -104,20 +106,90 @@ pub fn run_model_free(setup: &ModelFreeSetup) -> Result<ModelFreeAnswer, StudyEr
 pub fn run_analysed(setup: &ModelFreeSetup, analysis: &ModelFreeAnalysis) -> Result<ModelFreeAnswer, StudyError> {
     let (plant, start) = (setup.plant_at(0.0), setup.start()?);
     let ModelFreeSetup { valves, controller, experiment, .. } = setup;
-    let run =
-        simulate_model_free(&plant, valves, &start, controller, experiment).map_err(StudyError::at("controller"))?;
-    let run = ModelFreeRun { trajectory: whole(run.trajectory)?, ..run };
     let figures_of = |run: &Trajectory, rows: usize, pairing: Pairing| tracking_metrics(run, rows, &plant, pairing);
-    let compared = |compare: DecentralisedPi| {
-        let (run, rows) = simulate_with_valves(&plant, valves, &start, &compare, experiment);
+    let law = |experiment: &Experiment| {
+        let run = simulate_model_free(&plant, valves, &start, controller, experiment)
+            .map_err(StudyError::at("controller"))?;
+        let run = ModelFreeRun { trajectory: whole(run.trajectory)?, ..run };
+        let figures = figures_of(&run.trajectory, run.rows_per_sample, controller.pairing);
+        Ok::<_, StudyError>((run, figures))
+    };
+    let pi = |compare: &DecentralisedPi, experiment: &Experiment| {
+        let (run, rows) = simulate_with_valves(&plant, valves, &start, compare, experiment);
         let run = whole(run)?;
         let figures = figures_of(&run, rows, compare.pairing);
         Ok::<_, StudyError>((run, figures))
     };
-    let comparison = setup.compare.map(compared).transpose()?;
-    let figures = figures_of(&run.trajectory, run.rows_per_sample, controller.pairing);
+    let (run, figures) = law(experiment)?;
+    let mut comparison = setup.compare.as_ref().map(|compare| pi(compare, experiment)).transpose()?;
     let predicted = predicted_loss(setup, &plant, &run.trajectory, analysis);
-    Ok(ModelFreeAnswer { run, figures, comparison, predicted })
+    let is_noisy = experiment.measurement.noise_std > 0.0;
+    let mut judged = figures;
+    if is_noisy {
+        let calm = experiment.without_noise();
+        judged = judge(figures, law(&calm)?.1);
+        if let (Some((_, figures)), Some(compare)) = (&mut comparison, &setup.compare) {
+            *figures = judge(*figures, pi(compare, &calm)?.1);
+        }
+    }
+    let figures = with_reasons(judged, setup, stability(setup, analysis));
+    let comparison = comparison.map(|(run, figures)| {
+        (
+            run,
+            with_reasons(figures, setup, setup.compare.and_then(|compare| stability_of_pi(setup, analysis, &compare))),
+        )
+    });
+    Ok(ModelFreeAnswer { run, figures, comparison, judged_without_noise: is_noisy, predicted })
+}
+
+/// The figures of a noisy run with those of the responses from its twin without noise.
+fn judge(figures: [TrackingMetrics; 2], twin: [TrackingMetrics; 2]) -> [TrackingMetrics; 2] {
+    [0, 1].map(|level| figures[level].judged_by(&twin[level]))
+}
+
+/// The figures without those of a response where the loop is not stable, and with a step that comes too late called so.
+fn with_reasons(
+    figures: [TrackingMetrics; 2],
+    setup: &ModelFreeSetup,
+    stability: Option<Stability>,
+) -> [TrackingMetrics; 2] {
+    let of_loop = match stability {
+        Some(Stability::Unstable) => Some(NoResponse::UnstableLoop),
+        Some(Stability::Marginal) => Some(NoResponse::MarginalLoop),
+        Some(Stability::Stable) | None => None,
+    };
+    [0, 1].map(|level| {
+        let mut figures = of_loop.map_or(figures[level], |reason| figures[level].without_response(reason));
+        if let (Some(NoResponse::NoStep), Some(time_s)) =
+            (figures.no_response, setup.experiment.step_after_end_s(level))
+        {
+            figures.no_response = Some(NoResponse::StepAfterEnd { time_s });
+        }
+        figures
+    })
+}
+
+/// Whether the linear loop of the law is stable where its run ends; `None` where it is not known or valves swing for ever.
+fn stability(setup: &ModelFreeSetup, analysis: &ModelFreeAnalysis) -> Option<Stability> {
+    let poles = analysis.poles.as_ref()?.as_ref().ok()?;
+    comes_to_rest(setup).then_some(poles.stability)
+}
+
+/// The same of two PI loops.
+fn stability_of_pi(
+    setup: &ModelFreeSetup,
+    analysis: &ModelFreeAnalysis,
+    compare: &DecentralisedPi,
+) -> Option<Stability> {
+    let plant = setup.plant_at(setup.valves_rest_from_s());
+    let jacobian = plant.linearise(analysis.rest.as_ref().ok()?);
+    let closed = closed_loop(&jacobian, compare, plant.power_gain).ok()?;
+    comes_to_rest(setup).then_some(closed.stability)
+}
+
+fn comes_to_rest(setup: &ModelFreeSetup) -> bool {
+    let swings = |valve: &ValveSchedule| matches!(valve, ValveSchedule::Sine { .. }) && valve.swing() > 0.0;
+    !setup.valves.iter().any(swings)
 }
 
 fn predicted_loss(

@@ -1,5 +1,5 @@
 use crate::plant::{QuadrupleTank, ValveSchedule};
-use crate::sim::{EventKind, TrackingMetrics, Trajectory, ZeroDynamicsEnd};
+use crate::sim::{EventKind, NoResponse, TrackingMetrics, Trajectory, ZeroDynamicsEnd};
 
 use super::{ModelFreeAnalysis, ModelFreeAnswer, ModelFreeSetup};
 
@@ -91,13 +91,19 @@ impl ModelFreeVerdict {
         let error = late.map(|(error, _)| error);
         if !setup.valves.iter().all(ValveSchedule::is_constant) && within(FOLLOWED) {
             Self::Rippling { error, apart: drift(run) }
-        } else if within(SETTLED) && answer.figures.iter().all(TrackingMetrics::looks_settled) {
+        } else if within(SETTLED) && answer.figures.iter().all(is_settled) {
             Self::Settled(answer.figures.map(|figures| figures.settling_s))
         } else {
             let end_s = run.time_s.last().copied().unwrap_or(0.0);
             Self::Unsettled { error, by: loss_by(&setup.plant_at(end_s), run, end_s) }
         }
     }
+}
+
+/// Whether a level looks settled in a loop that is stable: any other leaves sooner or later.
+fn is_settled(figures: &TrackingMetrics) -> bool {
+    let stays = !matches!(figures.no_response, Some(NoResponse::UnstableLoop | NoResponse::MarginalLoop));
+    figures.looks_settled && stays
 }
 
 /// Time from the prediction on (s).

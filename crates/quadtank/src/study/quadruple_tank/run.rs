@@ -2,7 +2,7 @@ use serde::Serialize;
 
 use crate::control::closed_loop;
 use crate::linear::Stability;
-use crate::sim::{LoopMetrics, NoResponse, Trajectory, loop_metrics, simulate, simulate_linear};
+use crate::sim::{Experiment, LoopMetrics, NoResponse, Trajectory, loop_metrics_judging, simulate, simulate_linear};
 
 use super::{Prepared, Setup};
 use crate::study::{StudyError, whole};
@@ -15,6 +15,8 @@ pub struct Run {
     pub metrics: [LoopMetrics; 2],
     /// Metrics of loops 1 and 2 of the linear run.
     pub linear_metrics: [LoopMetrics; 2],
+    /// Whether the figures of the step are those of the same experiment without noise, since this one has some.
+    pub judged_without_noise: bool,
     /// The nonlinear plant.
     pub nonlinear: Trajectory,
     /// The linear model with the same controller and limits, as absolute levels.
@@ -22,8 +24,9 @@ pub struct Run {
 }
 
 /// Runs the experiment of a setup on the nonlinear plant and on its linear model. Where the sampled linear loop is
-/// unstable, the metrics carry no figures of a step response: where limits hold it, an oscillation has none. Nor do they where a tank
-/// would have to be higher than its walls at the start: such a run does not begin at rest.
+/// unstable, the metrics carry no figures of a step response: where limits hold it, an oscillation has none. Nor do they where it is
+/// on the border of stability, or where a tank would have to be higher than its walls at the start: such a run does not begin at
+/// rest. With noise the figures of the step are those of the same experiment without it.
 ///
 /// # Errors
 /// [`StudyError`] at `operating_point` when levels are given and no input holds them, at `experiment.duration_s` when the run takes
@@ -31,30 +34,44 @@ pub struct Run {
 pub fn run(setup: &Setup) -> Result<Run, StudyError> {
     let prepared = Prepared::of(setup)?;
     let closed = closed_loop(&prepared.jacobian, &setup.controller, prepared.plant.power_gain);
-    Run::of(&prepared, setup, closed.is_ok_and(|closed| closed.stability == Stability::Unstable))
+    Run::of(&prepared, setup, closed.ok().map(|closed| closed.stability))
 }
 
 impl Run {
-    /// The run of a setup that is prepared; `is_unstable` says whether its sampled linear loop is.
+    /// The run of a setup that is prepared; `stability` is that of its sampled linear loop, if it is known.
     ///
     /// # Errors
     /// As [`run`], but for the operating point.
-    pub fn of(prepared: &Prepared, setup: &Setup, is_unstable: bool) -> Result<Self, StudyError> {
+    pub fn of(prepared: &Prepared, setup: &Setup, stability: Option<Stability>) -> Result<Self, StudyError> {
         let Prepared { plant, operating_point: start, jacobian } = prepared;
         let Setup { controller, experiment, .. } = setup;
-        let nonlinear = whole(simulate(plant, start, controller, experiment))?;
-        let linear = simulate_linear(plant, start, jacobian, controller, experiment);
-        let overflows = (0..4).any(|tank| start.levels[tank] > plant.tanks[tank].height);
-        let reason = match (overflows, is_unstable) {
-            (true, _) => Some(NoResponse::StartOverflows),
-            (false, true) => Some(NoResponse::UnstableLoop),
-            (false, false) => None,
+        let runs = |experiment: &Experiment| {
+            let nonlinear = whole(simulate(plant, start, controller, experiment))?;
+            Ok::<_, StudyError>((nonlinear, simulate_linear(plant, start, jacobian, controller, experiment)))
         };
-        let metrics = |run: &Trajectory| {
-            let metrics = loop_metrics(run, plant, controller, experiment);
+        let (nonlinear, linear) = runs(experiment)?;
+        let is_noisy = experiment.measurement.noise_std > 0.0;
+        let twin = is_noisy.then(|| runs(&experiment.without_noise())).transpose()?;
+        let overflows = (0..4).any(|tank| start.levels[tank] > plant.tanks[tank].height);
+        let reason = match (overflows, stability) {
+            (true, _) => Some(NoResponse::StartOverflows),
+            (false, Some(Stability::Unstable)) => Some(NoResponse::UnstableLoop),
+            (false, Some(Stability::Marginal)) => Some(NoResponse::MarginalLoop),
+            (false, Some(Stability::Stable) | None) => None,
+        };
+        let metrics = |judged: &Trajectory, run: &Trajectory| {
+            let metrics = loop_metrics_judging(judged, run, plant, controller, experiment);
             reason.map_or(metrics, |reason| metrics.map(|metrics| metrics.without_response(reason)))
         };
-        Ok(Self { metrics: metrics(&nonlinear), linear_metrics: metrics(&linear), nonlinear, linear })
+        let (judged, judged_linear) =
+            twin.as_ref().map_or((&nonlinear, &linear), |(nonlinear, linear)| (nonlinear, linear));
+        Ok(Self {
+            metrics: metrics(judged, &nonlinear),
+            linear_metrics: metrics(judged_linear, &linear),
+            judged_without_noise: is_noisy,
+            nonlinear,
+            linear,
+        })
     }
 }
 
@@ -97,5 +114,44 @@ mod tests {
         let [first, second] = run(&setup).unwrap().metrics;
         assert_eq!((first.step_time_s, first.window_s), (Some(100.0), Some(20.0)));
         assert_eq!((second.step_time_s, second.window_s), (Some(120.0), Some(2880.0)));
+        // Level 2 still answers the first step.
+        assert!(matches!(second.no_response, Some(NoResponse::NotAtRest { .. })) && first.no_response.is_none());
+    }
+
+    #[test]
+    fn the_steps_of_published_rigs_find_their_levels_at_rest() {
+        for id in PresetId::ALL {
+            let [first, second] = run(&setup_of(id)).unwrap().metrics.map(|metrics| metrics.no_response);
+            assert_eq!(first, None, "{id:?}");
+            // Johansson's plant with the zero in the right half-plane is slower than the time between our steps.
+            let is_slow = id == PresetId::JohanssonNonMinimumPhase;
+            assert_eq!(matches!(second, Some(NoResponse::NotAtRest { .. })), is_slow, "{id:?}");
+            assert_eq!(second.is_some(), is_slow, "{id:?}");
+        }
+    }
+
+    #[test]
+    fn a_noisy_run_is_judged_by_its_twin_without_noise() {
+        let mut setup = setup_of(PresetId::CocotaMinimumPhase);
+        let calm = run(&setup).unwrap();
+        setup.experiment.measurement.noise_std = 2e-3;
+        let noisy = run(&setup).unwrap();
+        assert!(noisy.judged_without_noise && !calm.judged_without_noise);
+        let runs = [noisy.metrics, noisy.linear_metrics].into_iter().zip([calm.metrics, calm.linear_metrics]);
+        for (noisy, calm) in runs.flat_map(|(noisy, calm)| noisy.into_iter().zip(calm)) {
+            assert_eq!((noisy.settling_2_percent, noisy.overshoot), (calm.settling_2_percent, calm.overshoot));
+            assert_eq!((noisy.window_iae, noisy.other_peak), (calm.window_iae, calm.other_peak));
+            assert!(noisy.total_variation > 10.0 * calm.total_variation && noisy.iae > calm.iae);
+        }
+    }
+
+    #[test]
+    fn a_singular_plant_has_no_settling_time() {
+        let mut setup = setup_of(PresetId::JohanssonMinimumPhase);
+        setup.valves = [0.625, 0.375];
+        let singular = run(&setup).unwrap();
+        for m in singular.metrics.into_iter().chain(singular.linear_metrics) {
+            assert_eq!((m.no_response, m.settling_2_percent), (Some(NoResponse::MarginalLoop), None));
+        }
     }
 }

@@ -75,6 +75,19 @@ impl Setup {
         self.plant.rig().with_valves(self.valves)
     }
 
+    /// This setup in the experiment of `present`, so that both runs can be compared: rig, valves and controller are its own. The
+    /// operating point is that of `present` too where both have the same rig; one of another rig says nothing of this one.
+    #[must_use]
+    pub fn in_experiment_of(&self, present: &Self) -> Self {
+        let operating_point = if self.is_same_rig(present) { present.operating_point } else { self.operating_point };
+        Self { operating_point, experiment: present.experiment.clone(), ..self.clone() }
+    }
+
+    /// Whether both have the same rig, apart from its valves.
+    pub fn is_same_rig(&self, other: &Self) -> bool {
+        self.plant.rig().with_valves([0.5; 2]) == other.plant.rig().with_valves([0.5; 2])
+    }
+
     /// The equilibrium that the experiment starts from, whether or not walls and pumps allow it.
     ///
     /// # Errors

@@ -63,6 +63,15 @@ impl TuningPlant {
         }
     }
 
+    /// Whether times are in the same unit for both, as far as documents tell: published plants have a unit each.
+    pub fn has_same_clock(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Published(one), Self::Published(two)) => one == two,
+            (Self::QuadrupleTank { .. }, Self::QuadrupleTank { .. }) | (Self::Elements(_), Self::Elements(_)) => true,
+            _ => false,
+        }
+    }
+
     /// The magnitude of the quickest pole, and the longest dead time; `None` for a plant that is none.
     pub fn pace(&self) -> Option<(f64, f64)> {
         let transfer = self.transfer_matrix().ok()?;

@@ -23,7 +23,7 @@ pub struct Results {
     pub test: Arc<Result<Tested, TuningError>>,
     /// The placement with its response.
     pub design: Arc<DesignOutcome>,
-    /// The pinned sessions.
+    /// The pinned sessions with the steps of this one, see [`TuningSetup::in_experiment_of`].
     pub pinned: PinnedResults<TuningSetup, DesignOutcome>,
 }
 
@@ -47,6 +47,7 @@ impl Study for RelayTuningStudy {
             None => Arc::new(PlantStudy::of(&setup.plant)),
         };
         let known = || study.as_ref().as_ref().map_err(|&error| error);
+        let compared: Vec<TuningSetup> = pinned.iter().map(|pinned| pinned.in_experiment_of(setup)).collect();
         Results {
             setup: match last {
                 Some((last, before)) if before == setup => Arc::clone(&last.setup),
@@ -60,7 +61,7 @@ impl Study for RelayTuningStudy {
                 Some((last, _)) => Arc::clone(&last.design),
                 None => Arc::new(known().and_then(|study| study.design(setup))),
             },
-            pinned: update_pinned(pinned, last.map(|(last, _)| &last.pinned), |setup| {
+            pinned: update_pinned(&compared, last.map(|(last, _)| &last.pinned), |setup| {
                 PlantStudy::of(&setup.plant).and_then(|study| study.design(setup))
             }),
             study,
@@ -100,5 +101,30 @@ mod tests {
         assert_eq!(kept(|s| s.design.target[0] = -0.25), [true, true, false]);
         assert_eq!(kept(|s| s.response.duration = 100.0), [true, true, false]);
         assert_eq!(kept(|s| s.plant = TuningPlant::Published(PublishedPlant::ProcessTwo)), [false; 3]);
+    }
+
+    #[test]
+    fn a_pinned_session_answers_the_present_step() {
+        let pinned = [TuningSetup::default(), {
+            let plant = TuningPlant::Published(PublishedPlant::ProcessTwo);
+            TuningSetup { plant, ..TuningSetup::default() }
+        }];
+        let mut setup = pinned[0].clone();
+        setup.response.references = [0.0, 2.0];
+        setup.response.duration *= 0.5;
+        setup.design.target[0] = -0.25;
+        let found = RelayTuningStudy::update(&setup, &pinned, None).pinned;
+        for (found, pinned) in found.iter().zip(&pinned) {
+            assert_eq!((&found.setup.plant, found.setup.design), (&pinned.plant, pinned.design));
+            assert_eq!(found.setup.response.references, [0.0, 2.0]);
+            assert_eq!(*found.result, PlantStudy::of(&found.setup.plant).unwrap().design(&found.setup));
+        }
+        let durations = [0, 1].map(|k: usize| found[k].setup.response.duration);
+        // The plants have different units of time.
+        assert_eq!(durations, [setup.response.duration, pinned[1].response.duration]);
+        // A change of the controllers leaves it alone.
+        let last = RelayTuningStudy::update(&setup, &pinned, None);
+        setup.design.target[0] = -0.3;
+        assert!(Arc::ptr_eq(&RelayTuningStudy::update(&setup, &pinned, Some(&last)).pinned, &last.pinned));
     }
 }

@@ -182,6 +182,15 @@ pub struct TuningSetup {
 }
 
 impl TuningSetup {
+    /// This session with the steps of `present`, so that both responses can be compared: plant, controllers and their sampling time
+    /// are its own. The duration is that of `present` too where times are in the same unit.
+    #[must_use]
+    pub fn in_experiment_of(&self, present: &Self) -> Self {
+        let ResponseSpec { references, duration, .. } = present.response;
+        let duration = if self.plant.has_same_clock(&present.plant) { duration } else { self.response.duration };
+        Self { response: ResponseSpec { references, duration, ..self.response }, ..self.clone() }
+    }
+
     /// Importance r2 of the critical point that the design starts from.
     ///
     /// # Errors
