@@ -5,7 +5,7 @@ mod quadruple_tank;
 mod relay_tuning;
 
 use leptos::prelude::*;
-use quadtank_scenario::{Document, ScenarioError, to_json, to_link};
+use quadtank_scenario::{BenchDocument, Document, ScenarioError, to_json, to_link};
 
 use super::lab::Lab;
 use super::session::{Bench, Lock, Panel, Session};
@@ -51,7 +51,7 @@ pub struct BenchEntry {
     pub can_undo_redo: fn(Lab) -> (bool, bool),
     /// Begins again with the document that the bench has without a link.
     pub reset: fn(Lab),
-    /// Whether the document is another one than that.
+    /// Whether the document holds another experiment than that, wherever its cursor stands.
     pub is_changed: fn(Lab) -> bool,
     /// The document as a file has it.
     pub json: fn(Lab) -> Result<String, ScenarioError>,
@@ -82,7 +82,12 @@ impl BenchEntry {
             redo: |lab| session::<B>(lab).redo(),
             can_undo_redo: |lab| session::<B>(lab).can_undo_redo(),
             reset: |lab| session::<B>(lab).document.set(B::usual(lab)),
-            is_changed: |lab| session::<B>(lab).document.with_untracked(|document| *document != B::usual(lab)),
+            is_changed: |lab| {
+                let usual = B::usual(lab);
+                session::<B>(lab)
+                    .document
+                    .with_untracked(|document| document.setup() != usual.setup() || document.pinned() != usual.pinned())
+            },
             json: |lab| session::<B>(lab).document.with_untracked(to_json),
             link: |lab| session::<B>(lab).document.with_untracked(to_link),
         }

@@ -67,6 +67,7 @@ const batch = (page, dice) =>
 /** The bench as it was at the start, as far as memory goes. */
 async function reset(lab, page) {
   await page.evaluate(() => document.querySelectorAll('details[open]').forEach((e) => (e.open = false)));
+  await page.keyboard.press('Escape');
   await lab.id('view-full').click();
   if (await lab.id('unpin').isVisible()) await lab.id('unpin').click();
   await lab.id('language').selectOption('en');

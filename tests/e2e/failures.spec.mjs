@@ -134,6 +134,7 @@ test('after a trap the laboratory starts again, without the link that it stopped
   const link = await lab.id('stopped-link').inputValue();
   // The address follows what is done: the link is of before.
   await lab.type('gamma1-number', '0.45');
+  await expect.poll(() => page.url()).not.toContain(new URL(link).hash);
   await page.evaluate(() => setTimeout(() => window.trap()));
   await hasStopped(lab);
   await expect(lab.id('stopped')).toContainText('O laboratório parou');

@@ -52,7 +52,7 @@ const loadOnce = (url) =>
 export async function load({ site }) {
   progress(`${LOADS} loads at ${MBIT_PER_S} Mbit/s`);
   const server = await serve(0, { site, compress: true, headers: { 'cache-control': 'max-age=600' } });
-  const url = `http://127.0.0.1:${server.address().port}/`;
+  const url = `http://127.0.0.1:${server.address().port}/?view=full`;
   const found = [];
   try {
     // The first one brings Chromium into the memory of the machine.

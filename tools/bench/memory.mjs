@@ -24,7 +24,7 @@ export async function memory({ url }) {
   progress(`${MOVES} slider moves for the memory`);
   return inBrowser(['--disable-frame-rate-limit'], async (page, session) => {
     await page.addInitScript(catchMemory);
-    await open(page, url);
+    await open(page, `${url}?view=full`);
     const now = async () => {
       await session.send('HeapProfiler.collectGarbage');
       const { usedSize } = await session.send('Runtime.getHeapUsage');

@@ -27,7 +27,7 @@ const ROWS = [
 /** Durations of the computation of each tick in the page (ms). */
 const laboratoryTicks = (url) =>
   inBrowser([], async (page) => {
-    await open(page, url);
+    await open(page, `${url}?view=full`);
     await setSlider(page, 'gamma1', positions(2));
     await clearMeasures(page);
     await setSlider(page, 'gamma1', positions(ROUNDS.laboratory));

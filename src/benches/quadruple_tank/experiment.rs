@@ -141,6 +141,18 @@ pub fn first_step_mut(experiment: &mut Experiment, level: usize) -> &mut SetPoin
     &mut steps[place]
 }
 
+/// The same, at the time of the other level's first step where it is added, so that both answers are seen whole.
+pub fn step_beside_mut(experiment: &mut Experiment, level: usize) -> &mut SetPointStep {
+    let steps = &experiment.set_point_steps;
+    let beside = steps.iter().find(|step| step.level != level).map(|step| step.time_s);
+    let is_new = steps.iter().all(|step| step.level != level);
+    let step = first_step_mut(experiment, level);
+    if let Some(time_s) = beside.filter(|_| is_new) {
+        step.time_s = time_s;
+    }
+    step
+}
+
 /// Sizes of the first step of a level (m) that its tank can hold, where the level is at `rest` (m): the reference after the step
 /// and after all others of this level stays between bottom and wall.
 pub fn holdable(setup: &Setup, level: usize, rest: f64) -> Limits {

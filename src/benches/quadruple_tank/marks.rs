@@ -3,7 +3,7 @@
 use leptos::prelude::*;
 use leptos::svg::Svg;
 
-use super::experiment::{first_step_mut, holdable, step_size, step_time};
+use super::experiment::{holdable, step_beside_mut, step_size, step_time};
 use super::flags::locks;
 use super::rig::{TANK, TANKS, VIEW};
 use super::session::use_session;
@@ -39,7 +39,7 @@ pub fn ReferenceMark(level: usize, drawing: NodeRef<Svg>) -> impl IntoView {
         let rounded = to_metres((to_shown(wanted, unit) * grid).round() / grid, unit);
         session.edit(|s| {
             let limits = holdable(s, level, rest);
-            first_step_mut(&mut s.experiment, level).size = limits.clamp(rounded);
+            step_beside_mut(&mut s.experiment, level).size = limits.clamp(rounded);
         });
     };
     let grabbed = StoredValue::new(None::<(f64, f64)>);

@@ -60,7 +60,8 @@ fn DirectionButtons() -> impl IntoView {
         }
     };
     view! {
-        <div class="toolbar" hidden=move || !is_limited()>
+        // It keeps its place, so that the picture keeps its size.
+        <div class=move || if is_limited() { "toolbar" } else { "toolbar unseen" }>
             {button("try-easy", say!(lab, zeros.try_easy), Direction::Easy)}
             {button("try-hard", say!(lab, zeros.try_hard), Direction::Hard)}
         </div>
