@@ -16,8 +16,9 @@ use quadtank::literature::PresetId;
 use quadtank_figure::{Palette, Style};
 use quadtank_scenario::{Document, ScenarioError};
 
-/// How much larger charts are for an audience.
-const PRESENTED: f64 = 1.5;
+/// For an audience charts are so much larger as the window is wider than this (CSS px), within limits.
+const PRESENTED_AT_PX: f64 = 860.0;
+const MOST_MAGNIFIED: f64 = 2.0;
 
 /// A notice at the top of the page.
 #[derive(Clone, Debug, PartialEq)]
@@ -208,6 +209,7 @@ impl Lab {
 
     /// How much larger charts are painted than usual, with their words and lines.
     pub fn magnification(self) -> f64 {
-        if self.presents.get() { PRESENTED } else { 1.0 }
+        let width = || window().inner_width().ok().and_then(|width| width.as_f64()).unwrap_or_default();
+        if self.presents.get() { (width() / PRESENTED_AT_PX).clamp(1.0, MOST_MAGNIFIED) } else { 1.0 }
     }
 }

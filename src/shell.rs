@@ -1,5 +1,6 @@
 //! The page around the bench: header, notices, footer; and how it all starts.
 
+use gloo_timers::callback::Timeout;
 use leptos::ev;
 use leptos::html::Input;
 use leptos::prelude::*;
@@ -368,6 +369,9 @@ fn ThemeSwitch() -> impl IntoView {
     }
 }
 
+/// How long a notice stays that needs no answer (ms): it lies over the page.
+const PASSING_MS: u32 = 10_000;
+
 /// What happened to a link or a file.
 #[component]
 fn Notices() -> impl IntoView {
@@ -409,6 +413,12 @@ fn Notices() -> impl IntoView {
         Notice::NotKept => view! { <div>{tr!(lab, app.not_kept)}</div> }.into_any(),
     }
     };
+    let passing = StoredValue::new_local(None::<Timeout>);
+    Effect::new(move || {
+        let goes = matches!(lab.notice.get(), Some(Notice::Copied | Notice::Loaded(_) | Notice::ValvesOf(_)));
+        let close = move || lab.notice.set(None);
+        passing.set_value(goes.then(|| Timeout::new(PASSING_MS, close)));
+    });
     view! {
         <div role="status" aria-live="polite" class="notices">
             {move || lab.notice.get().map(|notice| {

@@ -1,3 +1,4 @@
+use leptos::html::Div;
 use leptos::prelude::*;
 
 use super::marked::marked;
@@ -21,14 +22,26 @@ pub fn Terms(
     let lab = use_lab();
     let name = Signal::derive(move || format!("{}: {}", tr!(lab, terms.title), title.get()));
     let open = RwSignal::new(false);
+    let panel = NodeRef::<Div>::new();
+    let on_toggle = move |_| {
+        open.set(true);
+        // Near the lower edge of the screen it would open out of sight.
+        request_animation_frame(move || {
+            if let Some(panel) = panel.get_untracked() {
+                let nearest = web_sys::ScrollIntoViewOptions::new();
+                nearest.set_block(web_sys::ScrollLogicalPosition::Nearest);
+                panel.scroll_into_view_with_scroll_into_view_options(&nearest);
+            }
+        });
+    };
     let list = move || {
         let language = lab.language.get();
         terms.iter().map(|text| view! { <p>{marked(&text(language))}</p> }).collect_view()
     };
     view! {
-        <details class="menu small terms" data-testid=id on:toggle=move |_| open.set(true)>
+        <details class="menu small terms" data-testid=id on:toggle=on_toggle>
             <summary aria-label=name title=name>"?"</summary>
-            <div>{move || open.get().then(list)}</div>
+            <div node_ref=panel>{move || open.get().then(list)}</div>
         </details>
     }
 }

@@ -62,6 +62,43 @@ test('the marks stop at what the tanks can hold, by keyboard too', async ({ lab,
   expect(await lab.id('mark1').getAttribute('aria-valuetext')).toBe('0.01 cm');
 });
 
+test('levels are held while the valves turn, unless it is switched off or no pumps can', async ({ lab, page }) => {
+  await page.emulateMedia({ reducedMotion: 'reduce' });
+  await lab.open('lang=en&view=explore');
+  const mark = async () => parseFloat(await lab.id('mark2').getAttribute('aria-valuetext'));
+  const rest = await mark();
+  await drag(page, lab, 'valve-handle', -60, 60);
+  expect(await mark()).toBeCloseTo(rest, 2);
+  await lab.id('hold-levels').uncheck();
+  await drag(page, lab, 'valve-handle', -10, 10);
+  expect(Math.abs((await mark()) - rest)).toBeGreaterThan(0.1);
+  // On the line itself: its own words, and nothing is ticked.
+  await lab.open('lang=en&view=explore&preset=johansson-2000-minimum-phase');
+  await lab.id('drawer-numbers').click();
+  await lab.type('gamma1-number', '0.6');
+  await lab.type('gamma2-number', '0.4');
+  await expect(lab.id('prompt-valves')).not.toHaveClass('done');
+  await expect(lab.id('whom')).toContainText('Neither way is better');
+  await lab.clean();
+});
+
+test('the lecture hall sees the four pictures at once, and Esc ends it', async ({ lab, page }) => {
+  await page.emulateMedia({ reducedMotion: 'reduce' });
+  for (const [width, height] of [[1280, 720], [960, 540], [1920, 1080]]) {
+    await page.setViewportSize({ width, height });
+    for (const [view, pictures] of [['explore', ['rig', 'levels', 'valve-map', 'whom']], ['lab', ['rig', 'responses', 'valve-plane', 'lambda-11']]]) {
+      await lab.open(`lang=en&view=${view}`);
+      await page.keyboard.press('f');
+      await lab.settle();
+      await expect(page.locator('header.top')).toBeHidden();
+      for (const name of pictures) await expect(lab.id(name), `${view} ${width}: ${name}`).toBeInViewport({ ratio: 0.99 });
+      expect(await page.evaluate(() => document.scrollingElement.scrollHeight)).toBeLessThanOrEqual(height);
+      await page.keyboard.press('Escape');
+      await expect(page.locator('header.top')).toBeVisible();
+    }
+  }
+});
+
 test('a run is drawn as time passes, and stands whole for who prefers less motion', async ({ lab, page }) => {
   await lab.open('lang=en&view=explore');
   await lab.id('replay-length').selectOption('3');
@@ -71,7 +108,14 @@ test('a run is drawn as time passes, and stands whole for who prefers less motio
   await expect(lab.id('replay')).toContainText('again', { timeout: 10_000 });
   const whole = await lab.picture('levels');
   expect(whole.ink).toBeGreaterThan(early.ink);
-  expect(await level(lab, 1)).toBeGreaterThan(low);
+  expect(await level(lab, 1)).not.toBe(low);
+  // After a change it runs again, also after it was stopped.
+  await lab.id('replay').click();
+  await lab.id('replay').click();
+  await expect(lab.id('replay')).toContainText('go on');
+  await drag(page, lab, 'mark1', 0, -20);
+  await expect(lab.id('replay')).toContainText('pause');
+  await expect(lab.id('replay')).toContainText('again', { timeout: 10_000 });
   await page.emulateMedia({ reducedMotion: 'reduce' });
   await lab.id('swap').click();
   await page.waitForTimeout(1200);

@@ -8,7 +8,7 @@ use crate::lab::{Lab, Notice};
 use crate::texts::{say, tr};
 use crate::widgets::{Choice, Select};
 use quadtank::literature::PresetId;
-use quadtank::study::quadruple_tank::{PlantSpec, setup_of};
+use quadtank::study::quadruple_tank::{PlantSpec, Setup, first_experiment, setup_of};
 use quadtank_scenario::Scenario;
 
 /// Name of a rig in the language of the laboratory.
@@ -74,6 +74,11 @@ pub fn PresetRemark() -> impl IntoView {
     view! { <p class="remark" data-testid="preset-remark">{move || remark_of(lab, id.get())}</p> }
 }
 
+/// Whether a setup is as published, or as a first visit begins with.
+fn is_published(setup: &Setup, id: PresetId) -> bool {
+    *setup == setup_of(id) || *setup == first_experiment()
+}
+
 /// The choice among all published rigs.
 #[component]
 pub fn PresetSelect() -> impl IntoView {
@@ -82,7 +87,7 @@ pub fn PresetSelect() -> impl IntoView {
     let id = chosen(session);
     // What was changed is none of the choices, so that choosing the same rig again brings it back.
     let intact =
-        Signal::derive(move || id.get().filter(|&id| session.throttled.setup.with(|setup| **setup == setup_of(id))));
+        Signal::derive(move || id.get().filter(|&id| session.throttled.setup.with(|setup| is_published(setup, id))));
     let choices = Signal::derive(move || {
         let published =
             PresetId::ALL.into_iter().map(|choice| Choice::new(Some(choice), choice.name(), name_of(lab, choice)));

@@ -40,7 +40,8 @@ impl Replay {
         };
         let setup = session.part(Clone::clone);
         Effect::new(move || {
-            setup.track();
+            // Read, not only tracked: a memo that nobody reads does not follow its sources.
+            setup.with(|_| ());
             replay.stop();
             session.own.playback.set(None);
             if !prefers_less_motion() {

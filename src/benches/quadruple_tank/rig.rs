@@ -6,7 +6,7 @@ use leptos::prelude::*;
 use super::flags::locks;
 use super::marks::ReferenceMark;
 use super::moment::{RigState, use_moment};
-use super::session::use_session;
+use super::session::{turn_valves, use_session};
 use super::valves::{STEP, on_grid};
 use crate::shown::{length_digits, to_shown, unit_name};
 use crate::texts::{say, tr};
@@ -216,7 +216,11 @@ fn Valve(index: usize) -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
     let gamma = session.part(move |s| s.valves[index]);
-    let set = move |gamma: f64| session.edit(|s| s.valves[index] = on_grid(gamma));
+    let set = move |gamma: f64| {
+        let mut valves = session.document.with_untracked(|document| document.setup.valves);
+        valves[index] = on_grid(gamma);
+        turn_valves(session, valves);
+    };
     let grabbed = StoredValue::new(0.0);
     view! {
         <Handle

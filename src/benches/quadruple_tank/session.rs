@@ -4,7 +4,10 @@ use std::sync::Arc;
 
 use leptos::prelude::*;
 use quadtank::literature::DisplayUnit;
-use quadtank::study::quadruple_tank::{Analysis, QuadrupleTankStudy, Results, Run, Setup, first_experiment, setup_of};
+use quadtank::study::quadruple_tank::{
+    Analysis, OperatingPointSpec, QuadrupleTankStudy, Results, Run, Setup, first_experiment, held_operating_point,
+    setup_of,
+};
 use quadtank::study::{PinnedResults, StudyError};
 use quadtank_scenario::Scenario;
 
@@ -47,6 +50,10 @@ pub struct Own {
     pub unit: Memo<DisplayUnit>,
     /// Where a replay of the run stands (s).
     pub playback: RwSignal<Option<f64>>,
+    /// Whether the levels at rest are held when valves are turned in Explore, instead of the pump voltages.
+    pub holds_levels: RwSignal<bool>,
+    /// The levels that are held, with the operating point that was set for them.
+    pub held: StoredValue<Option<([f64; 2], OperatingPointSpec)>>,
 }
 
 impl Bench for QuadrupleTank {
@@ -75,6 +82,8 @@ impl Bench for QuadrupleTank {
         Own {
             unit: Memo::new(move |_| document.with(|document| document.setup.plant.display_unit())),
             playback: RwSignal::new(None),
+            holds_levels: RwSignal::new(true),
+            held: StoredValue::new(None),
         }
     }
 
@@ -96,6 +105,38 @@ impl Bench for QuadrupleTank {
 
     fn cards(session: Session) -> AnyView {
         super::cards(session).into_any()
+    }
+}
+
+/// Turns the valves. Explore holds the levels meanwhile, so that an overflow is not taken for the effect of the zero.
+pub fn turn_valves(session: Session, valves: [f64; 2]) {
+    let holds = session.lab.depth.get_untracked() == Depth::Explore && session.own.holds_levels.get_untracked();
+    if !holds {
+        release_levels(session);
+    }
+    session.edit(|s| {
+        let levels = match session.own.held.get_value() {
+            Some((levels, point)) if point == s.operating_point => Some(levels),
+            _ => s.operating_point().ok().map(|point| [point.levels[0], point.levels[1]]),
+        };
+        s.valves = valves;
+        if let Some(levels) = levels.filter(|_| holds) {
+            s.operating_point = held_operating_point(s, levels);
+            session.own.held.set_value(Some((levels, s.operating_point)));
+        }
+    });
+}
+
+/// From now on the pump voltages stay that hold the levels now, if it was Explore that held these.
+pub fn release_levels(session: Session) {
+    let is_held = |s: &Setup| session.own.held.get_value().is_some_and(|(_, point)| point == s.operating_point);
+    let voltages = session.document.with_untracked(|document| {
+        let setup = &document.setup;
+        is_held(setup).then(|| setup.operating_point().ok()).flatten().map(|point| point.pump_voltage)
+    });
+    session.own.held.set_value(None);
+    if let Some(voltages) = voltages {
+        session.edit(|s| s.operating_point = OperatingPointSpec::PumpVoltage(voltages));
     }
 }
 

@@ -5,7 +5,7 @@ use leptos::prelude::*;
 
 use super::flags::locks;
 use super::preset::{chosen, name_of};
-use super::session::{Session, use_session};
+use super::session::{Session, turn_valves, use_session};
 use super::{pictures, sentences};
 use crate::lab::Notice;
 use crate::texts::{say, terms, tr};
@@ -52,12 +52,31 @@ pub fn ValveMapCard() -> impl IntoView {
     let frames = RwSignal::new(Vec::<Frame>::new());
     let picture = pictures::valve_map(session);
     view! {
-        <Card name="map" title=say!(lab, explore.valves) terms=TERMS>
+        <Card name="map" title=say!(lab, explore.valves) terms=TERMS beside=move || view! { <HoldSwitch /> }>
             <div class="chart square">
                 <ChartCanvas picture frames summary=Signal::derive(move || summary(session)) name="valve-map" />
                 <Overlay frames />
             </div>
         </Card>
+    }
+}
+
+/// What stays while valves are turned.
+#[component]
+fn HoldSwitch() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let holds = session.own.holds_levels;
+    view! {
+        <label class="check small">
+            <input
+                type="checkbox"
+                data-testid="hold-levels"
+                prop:checked=move || holds.get()
+                on:change=move |event| holds.set(event_target_checked(&event))
+            />
+            {say!(lab, explore.hold)}
+        </label>
     }
 }
 
@@ -130,7 +149,7 @@ fn PublishedPoint(id: PresetId, frames: RwSignal<Vec<Frame>>) -> impl IntoView {
     });
     let choose = move || {
         if !lab.locks(locks::VALVES) {
-            session.edit(|s| s.valves = valves);
+            turn_valves(session, valves);
             if !lab.locks(locks::PRESET) {
                 lab.notice.set(Some(Notice::ValvesOf(id)));
             }
@@ -167,7 +186,7 @@ fn SettingHandle(frames: RwSignal<Vec<Frame>>) -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
     let [gamma_1, gamma_2] = [0, 1].map(|valve| session.part(move |s| s.valves[valve]));
-    let set = move |(g1, g2): (f64, f64)| session.edit(|s| s.valves = [g1, g2].map(on_grid));
+    let set = move |(g1, g2): (f64, f64)| turn_valves(session, [g1, g2].map(on_grid));
     let spoken = move || {
         let style = lab.number_style();
         format!("γ₁ {}, γ₂ {}", style.fixed(gamma_1.get(), 2), style.fixed(gamma_2.get(), 2))

@@ -9,7 +9,7 @@ use leptos::prelude::*;
 
 use super::replay::Replay;
 use super::rig::Rig;
-use super::session::use_session;
+use super::session::{release_levels, use_session};
 use super::valves::ValveMapCard;
 use crate::texts::{say, tr};
 use crate::widgets::{Card, marked};
@@ -20,6 +20,8 @@ pub fn Explore() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
     let replay = Replay::follow(session);
+    // The cards know voltages.
+    on_cleanup(move || release_levels(session));
     view! {
         <div class="explore">
             <p class="lead">{move || marked(&tr!(lab, explore.lead))}</p>

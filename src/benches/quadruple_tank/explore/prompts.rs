@@ -8,6 +8,7 @@ use crate::texts::{say, tr};
 use crate::widgets::marked;
 use quadtank::control::Pairing;
 use quadtank::linear::Stability;
+use quadtank::sim::{EventKind, Settling};
 use quadtank::study::quadruple_tank::{Setup, ZeroSituation};
 
 /// What can be tried, in the order in which it is best tried.
@@ -24,24 +25,42 @@ enum Prompt {
 const PROMPTS: [(Prompt, &str); 3] =
     [(Prompt::Water, "prompt-water"), (Prompt::Valves, "prompt-valves"), (Prompt::Swap, "prompt-swap")];
 
+/// A side of the line γ1 + γ2 = 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Side {
+    Easy,
+    Hard,
+}
+
+impl Side {
+    /// Where the valves stand; on the line it is neither.
+    fn of(session: Session) -> Option<Self> {
+        match situation(session)? {
+            ZeroSituation::Origin | ZeroSituation::Degenerate => None,
+            situation if situation.limits_control() => Some(Self::Hard),
+            _ => Some(Self::Easy),
+        }
+    }
+}
+
 /// What a visit began with, and what tells that something was tried.
 #[derive(Clone, Debug, PartialEq)]
 struct Start {
     references: [f64; 2],
-    is_limited: bool,
+    side: Option<Side>,
     pairing: Pairing,
 }
 
 impl Start {
     fn of(session: Session) -> Self {
-        let is_limited = situation(session).is_some_and(ZeroSituation::limits_control);
-        session.throttled.setup.with(|s| Self { references: references(s), is_limited, pairing: s.controller.pairing })
+        let side = Side::of(session);
+        session.throttled.setup.with(|s| Self { references: references(s), side, pairing: s.controller.pairing })
     }
 
     fn is_done(&self, prompt: Prompt, now: &Self) -> bool {
         match prompt {
             Prompt::Water => self.references != now.references,
-            Prompt::Valves => self.is_limited != now.is_limited,
+            Prompt::Valves => now.side.is_some() && self.side != now.side,
             Prompt::Swap => self.pairing != now.pairing,
         }
     }
@@ -111,16 +130,30 @@ fn task(session: Session, prompt: Prompt) -> String {
 /// What was just discovered. It follows what happens now, so that it stays true when more is changed.
 fn discovery(session: Session, prompt: Prompt) -> String {
     let lab = session.lab;
-    let is_limited = situation(session).is_some_and(ZeroSituation::limits_control);
     let is_stable = session.throttled.with_analysis(|a| a.closed_loop.stability == Stability::Stable) == Some(true);
-    match (prompt, is_limited, is_stable) {
-        (Prompt::Water, _, true) => tr!(lab, explore.found_water),
-        (Prompt::Water, _, false) => tr!(lab, explore.found_water_not),
-        (Prompt::Valves, true, true) => tr!(lab, explore.found_hard),
-        (Prompt::Valves, true, false) => tr!(lab, explore.found_fight),
-        (Prompt::Valves, false, _) => tr!(lab, explore.found_easy),
-        (Prompt::Swap, true, true) => tr!(lab, explore.found_swap),
-        (Prompt::Swap, _, false) => tr!(lab, explore.found_swap_not),
-        (Prompt::Swap, false, true) => tr!(lab, explore.found_swap_easy),
+    match (Side::of(session), prompt, is_stable) {
+        (None, ..) => tr!(lab, explore.found_line),
+        (_, Prompt::Water, true) if arrives(session) => tr!(lab, explore.found_water),
+        (_, Prompt::Water, true) => tr!(lab, explore.found_water_slow),
+        (_, Prompt::Water, false) => tr!(lab, explore.found_water_not),
+        (Some(Side::Hard), Prompt::Valves, false) => tr!(lab, explore.found_fight),
+        (Some(Side::Easy), Prompt::Valves, _) => tr!(lab, explore.found_easy),
+        (_, Prompt::Swap, false) => tr!(lab, explore.found_swap_not),
+        (Some(Side::Hard), Prompt::Swap, true) if arrives(session) => tr!(lab, explore.found_swap),
+        (Some(Side::Hard), _, true) => tr!(lab, explore.found_hard),
+        (Some(Side::Easy), Prompt::Swap, true) => tr!(lab, explore.found_swap_easy),
     }
+}
+
+/// Whether each level that is asked to move settles where it is asked to be, without a wall or a pump at its limit.
+fn arrives(session: Session) -> bool {
+    session.throttled.run.with(|outcome| {
+        outcome.as_ref().as_ref().is_ok_and(|run| {
+            let stepped = run.metrics.iter().filter(|m| m.step_time_s.is_some());
+            let has_settled = |settling| matches!(settling, Some(Settling::After { .. }));
+            let is_stopped = |kind| matches!(kind, EventKind::Overflow { .. } | EventKind::Empty { .. });
+            stepped.clone().all(|m| m.no_response.is_none() && has_settled(m.settling_2_percent))
+                && !run.nonlinear.events.iter().any(|event| is_stopped(event.kind))
+        })
+    })
 }

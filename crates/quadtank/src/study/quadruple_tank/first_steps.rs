@@ -3,7 +3,7 @@ use crate::linear::{Stability, TransmissionZero};
 use crate::literature::PresetId;
 use crate::sim::{SetPointStep, Settling};
 
-use super::{Setup, analyse, run, setup_of};
+use super::{OperatingPointSpec, Setup, analyse, run, setup_of};
 
 /// When the first experiment steps (s).
 const FIRST_STEP_AT_S: f64 = 20.0;
@@ -72,6 +72,14 @@ pub fn calmed(setup: &Setup) -> Option<Setup> {
     None
 }
 
+/// Where a rig rests whose valves are turned while its lower levels (m) are held, as long as pumps and walls allow that; else the
+/// operating point of `setup`. Near γ1 + γ2 = 1 no pumps hold two levels of one's choice.
+pub fn held_operating_point(setup: &Setup, levels: [f64; 2]) -> OperatingPointSpec {
+    let held = Setup { operating_point: OperatingPointSpec::Levels(levels), ..setup.clone() };
+    let is_allowed = held.operating_point().is_ok_and(|point| held.plant().violations(&point).is_empty());
+    if is_allowed { held.operating_point } else { setup.operating_point }
+}
+
 /// A way to move both levels at once, seen from a zero.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
@@ -135,6 +143,18 @@ mod tests {
             assert!(closed_loop.sensitivity_peak.unwrap() <= CALM_PEAK, "{valves:?}");
             setup.controller.pairing = if right == Pairing::Diagonal { Pairing::Swapped } else { Pairing::Diagonal };
             assert_eq!(calmed(&setup), None, "{valves:?}");
+        }
+    }
+
+    #[test]
+    fn levels_are_held_as_long_as_pumps_can() {
+        let mut setup = first_experiment();
+        let levels = [0.1226, 0.1278];
+        for (valves, is_held) in [([0.7, 0.6], true), ([0.3, 0.3], true), ([0.52, 0.5], false), ([0.6, 0.4], false)] {
+            setup.valves = valves;
+            let held = held_operating_point(&setup, levels);
+            assert_eq!(held == OperatingPointSpec::Levels(levels), is_held, "{valves:?}");
+            assert_eq!(held == setup.operating_point, !is_held, "{valves:?}");
         }
     }
 

@@ -12,7 +12,7 @@ mod valve_map;
 mod zero_situation;
 
 pub use analysis::{Analysis, analyse};
-pub use first_steps::{Direction, calmed, direction_steps, first_experiment, fitted_duration_s};
+pub use first_steps::{Direction, calmed, direction_steps, first_experiment, fitted_duration_s, held_operating_point};
 pub use guaranteed_margins::GuaranteedMargins;
 pub use prepared::Prepared;
 pub use published::setup_of;
