@@ -27,7 +27,8 @@ pub fn Terms(
         open.set(true);
         // Near the lower edge of the screen it would open out of sight.
         request_animation_frame(move || {
-            if let Some(panel) = panel.get_untracked() {
+            // The card may be gone by then.
+            if let Some(panel) = panel.try_get_untracked().flatten() {
                 let nearest = web_sys::ScrollIntoViewOptions::new();
                 nearest.set_block(web_sys::ScrollLogicalPosition::Nearest);
                 panel.scroll_into_view_with_scroll_into_view_options(&nearest);

@@ -127,8 +127,12 @@ test('what a finger has to hit is large enough', async ({ lab, page }) => {
   expect(small).toEqual([]);
 });
 
-test('the screenshot of the README', async ({ lab, page }) => {
-  await lab.open('preset=johansson-2000-non-minimum-phase');
+test('the screenshots of the README', async ({ lab, page }) => {
+  const path = (name) => `${process.env.QUADTANK_SCREENSHOTS ?? 'test-results'}/${name}.png`;
+  await page.emulateMedia({ reducedMotion: 'reduce' });
+  await lab.open('lang=en&view=explore');
+  await page.screenshot({ path: path('explore') });
+  await lab.open('lang=en&view=lab&preset=johansson-2000-non-minimum-phase');
   await lab.id('pin').click();
   await lab.id('pairing-swapped').click();
   await lab.type('gain1-number', '0.3');
@@ -136,5 +140,5 @@ test('the screenshot of the README', async ({ lab, page }) => {
   await lab.type('gain2-number', '0.28');
   await lab.type('integral2-number', '160');
   expect(await lab.text('stability')).toContain('stable');
-  await page.screenshot({ path: process.env.QUADTANK_SCREENSHOT ?? 'test-results/screenshot.png', fullPage: true });
+  await page.screenshot({ path: path('lab') });
 });

@@ -46,7 +46,8 @@ fn Drawer(
     let details = NodeRef::<Details>::new();
     let seen = RwSignal::new(false);
     let open = move |_| {
-        if details.get_untracked().is_some_and(|details| details.open()) {
+        // The event comes after the click, when the drawer may be gone.
+        if details.try_get_untracked().flatten().is_some_and(|details| details.open()) {
             seen.set(true);
         }
     };

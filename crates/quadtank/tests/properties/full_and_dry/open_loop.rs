@@ -65,6 +65,12 @@ impl OpenLoop {
         simulate(&self.plant, &self.start, &self.by_hand(sampling_time_s), &self.experiment())
     }
 
+    /// The largest excursion of a level (m).
+    pub fn excursion(&self, sampling_time_s: f64) -> f64 {
+        let run = self.run(sampling_time_s);
+        run.levels.iter().flat_map(|h| h.iter().map(|level| (level - h[0]).abs())).fold(0.0, f64::max)
+    }
+
     pub fn run_with(&self, valves: &[ValveSchedule; 2], sampling_time_s: f64) -> Trajectory {
         simulate_with_valves(&self.plant, valves, &self.start, &self.by_hand(sampling_time_s), &self.experiment()).0
     }
