@@ -31,10 +31,11 @@ impl Depth {
         Self::ALL.into_iter().find(|depth| depth.name() == name)
     }
 
-    /// What a page begins with. Frames of course pages and links that were made before there was a choice show what they showed
-    /// then; a visitor gets what was chosen last, and a new one the simplest.
+    /// What a page begins with. Frames of course pages, and addresses and links that were made before there was a choice, show what
+    /// they showed then; a visitor gets what was chosen last, and a new one the simplest.
     pub fn at_start(flags: &StartFlags, has_link: bool, remembered: Option<&str>) -> Self {
-        let as_before = flags.embed || !flags.panels.is_empty() || has_link;
+        let is_prepared = !flags.panels.is_empty() || !flags.locked.is_empty() || flags.preset.is_some();
+        let as_before = flags.embed || is_prepared || has_link;
         let usual = || if as_before { Self::Full } else { remembered.and_then(Self::of_name).unwrap_or(Self::Explore) };
         flags.view.unwrap_or_else(usual)
     }
@@ -60,7 +61,9 @@ mod tests {
     fn links_and_frames_of_before_show_every_card_and_new_ones_say_which() {
         assert_eq!(at_start("", true, Some("explore")), Depth::Full);
         assert_eq!(at_start("embed=1", false, Some("lab")), Depth::Full);
-        assert_eq!(at_start("panels=valves", false, None), Depth::Full);
+        for prepared in ["panels=valves", "lock=gains", "preset=johansson-2000-minimum-phase"] {
+            assert_eq!(at_start(prepared, false, None), Depth::Full, "{prepared}");
+        }
         assert_eq!(at_start("view=lab", true, Some("full")), Depth::Lab);
         assert_eq!(at_start("embed=1&view=explore", false, None), Depth::Explore);
     }

@@ -83,7 +83,7 @@ async fn a_new_bench_is_shown_and_follows_its_document() {
     assert_eq!(page.text("sum"), "1.30");
     page.set("valve", "0.4").await;
     assert_eq!(page.text("sum"), "1.00");
-    assert_eq!(page.text("bench-gamma-sum"), "γ1 + γ2");
+    assert_eq!(page.text("bench-gamma-sum"), "γ1 + γ2The sum of the valve fractions");
 }
 
 #[wasm_bindgen_test]
