@@ -73,7 +73,7 @@ pub struct State {
     /// How much of a bench is shown at once.
     pub depth: RwSignal<Depth>,
     /// Whether the page is shown to an audience: large, and without what surrounds the bench.
-    pub presents: RwSignal<bool>,
+    presents: RwSignal<bool>,
     /// How much of a bench is shown when the page begins, which says what a bench begins with.
     pub first_depth: Depth,
     /// Whether it was said that nothing is kept.
@@ -207,9 +207,19 @@ impl Lab {
         Style { palette, decimal: self.number_style().decimal, scale: canvas::FINE }
     }
 
+    /// Whether the bench is shown to an audience. Only one with depths has a layout for that.
+    pub fn is_presenting(self) -> bool {
+        self.presents.get() && self.bench.get().has_depths
+    }
+
+    /// Begins or ends showing the bench to an audience.
+    pub fn present(self, presents: bool) {
+        self.presents.set(presents && self.bench.get_untracked().has_depths);
+    }
+
     /// How much larger charts are painted than usual, with their words and lines.
     pub fn magnification(self) -> f64 {
         let width = || window().inner_width().ok().and_then(|width| width.as_f64()).unwrap_or_default();
-        if self.presents.get() { (width() / PRESENTED_AT_PX).clamp(1.0, MOST_MAGNIFIED) } else { 1.0 }
+        if self.is_presenting() { (width() / PRESENTED_AT_PX).clamp(1.0, MOST_MAGNIFIED) } else { 1.0 }
     }
 }

@@ -15,6 +15,7 @@ mod frames;
 mod history;
 mod keep;
 mod lab;
+mod notices;
 mod session;
 mod share;
 mod shell;

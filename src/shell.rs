@@ -1,24 +1,21 @@
 //! The page around the bench: header, notices, footer; and how it all starts.
 
-use gloo_timers::callback::Timeout;
 use leptos::ev;
 use leptos::html::Input;
 use leptos::prelude::*;
 use leptos::wasm_bindgen::JsCast;
 
-use super::benches::{BENCHES, BenchEntry, load, name_of};
+use super::benches::{BENCHES, BenchEntry};
 use super::depth::Depth;
-use super::errors::of_error;
 use super::keep;
 use super::lab::{Lab, Notice, use_lab};
+use super::notices::Notices;
 use super::share;
 use super::start::StartFlags;
 use super::stopped::Stopped;
 use super::storage::{DEPTH, LANGUAGE, THEME};
 use super::texts::{Language, say, tr};
 use super::widgets::Segmented;
-use quadtank::literature::DisplayUnit;
-use quadtank_scenario::document_from_link;
 
 /// The element of the page that the laboratory fills; it holds the static outline until then.
 const ROOT: &str = "app";
@@ -47,7 +44,7 @@ pub fn Laboratory(
         let depth = if lab.bench.get().has_depths { lab.depth.get() } else { Depth::Full };
         show_on_root("data-view", depth.name());
     });
-    Effect::new(move || show_on_root("data-present", if lab.presents.get() { "yes" } else { "no" }));
+    Effect::new(move || show_on_root("data-present", if lab.is_presenting() { "yes" } else { "no" }));
     Effect::new(move || show_on_root("lang", lab.language.get().tag()));
     Effect::new(move || document().set_title(&tr!(lab, app.page_title)));
     keep::keep(lab);
@@ -64,9 +61,9 @@ pub fn Laboratory(
     let on_key = window_event_listener(ev::keydown, move |event| match event.key().as_str() {
         "Escape" => {
             close_menus(None);
-            lab.presents.set(false);
+            lab.present(false);
         }
-        "f" | "F" if is_plain(&event) => lab.presents.update(|presents| *presents = !*presents),
+        "f" | "F" if is_plain(&event) => lab.present(!untrack(|| lab.is_presenting())),
         _ => {}
     });
     on_cleanup(move || {
@@ -88,8 +85,8 @@ pub fn Laboratory(
                 type="button"
                 class="button end-presenting"
                 data-testid="end-presenting"
-                hidden=move || !lab.presents.get()
-                on:click=move |_| lab.presents.set(false)
+                hidden=move || !lab.is_presenting()
+                on:click=move |_| lab.present(false)
             >
                 {say!(lab, app.end_presenting)}
             </button>
@@ -200,7 +197,8 @@ fn Header() -> impl IntoView {
                 class="button present"
                 data-testid="present"
                 title=say!(lab, app.present_name)
-                on:click=move |_| lab.presents.set(true)
+                hidden=move || !lab.bench.get().has_depths
+                on:click=move |_| lab.present(true)
             >
                 {say!(lab, app.present)}
             </button>
@@ -367,84 +365,6 @@ fn ThemeSwitch() -> impl IntoView {
             {move || if lab.dark.get() { "☀" } else { "☾" }}
         </button>
     }
-}
-
-/// How long a notice stays that needs no answer (ms): it lies over the page.
-const PASSING_MS: u32 = 10_000;
-
-/// What happened to a link or a file.
-#[component]
-fn Notices() -> impl IntoView {
-    let lab = use_lab();
-    let content = move |notice: Notice| {
-        match notice {
-        Notice::Refused(error) => view! { <div>{tr!(lab, refused.lead)} " " {of_error(lab, DisplayUnit::Cm, &error)}</div> }.into_any(),
-        Notice::NotRead => view! { <div>{tr!(lab, refused.not_read)}</div> }.into_any(),
-        Notice::NotUnderstood(names) => view! { <div>{tr!(lab, app.not_understood, names = names.join(", "))}</div> }.into_any(),
-        Notice::Copied => view! { <div>{tr!(lab, app.copied)}</div> }.into_any(),
-        Notice::CopyByHand(link) => view! {
-            <div>
-                {tr!(lab, app.copy_by_hand)}
-                <input type="text" class="text-field" readonly data-testid="link" aria-label=tr!(lab, app.share) value=link />
-            </div>
-        }
-        .into_any(),
-        Notice::Continue(link) => view! {
-            <div>{tr!(lab, app.last)}</div>
-            <button type="button" class="button small" data-testid="continue" on:click=move |_| lab.open(document_from_link(&link))>
-                {tr!(lab, app.go_on)}
-            </button>
-        }
-        .into_any(),
-        Notice::Loaded(name) => view! {
-            <div>{tr!(lab, app.loaded, name = name)}</div>
-            <button type="button" class="button small" data-testid="undo-load" on:click=move |_| undo_load(lab)>
-                {tr!(lab, app.undo)}
-            </button>
-        }
-        .into_any(),
-        Notice::ValvesOf(id) => view! {
-            <div>{tr!(lab, valves.moved, name = name_of(lab, id))}</div>
-            <button type="button" class="button small" data-testid="load-all" on:click=move |_| load(lab.session(), id)>
-                {tr!(lab, valves.load_all)}
-            </button>
-        }
-        .into_any(),
-        Notice::NotKept => view! { <div>{tr!(lab, app.not_kept)}</div> }.into_any(),
-    }
-    };
-    let passing = StoredValue::new_local(None::<Timeout>);
-    Effect::new(move || {
-        let goes = matches!(lab.notice.get(), Some(Notice::Copied | Notice::Loaded(_) | Notice::ValvesOf(_)));
-        let close = move || lab.notice.set(None);
-        passing.set_value(goes.then(|| Timeout::new(PASSING_MS, close)));
-    });
-    view! {
-        <div role="status" aria-live="polite" class="notices">
-            {move || lab.notice.get().map(|notice| {
-                let is_bad = matches!(notice, Notice::Refused(_) | Notice::NotRead | Notice::NotUnderstood(_) | Notice::NotKept);
-                let class = if is_bad { "notice" } else { "notice good" };
-                view! {
-                    <div class=class data-testid="notice">
-                        {content(notice)}
-                        <button
-                            type="button"
-                            class="button small"
-                            aria-label=tr!(lab, app.close)
-                            on:click=move |_| lab.notice.set(None)
-                        >
-                            "✕"
-                        </button>
-                    </div>
-                }
-            })}
-        </div>
-    }
-}
-
-fn undo_load(lab: Lab) {
-    lab.notice.set(None);
-    keep::undo(lab);
 }
 
 /// In a course page: the link to the whole laboratory, which is this page without its query, with what is shown here.

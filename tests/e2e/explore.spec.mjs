@@ -99,6 +99,14 @@ test('the lecture hall sees the four pictures at once, and Esc ends it', async (
   }
 });
 
+test('a bench without a layout for the lecture hall offers none', async ({ lab, page }) => {
+  await lab.open('lang=en&bench=relay-tuning');
+  await expect(lab.id('present')).toBeHidden();
+  await page.keyboard.press('f');
+  await lab.settle();
+  await expect(page.locator('header.top')).toBeVisible();
+});
+
 test('a run is drawn as time passes, and stands whole for who prefers less motion', async ({ lab, page }) => {
   await lab.open('lang=en&view=explore');
   await lab.id('replay-length').selectOption('3');

@@ -161,7 +161,7 @@ pub fn holdable(setup: &Setup, level: usize, rest: f64) -> Limits {
         (sum + size, low.min(sum + size), high.max(sum + size))
     });
     let (min, max) = (-rest - further.1, setup.plant().tanks[level].height - rest - further.2);
-    // A rig whose level rests above its wall can still be asked for less water.
+    // Where the level at rest is above the wall, the range still reaches from a step downwards to no step.
     Limits::new(min.min(0.0), max.max(min.min(0.0)))
 }
 

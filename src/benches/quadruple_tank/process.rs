@@ -46,12 +46,7 @@ pub fn ProcessCard() -> impl IntoView {
         <Card name="process" title=say!(lab, process.title) terms=TERMS beside=|| view! { <PresetSelect /> }>
             <p class="remark moment">{remark}</p>
             <Rig />
-            <div>
-                <ParamRow session control=&GAMMA index=0 />
-                <ParamRow session control=&GAMMA index=1 />
-            </div>
-            <Situation />
-            <OperatingPoint />
+            <Settings />
         </Card>
     }
 }
@@ -62,13 +57,22 @@ pub fn SettingsCard() -> impl IntoView {
     let session = use_session();
     view! {
         <Card name="process" title=say!(session.lab, process.title) beside=|| view! { <PresetSelect /> }>
-            <div>
-                <ParamRow session control=&GAMMA index=0 />
-                <ParamRow session control=&GAMMA index=1 />
-            </div>
-            <Situation />
-            <OperatingPoint />
+            <Settings />
         </Card>
+    }
+}
+
+/// Valve sliders, the sentence under them, and the operating point.
+#[component]
+fn Settings() -> impl IntoView {
+    let session = use_session();
+    view! {
+        <div>
+            <ParamRow session control=&GAMMA index=0 />
+            <ParamRow session control=&GAMMA index=1 />
+        </div>
+        <Situation />
+        <OperatingPoint />
     }
 }
 

@@ -40,7 +40,7 @@ impl Replay {
         };
         let setup = session.part(Clone::clone);
         Effect::new(move || {
-            // Read, not only tracked: a memo that nobody reads does not follow its sources.
+            // `track` alone does not compute the memo, and a memo that was never computed does not notify.
             setup.with(|_| ());
             replay.stop();
             session.own.playback.set(None);
@@ -75,7 +75,7 @@ impl Replay {
     }
 
     fn tick(self) {
-        // A page that nobody sees need not run.
+        // The replay waits while the page is in a hidden tab.
         if document().hidden() {
             return;
         }

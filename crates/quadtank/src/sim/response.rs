@@ -50,7 +50,7 @@ pub enum NoResponse {
     },
     /// The linear loop is unstable: an oscillation that only limits hold has no step response.
     UnstableLoop,
-    /// The linear loop is on the border of stability, as that of a singular plant is: what it was moved by stays.
+    /// The linear loop has a pole on the border of stability, as every loop around a singular plant has: a deviation does not decay.
     MarginalLoop,
     /// A tank overflows at the operating point, so the run does not begin at rest.
     StartOverflows,

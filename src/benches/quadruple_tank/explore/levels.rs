@@ -55,7 +55,7 @@ fn fit_time(session: Session) {
     // What a link or the last visit brings stays as it is.
     let mut is_known = false;
     Effect::new(move || {
-        // Read, not only tracked: a memo that nobody reads does not follow its sources.
+        // `track` alone does not compute the memo, and a memo that was never computed does not notify.
         setup.with(|_| ());
         if std::mem::replace(&mut is_known, true) {
             if let Some(last) = waiting.get_value() {

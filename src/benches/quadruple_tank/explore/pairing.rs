@@ -113,7 +113,7 @@ fn sentence(session: Session, finding: Option<Finding>) -> String {
     }
 }
 
-/// λ11, with what it says.
+/// The relative gain λ11 and how to read it, or that there is none where G(0) is singular.
 fn relative_gain(session: Session) -> String {
     let lab = session.lab;
     match session.throttled.with_analysis(|a| a.linear.rga_11.ok()).flatten() {

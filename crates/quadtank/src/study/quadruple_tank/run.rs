@@ -50,8 +50,6 @@ impl Run {
             Ok::<_, StudyError>((nonlinear, simulate_linear(plant, start, jacobian, controller, experiment)))
         };
         let (nonlinear, linear) = runs(experiment)?;
-        let is_noisy = experiment.measurement.noise_std > 0.0;
-        let twin = is_noisy.then(|| runs(&experiment.without_noise())).transpose()?;
         let overflows = (0..4).any(|tank| start.levels[tank] > plant.tanks[tank].height);
         let reason = match (overflows, stability) {
             (true, _) => Some(NoResponse::StartOverflows),
@@ -59,6 +57,9 @@ impl Run {
             (false, Some(Stability::Marginal)) => Some(NoResponse::MarginalLoop),
             (false, Some(Stability::Stable) | None) => None,
         };
+        let is_noisy = experiment.measurement.noise_std > 0.0;
+        // Without figures of a step there is nothing to judge.
+        let twin = (is_noisy && reason.is_none()).then(|| runs(&experiment.without_noise())).transpose()?;
         let metrics = |judged: &Trajectory, run: &Trajectory| {
             let metrics = loop_metrics_judging(judged, run, plant, controller, experiment);
             reason.map_or(metrics, |reason| metrics.map(|metrics| metrics.without_response(reason)))

@@ -1,0 +1,90 @@
+//! Notices over the page: what happened to a link or a file, and what can be done about it.
+
+use gloo_timers::callback::Timeout;
+use leptos::prelude::*;
+use quadtank::literature::DisplayUnit;
+use quadtank_scenario::document_from_link;
+
+use super::benches::{load, name_of};
+use super::errors::of_error;
+use super::keep;
+use super::lab::{Lab, Notice, use_lab};
+use super::texts::tr;
+
+/// How long a notice stays that needs no answer (ms): it lies over the page.
+const PASSING_MS: u32 = 10_000;
+
+/// What happened to a link or a file.
+#[component]
+pub fn Notices() -> impl IntoView {
+    let lab = use_lab();
+    let content = move |notice: Notice| {
+        match notice {
+        Notice::Refused(error) => view! { <div>{tr!(lab, refused.lead)} " " {of_error(lab, DisplayUnit::Cm, &error)}</div> }.into_any(),
+        Notice::NotRead => view! { <div>{tr!(lab, refused.not_read)}</div> }.into_any(),
+        Notice::NotUnderstood(names) => view! { <div>{tr!(lab, app.not_understood, names = names.join(", "))}</div> }.into_any(),
+        Notice::Copied => view! { <div>{tr!(lab, app.copied)}</div> }.into_any(),
+        Notice::CopyByHand(link) => view! {
+            <div>
+                {tr!(lab, app.copy_by_hand)}
+                <input type="text" class="text-field" readonly data-testid="link" aria-label=tr!(lab, app.share) value=link />
+            </div>
+        }
+        .into_any(),
+        Notice::Continue(link) => view! {
+            <div>{tr!(lab, app.last)}</div>
+            <button type="button" class="button small" data-testid="continue" on:click=move |_| lab.open(document_from_link(&link))>
+                {tr!(lab, app.go_on)}
+            </button>
+        }
+        .into_any(),
+        Notice::Loaded(name) => view! {
+            <div>{tr!(lab, app.loaded, name = name)}</div>
+            <button type="button" class="button small" data-testid="undo-load" on:click=move |_| undo_load(lab)>
+                {tr!(lab, app.undo)}
+            </button>
+        }
+        .into_any(),
+        Notice::ValvesOf(id) => view! {
+            <div>{tr!(lab, valves.moved, name = name_of(lab, id))}</div>
+            <button type="button" class="button small" data-testid="load-all" on:click=move |_| load(lab.session(), id)>
+                {tr!(lab, valves.load_all)}
+            </button>
+        }
+        .into_any(),
+        Notice::NotKept => view! { <div>{tr!(lab, app.not_kept)}</div> }.into_any(),
+    }
+    };
+    let passing = StoredValue::new_local(None::<Timeout>);
+    Effect::new(move || {
+        let goes = matches!(lab.notice.get(), Some(Notice::Copied | Notice::Loaded(_) | Notice::ValvesOf(_)));
+        let close = move || lab.notice.set(None);
+        passing.set_value(goes.then(|| Timeout::new(PASSING_MS, close)));
+    });
+    view! {
+        <div role="status" aria-live="polite" class="notices">
+            {move || lab.notice.get().map(|notice| {
+                let is_bad = matches!(notice, Notice::Refused(_) | Notice::NotRead | Notice::NotUnderstood(_) | Notice::NotKept);
+                let class = if is_bad { "notice" } else { "notice good" };
+                view! {
+                    <div class=class data-testid="notice">
+                        {content(notice)}
+                        <button
+                            type="button"
+                            class="button small"
+                            aria-label=tr!(lab, app.close)
+                            on:click=move |_| lab.notice.set(None)
+                        >
+                            "✕"
+                        </button>
+                    </div>
+                }
+            })}
+        </div>
+    }
+}
+
+fn undo_load(lab: Lab) {
+    lab.notice.set(None);
+    keep::undo(lab);
+}
