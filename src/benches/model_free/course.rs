@@ -196,6 +196,7 @@ fn why(session: Session, index: usize, reason: NoResponse) -> String {
         NoResponse::UnstableLoop => tr!(lab, free.why_unstable),
         NoResponse::MarginalLoop => tr!(lab, responses.marginal),
         NoResponse::StartOverflows => tr!(lab, responses.not_at_rest),
+        NoResponse::TooLongToJudge => tr!(lab, responses.too_long_to_judge),
     }
 }
 
@@ -207,7 +208,10 @@ fn note(session: Session) -> String {
         let reasons = answer.figures.iter().enumerate().filter_map(|(k, figures)| Some((k, figures.no_response?)));
         // Others are said of the run or of the loop already.
         let said = reasons
-            .filter(|(_, reason)| matches!(reason, NoResponse::StepAfterEnd { .. } | NoResponse::NotAtRest { .. }));
+            .filter(|(_, reason)| {
+                use NoResponse::{NotAtRest, StepAfterEnd, TooLongToJudge};
+                matches!(reason, StepAfterEnd { .. } | NotAtRest { .. } | TooLongToJudge)
+            });
         judged.into_iter().chain(said.map(|(k, reason)| why(session, k, reason))).collect::<Vec<_>>()
     });
     parts.unwrap_or_default().join(" ")

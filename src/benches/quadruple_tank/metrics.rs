@@ -152,6 +152,7 @@ pub fn why(session: Session, index: usize, reason: NoResponse) -> String {
         NoResponse::UnstableLoop => tr!(lab, responses.unstable),
         NoResponse::MarginalLoop => tr!(lab, responses.marginal),
         NoResponse::StartOverflows => tr!(lab, responses.not_at_rest),
+        NoResponse::TooLongToJudge => tr!(lab, responses.too_long_to_judge),
     }
 }
 

@@ -202,7 +202,8 @@ fn of_steps(session: Session, run: &Run) -> Vec<String> {
     let reasons = run.metrics.map(|metrics| metrics.no_response);
     // What holds for the whole run is said once.
     let of_run = |reason: &NoResponse| {
-        matches!(reason, NoResponse::UnstableLoop | NoResponse::MarginalLoop | NoResponse::StartOverflows)
+        use NoResponse::{MarginalLoop, StartOverflows, TooLongToJudge, UnstableLoop};
+        matches!(reason, UnstableLoop | MarginalLoop | StartOverflows | TooLongToJudge)
     };
     if let Some(reason) = reasons.into_iter().flatten().find(of_run) {
         return vec![why(session, 0, reason)];

@@ -50,6 +50,10 @@ pub const MAX_ROWS: usize = 200_000;
 /// 20,000 samples, takes 160,000 at most; tanks that are almost dry while pumps or valves swing may ask for any number.
 pub const MAX_RUN_WORK: u64 = 200_000;
 
+/// Most work of a noisy experiment whose twin without noise is run as well, to judge its responses: beyond it the two together
+/// might take more than [`MAX_RUN_WORK`].
+pub const MAX_JUDGED_WORK: u64 = MAX_RUN_WORK / 2;
+
 /// Rows that a plot needs to look smooth: between coarse samples there are rows in between.
 const SMOOTH_ROWS: f64 = 1500.0;
 

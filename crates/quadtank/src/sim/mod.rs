@@ -21,7 +21,7 @@ mod two_loops;
 mod walls;
 mod zero_dynamics;
 
-pub use course::{MAX_ROWS, MAX_RUN_WORK};
+pub use course::{MAX_JUDGED_WORK, MAX_ROWS, MAX_RUN_WORK};
 pub use experiment::{Experiment, Load, LoadStep, Measurement, SetPointStep};
 pub use held_tank::HeldTank;
 pub use linear::simulate_linear;

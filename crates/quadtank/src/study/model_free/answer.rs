@@ -5,7 +5,7 @@ use crate::control::{
 use crate::linear::{Complex, LinearError, Stability};
 use crate::plant::{OperatingPoint, PlantError, QuadrupleTank, ValveSchedule};
 use crate::sim::{
-    Experiment, ModelFreeRun, NoResponse, TrackingMetrics, Trajectory, ZeroDynamics, ZeroDynamicsEnd,
+    Experiment, MAX_JUDGED_WORK, ModelFreeRun, NoResponse, TrackingMetrics, Trajectory, ZeroDynamics, ZeroDynamicsEnd,
     simulate_model_free, simulate_with_valves, tracking_metrics,
 };
 use crate::study::{LinearPlant, StudyError, whole};
@@ -124,8 +124,14 @@ pub fn run_analysed(setup: &ModelFreeSetup, analysis: &ModelFreeAnalysis) -> Res
     let mut comparison = setup.compare.as_ref().map(|compare| pi(compare, experiment)).transpose()?;
     let predicted = predicted_loss(setup, &plant, &run.trajectory, analysis);
     let is_noisy = experiment.measurement.noise_std > 0.0;
+    let work = run.trajectory.work + comparison.as_ref().map_or(0, |(run, _)| run.work);
     let mut judged = figures;
-    if is_noisy {
+    if is_noisy && work > MAX_JUDGED_WORK {
+        judged = figures.map(|figures| figures.without_response(NoResponse::TooLongToJudge));
+        if let Some((_, figures)) = &mut comparison {
+            *figures = figures.map(|figures| figures.without_response(NoResponse::TooLongToJudge));
+        }
+    } else if is_noisy {
         let calm = experiment.without_noise();
         judged = judge(figures, law(&calm)?.1);
         if let (Some((_, figures)), Some(compare)) = (&mut comparison, &setup.compare) {

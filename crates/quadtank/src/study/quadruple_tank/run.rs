@@ -2,7 +2,9 @@ use serde::Serialize;
 
 use crate::control::closed_loop;
 use crate::linear::Stability;
-use crate::sim::{Experiment, LoopMetrics, NoResponse, Trajectory, loop_metrics_judging, simulate, simulate_linear};
+use crate::sim::{
+    Experiment, LoopMetrics, MAX_JUDGED_WORK, NoResponse, Trajectory, loop_metrics_judging, simulate, simulate_linear,
+};
 
 use super::{Prepared, Setup};
 use crate::study::{StudyError, whole};
@@ -58,6 +60,8 @@ impl Run {
             (false, Some(Stability::Stable) | None) => None,
         };
         let is_noisy = experiment.measurement.noise_std > 0.0;
+        let is_too_long = is_noisy && nonlinear.work > MAX_JUDGED_WORK;
+        let reason = reason.or(is_too_long.then_some(NoResponse::TooLongToJudge));
         // Without figures of a step there is nothing to judge.
         let twin = (is_noisy && reason.is_none()).then(|| runs(&experiment.without_noise())).transpose()?;
         let metrics = |judged: &Trajectory, run: &Trajectory| {
@@ -69,7 +73,7 @@ impl Run {
         Ok(Self {
             metrics: metrics(judged, &nonlinear),
             linear_metrics: metrics(judged_linear, &linear),
-            judged_without_noise: is_noisy,
+            judged_without_noise: is_noisy && !is_too_long,
             nonlinear,
             linear,
         })
@@ -95,6 +99,23 @@ mod tests {
             assert_eq!((m.overshoot, m.undershoot, m.no_response), (None, None, Some(NoResponse::UnstableLoop)));
             assert!(m.iae > 0.0 && m.step_time_s.is_some());
         }
+    }
+
+    #[test]
+    fn a_noisy_run_of_much_work_is_not_run_twice() {
+        let mut setup = setup_of(PresetId::JohanssonMinimumPhase);
+        setup.experiment.measurement.noise_std = 1e-4;
+        let is_refused = |m: &LoopMetrics| m.no_response == Some(NoResponse::TooLongToJudge);
+        assert!(!run(&setup).unwrap().metrics.iter().any(is_refused));
+        setup.experiment.duration_s = 120_000.0;
+        let long = run(&setup).unwrap();
+        assert!(long.nonlinear.work > MAX_JUDGED_WORK, "{}", long.nonlinear.work);
+        assert!(!long.judged_without_noise);
+        for m in long.metrics {
+            assert!(is_refused(&m) && m.overshoot.is_none() && m.iae > 0.0, "{m:?}");
+        }
+        setup.experiment.measurement.noise_std = 0.0;
+        assert!(!run(&setup).unwrap().metrics.iter().any(is_refused));
     }
 
     #[test]
