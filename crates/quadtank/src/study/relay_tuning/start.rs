@@ -11,7 +11,7 @@ use super::{
 };
 
 /// Dead time that a rig begins with (s): without one its minimum-phase setting has no ultimate point, and relays chatter.
-const DEAD_TIME_S: f64 = 5.0;
+pub(super) const DEAD_TIME_S: f64 = 5.0;
 /// Lengths of records in critical periods, rows in a period of a test, and the period where there is none.
 const TEST_PERIODS: f64 = 25.0;
 const RESPONSE_PERIODS: f64 = 12.0;
