@@ -207,14 +207,19 @@ impl Lab {
         Style { palette, decimal: self.number_style().decimal, scale: canvas::FINE }
     }
 
-    /// Whether the bench is shown to an audience. Only one with depths has a layout for that.
+    /// How much of the bench is shown.
+    pub fn shown_depth(self) -> Depth {
+        self.bench.get().depth(self.depth.get())
+    }
+
+    /// Whether the bench is shown to an audience.
     pub fn is_presenting(self) -> bool {
-        self.presents.get() && self.bench.get().has_depths
+        self.presents.get() && self.bench.get().can_present
     }
 
     /// Begins or ends showing the bench to an audience.
     pub fn present(self, presents: bool) {
-        self.presents.set(presents && self.bench.get_untracked().has_depths);
+        self.presents.set(presents && self.bench.get_untracked().can_present);
     }
 
     /// How much larger charts are painted than usual, with their words and lines.

@@ -7,6 +7,7 @@ use leptos::prelude::*;
 use quadtank::study::Study;
 use quadtank_scenario::BenchDocument;
 
+use super::depth::Depth;
 use super::history::History;
 use super::lab::{Lab, use_lab};
 
@@ -18,8 +19,10 @@ pub trait Bench: Sized + 'static {
     const PICTURE: &'static str;
     /// Class of the element that holds its cards.
     const CLASS: &'static str;
-    /// Whether it can be shown at less than full depth.
-    const HAS_DEPTHS: bool = false;
+    /// How much of it can be shown at once: one picture to begin with, or every card.
+    const DEPTHS: &'static [Depth] = &[Depth::Full];
+    /// Whether it has a layout for an audience.
+    const CAN_PRESENT: bool = false;
     /// The cards that `panels=` can name.
     const PANELS: &'static [Panel] = &[];
     /// The groups of controls that `lock=` can name.

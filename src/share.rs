@@ -60,7 +60,8 @@ pub fn kept_reference(lab: Lab, bench: &BenchEntry) -> String {
 
 /// How much of a bench is shown, for an address; nothing for a bench that has no choice.
 fn shown(lab: Lab, bench: &BenchEntry) -> Vec<(&'static str, &'static str)> {
-    bench.has_depths.then(|| ("view", lab.depth.get_untracked().name())).into_iter().collect()
+    let has_choice = bench.depths.len() > 1;
+    has_choice.then(|| ("view", bench.depth(lab.depth.get_untracked()).name())).into_iter().collect()
 }
 
 fn search() -> String {

@@ -40,10 +40,7 @@ pub fn Laboratory(
     let lab = start(benches);
     provide_context(lab);
     Effect::new(move || show_on_root("data-theme", if lab.dark.get() { "dark" } else { "light" }));
-    Effect::new(move || {
-        let depth = if lab.bench.get().has_depths { lab.depth.get() } else { Depth::Full };
-        show_on_root("data-view", depth.name());
-    });
+    Effect::new(move || show_on_root("data-view", lab.shown_depth().name()));
     Effect::new(move || show_on_root("data-present", if lab.is_presenting() { "yes" } else { "no" }));
     Effect::new(move || show_on_root("lang", lab.language.get().tag()));
     Effect::new(move || document().set_title(&tr!(lab, app.page_title)));
@@ -197,7 +194,7 @@ fn Header() -> impl IntoView {
                 class="button present"
                 data-testid="present"
                 title=say!(lab, app.present_name)
-                hidden=move || !lab.bench.get().has_depths
+                hidden=move || !lab.bench.get().can_present
                 on:click=move |_| lab.present(true)
             >
                 {say!(lab, app.present)}
@@ -257,20 +254,24 @@ fn BenchLink(bench: &'static BenchEntry) -> impl IntoView {
 #[component]
 fn DepthSwitch() -> impl IntoView {
     let lab = use_lab();
-    let choices = vec![
-        (Depth::Explore, "view-explore", say!(lab, app.explore)),
-        (Depth::Lab, "view-lab", say!(lab, app.lab)),
-        (Depth::Full, "view-full", say!(lab, app.full)),
-    ];
-    let choose = move |depth: Depth| {
+    let name = move |depth: Depth| match depth {
+        Depth::Explore => (depth, "view-explore", say!(lab, app.explore)),
+        Depth::Lab => (depth, "view-lab", say!(lab, app.lab)),
+        Depth::Full => (depth, "view-full", say!(lab, app.full)),
+    };
+    let choose = Callback::new(move |depth: Depth| {
         lab.depth.set(depth);
         DEPTH.write(depth.name());
+    });
+    let value = Signal::derive(move || lab.shown_depth());
+    let switch = move || {
+        let depths = lab.bench.get().depths;
+        let choices = depths.iter().map(|&depth| name(depth)).collect::<Vec<_>>();
+        (depths.len() > 1).then(|| {
+            view! { <Segmented label=say!(lab, app.depth) choices value on_choose=choose disabled=false /> }
+        })
     };
-    view! {
-        <div class="depth" hidden=move || !lab.bench.get().has_depths>
-            <Segmented label=say!(lab, app.depth) choices value=lab.depth on_choose=choose disabled=false />
-        </div>
-    }
+    view! { <div class="depth">{switch}</div> }
 }
 
 /// Undo, do again, begin again.

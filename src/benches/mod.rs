@@ -7,6 +7,7 @@ mod relay_tuning;
 use leptos::prelude::*;
 use quadtank_scenario::{BenchDocument, Document, ScenarioError, to_json, to_link};
 
+use super::depth::Depth;
 use super::lab::Lab;
 use super::session::{Bench, Lock, Panel, Session};
 pub use model_free::ModelFree;
@@ -23,8 +24,10 @@ pub struct BenchEntry {
     pub id: &'static str,
     /// Class of the element that holds its cards.
     pub class: &'static str,
-    /// Whether it can be shown at less than full depth.
-    pub has_depths: bool,
+    /// How much of it can be shown at once.
+    pub depths: &'static [Depth],
+    /// Whether it has a layout for an audience.
+    pub can_present: bool,
     /// The cards that `panels=` can name.
     pub panels: &'static [Panel],
     /// The groups of controls that `lock=` can name.
@@ -65,7 +68,8 @@ impl BenchEntry {
         Self {
             id: B::ID,
             class: B::CLASS,
-            has_depths: B::HAS_DEPTHS,
+            depths: B::DEPTHS,
+            can_present: B::CAN_PRESENT,
             panels: B::PANELS,
             locks: B::LOCKS,
             title: B::title,
@@ -91,6 +95,13 @@ impl BenchEntry {
             json: |lab| session::<B>(lab).document.with_untracked(to_json),
             link: |lab| session::<B>(lab).document.with_untracked(to_link),
         }
+    }
+}
+
+impl BenchEntry {
+    /// What is shown of it where `chosen` is asked for: all of it where it has no such choice.
+    pub fn depth(&self, chosen: Depth) -> Depth {
+        if self.depths.contains(&chosen) { chosen } else { Depth::Full }
     }
 }
 

@@ -17,6 +17,9 @@ pub fn Card(
     /// Explanations of the words in it.
     #[prop(optional)]
     terms: &'static [Text],
+    /// Whether it is not shown for now.
+    #[prop(optional, into)]
+    hidden: Signal<bool>,
     /// Its content.
     children: Children,
 ) -> impl IntoView {
@@ -24,7 +27,7 @@ pub fn Card(
     let heading = format!("{name}-title");
     let labelled_by = heading.clone();
     view! {
-        <section class=format!("card {name}") aria-labelledby=labelled_by>
+        <section class=format!("card {name}") aria-labelledby=labelled_by hidden=hidden>
             <header><h2 id=heading>{title}</h2>{help}{beside.run()}</header>
             {children()}
         </section>

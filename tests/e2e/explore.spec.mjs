@@ -113,21 +113,21 @@ test('a run is drawn as time passes, and stands whole for who prefers less motio
   await expect(lab.id('replay')).toContainText('pause');
   const early = await lab.picture('levels');
   const low = await level(lab, 1);
-  await expect(lab.id('replay')).toContainText('again', { timeout: 10_000 });
+  await expect(lab.id('replay')).toContainText('play', { timeout: 10_000 });
   const whole = await lab.picture('levels');
   expect(whole.ink).toBeGreaterThan(early.ink);
   expect(await level(lab, 1)).not.toBe(low);
   // After a change it runs again, also after it was stopped.
   await lab.id('replay').click();
   await lab.id('replay').click();
-  await expect(lab.id('replay')).toContainText('go on');
+  await expect(lab.id('replay')).toContainText('play');
   await drag(page, lab, 'mark1', 0, -20);
   await expect(lab.id('replay')).toContainText('pause');
-  await expect(lab.id('replay')).toContainText('again', { timeout: 10_000 });
+  await expect(lab.id('replay')).toContainText('play', { timeout: 10_000 });
   await page.emulateMedia({ reducedMotion: 'reduce' });
   await lab.id('swap').click();
   await page.waitForTimeout(1200);
-  await expect(lab.id('replay')).toContainText('again');
+  await expect(lab.id('replay')).toContainText('play');
 });
 
 test('everything else is folded, opens in place and works', async ({ lab, page }) => {

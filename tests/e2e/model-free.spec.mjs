@@ -102,7 +102,7 @@ test('case c plays: the point moves, the zero crosses the axis, the water follow
   await lab.open(BENCH);
   await press(lab, 'free-c');
   expect(await lab.text('free-verdict')).toContain('Both levels follow, the upper tanks drift apart');
-  await lab.id('free-speed').selectOption('50');
+  await lab.id('free-play-length').selectOption('6');
   const way = await lab.id('free-way').innerHTML();
   const zeros = await lab.picture('free-pole-zero');
   await lab.id('free-play').click();
@@ -115,9 +115,9 @@ test('case c plays: the point moves, the zero crosses the axis, the water follow
       sides.add(/in the (left|right) half-plane/.exec(text)?.[1]);
       times.add(await lab.value('free-time-number'));
       drawings.add((await levels(lab)).join());
-      return lab.id('free-play').getAttribute('aria-pressed');
+      return (await lab.text('free-play')).includes('pause');
     }, { intervals: [20], timeout: 60_000 })
-    .toBe('false');
+    .toBe(false);
   expect(times.size).toBeGreaterThan(3);
   // The words follow the charts.
   await lab.settle();
@@ -326,4 +326,28 @@ test('one card, locked, in a course page', async ({ lab, page }) => {
   await expect(page.locator('.card')).toHaveCount(2);
   expect((await lab.id('free-course').boundingBox()).height).toBeGreaterThan(400);
   await lab.axe();
+});
+
+test('a first visit tries the easy side, the hard side, and waits', async ({ lab, page }) => {
+  await lab.open(`${BENCH}&view=explore&lang=en`);
+  await expect(lab.id('try-easy')).toHaveAttribute('aria-pressed', 'true');
+  expect(await lab.text('free-verdict')).toContain('All settles');
+  await expect(lab.id('free-a')).toBeHidden();
+  await lab.id('try-hard').click();
+  await lab.settle();
+  await expect(lab.id('try-hard')).toHaveAttribute('aria-pressed', 'true');
+  await lab.id('try-wait').click();
+  await lab.settle();
+  expect(await lab.text('free-verdict')).toContain('is lost at');
+  // All else opens in place.
+  for (const [drawer, inside] of [['case', 'free-c'], ['law', 'free-kp'], ['zeros', 'free-moment'], ['claims', 'claim-a']]) {
+    await lab.id(`drawer-${drawer}`).click();
+    await expect(lab.id(inside)).toBeVisible();
+  }
+  await lab.clean();
+  await lab.axe();
+  await page.keyboard.press('Control+z');
+  await lab.settle();
+  await lab.id('view-full').click();
+  await expect(lab.id('free-figures')).toBeVisible();
 });

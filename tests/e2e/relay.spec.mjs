@@ -422,3 +422,63 @@ for (const [gains, target] of [
     await lab.clean();
   });
 }
+
+test('a first visit switches the relays on and goes from step to step', async ({ lab, page }) => {
+  await lab.open(`${BENCH}&view=explore&lang=en`);
+  expect(await lab.text('test-verdict')).toContain('The relays are off');
+  for (const card of ['curve', 'placement', 'response']) await expect(page.locator(`.card.${card}`)).toBeHidden();
+  await expect(lab.id('next-step')).toBeHidden();
+  const off = await lab.picture('test');
+  await lab.id('switch-on').click();
+  await expect(lab.id('switch-on')).toBeHidden();
+  await expect(lab.id('test-play')).toContainText('pause');
+  await expect(lab.id('test-play')).toContainText('play', { timeout: 15_000 });
+  const on = await lab.picture('test');
+  expect(on.ink).toBeGreaterThan(off.ink);
+  expect(await lab.text('test-verdict')).toContain('Unimodal');
+  for (const card of ['curve', 'placement', 'response']) {
+    await lab.id('next-step').click();
+    await expect(page.locator(`.card.${card}`)).toBeVisible();
+  }
+  await expect(lab.id('next-step')).toBeHidden();
+  await lab.clean();
+  await lab.axe();
+});
+
+test('what is wrong ends with a button that mends it', async ({ lab }) => {
+  await lab.open(`${BENCH}&lang=en`);
+  // An unstable placement.
+  await lab.type('target-re', '-1.4');
+  expect(await lab.text('placement-verdict')).toContain('Unstable');
+  await expect(lab.id('mend-response')).toBeVisible();
+  await lab.id('mend-placement').click();
+  await lab.settle();
+  expect(await lab.text('placement-verdict')).toContain('Stable');
+  await expect(lab.id('mend-placement')).toHaveCount(0);
+  // A rig without dead time.
+  await choose(lab, 'plant', 'johansson-2000-minimum-phase');
+  await lab.type('rig-dead-time', '0');
+  expect(await lab.text('test-verdict')).toContain('Chattering');
+  await lab.id('mend-hysteresis').click();
+  await lab.settle();
+  expect(await lab.text('test-verdict')).not.toContain('Chattering');
+  expect(await lab.value('test-hysteresis1')).toBeGreaterThan(0);
+  await lab.type('test-hysteresis1', '0');
+  await lab.type('test-hysteresis2', '0');
+  await lab.id('mend-test').click();
+  await lab.settle();
+  expect(await lab.value('rig-dead-time')).toBe(5);
+});
+
+test('the nonlinear rig keeps dead time and lag for the way back', async ({ lab }) => {
+  await lab.open(`${BENCH}&lang=en`);
+  await choose(lab, 'plant', 'johansson-2000-minimum-phase');
+  await lab.type('rig-dead-time', '7');
+  await lab.type('rig-lag', '3');
+  await lab.id('rig-nonlinear').click();
+  await lab.settle();
+  expect([await lab.value('rig-dead-time'), await lab.value('rig-lag')]).toEqual([0, 0]);
+  await lab.id('rig-linear').click();
+  await lab.settle();
+  expect([await lab.value('rig-dead-time'), await lab.value('rig-lag')]).toEqual([7, 3]);
+});

@@ -191,8 +191,12 @@ test('a pinned run stays to compare with, and its metrics too', async ({ lab, pa
   await expect(lab.id('metrics').locator('tbody tr')).toHaveCount(4);
   const both = await lab.picture('responses');
   expect(both.hash).not.toBe(alone.hash);
-  for (let k = 0; k < 4; k += 1) await lab.id('pin').click();
-  await expect(lab.id('metrics').locator('tbody tr')).toHaveCount(8);
+  for (let k = 0; k < 7; k += 1) await lab.id('pin').click();
+  await expect(lab.id('metrics').locator('tbody tr')).toHaveCount(18);
+  await expect(lab.id('pin')).toBeDisabled();
+  await lab.id('pinned-8-remove').click();
+  await expect(lab.id('pin')).toBeEnabled();
+  await expect(lab.id('metrics').locator('tbody tr')).toHaveCount(16);
   await lab.id('unpin').click();
   await expect(lab.id('metrics').locator('tbody tr')).toHaveCount(2);
   await lab.id('linear').click();
@@ -202,9 +206,36 @@ test('a pinned run stays to compare with, and its metrics too', async ({ lab, pa
   await lab.clean();
 });
 
+test('a pinned run says what it has of its own and is taken up again in the present experiment', async ({ lab }) => {
+  await lab.open('lang=en');
+  await lab.id('pin').click();
+  await lab.type('gain1-number', '6');
+  await lab.type('gamma1-number', '0.75');
+  await lab.type('step1-number', '0.9');
+  expect(await lab.text('pinned-1')).toMatch(/^1 K₁ 3\.00 · 30\.0 s · K₂ 2\.70 · 40\.0 s · γ 0\.70; 0\.60$/);
+  const changed = await lab.picture('responses');
+  await lab.id('pinned-1-restore').click();
+  await lab.settle();
+  expect([await lab.value('gain1-number'), await lab.value('gamma1-number')]).toEqual([3, 0.7]);
+  expect(await lab.value('step1-number')).toBe(0.9);
+  expect((await lab.picture('responses')).hash).not.toBe(changed.hash);
+  await lab.id('pinned-1-remove').click();
+  await expect(lab.id('pinned-1')).toHaveCount(0);
+  await lab.axe();
+});
+
+test('a controller against the advice can be exchanged for the advised pairing', async ({ lab }) => {
+  await lab.open('preset=johansson-2000-non-minimum-phase&lang=en');
+  await lab.id('try-advised').click();
+  await lab.settle();
+  await expect(lab.id('pairing-swapped')).toHaveAttribute('aria-pressed', 'true');
+  await expect(lab.id('try-advised')).toBeHidden();
+  expect(await lab.text('stability')).toContain('Closed loop stable');
+});
+
 test('the run plays on the drawing and pauses', async ({ lab }) => {
   await lab.open();
-  await lab.id('speed').selectOption('100');
+  await lab.id('play-length').selectOption('12');
   await lab.id('play').click();
   await expect(lab.id('readout')).toBeVisible();
   const first = await lab.text('readout');

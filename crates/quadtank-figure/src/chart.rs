@@ -99,7 +99,7 @@ impl Layer<'_> {
 
     /// Whether it stays while other things move: shades, and what was.
     pub(super) fn is_ground(&self) -> bool {
-        self.is_shade() || matches!(self, Self::Line(Series { pen: Pen::Faded, .. }))
+        self.is_shade() || matches!(self, Self::Line(Series { pen: Pen::Faded | Pen::Pinned(_), .. }))
     }
 
     /// The same with columns of its own, if it is of the ground.
@@ -148,12 +148,38 @@ pub enum Pen {
     Dotted,
     /// What is wanted: references; and limits.
     Dashed,
-    /// What was: a pinned run.
+    /// What it is compared with.
     Faded,
+    /// A pinned run, by its place among them: as pale as what it is compared with, and each with dashes of its own.
+    Pinned(u8),
     /// A thin line that only guides the eye.
     Hair,
     /// The path of a mark: broad and pale.
     Trail,
+}
+
+/// Lengths drawn and left out of the dashes of pinned runs (CSS px); the first is whole.
+const PINNED_DASHES: [Option<(f64, f64)>; 8] = [
+    None,
+    Some((12.0, 3.0)),
+    Some((6.0, 6.0)),
+    Some((2.0, 4.0)),
+    Some((18.0, 6.0)),
+    Some((9.0, 2.0)),
+    Some((4.0, 8.0)),
+    Some((12.0, 9.0)),
+];
+
+impl Pen {
+    /// Lengths drawn and left out (CSS px); `None` for a whole line.
+    pub fn dash(self) -> Option<(f64, f64)> {
+        match self {
+            Self::Dotted => Some((1.8, 2.7)),
+            Self::Dashed => Some((5.0, 3.5)),
+            Self::Pinned(place) => PINNED_DASHES[usize::from(place) % PINNED_DASHES.len()],
+            Self::Solid | Self::Faded | Self::Hair | Self::Trail => None,
+        }
+    }
 }
 
 /// How a curve goes from one point to the next.

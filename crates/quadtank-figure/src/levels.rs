@@ -1,11 +1,11 @@
 use super::axis::Axis;
-use super::chart::{Anchor, Chart, Course, Label, Layer, Pen, Role, Series};
+use super::chart::{Chart, Course, Layer, Pen, Role, Series};
+use super::ends::{Ends, names};
+use super::flag::{Flag, flags};
 use super::responses::{RunColumns, extent, join};
 
 /// Room above and below the curves, as a share of their range: enough for the words at them.
 const ROOM: f64 = 0.08;
-/// Distance of a word from its curve (CSS px).
-const BESIDE: f64 = 12.0;
 
 /// Levels as they happen: the curves of a run up to a time, with their names at them.
 #[derive(Clone, Debug)]
@@ -16,8 +16,8 @@ pub struct Levels<'a> {
     pub references: [&'a [f64]; 2],
     /// The curves are drawn up to this time (s); all of them if `None`.
     pub until_s: Option<f64>,
-    /// When a level has settled (s), and the word for that.
-    pub settled: [Option<(f64, String)>; 2],
+    /// What happened when; shown once it is drawn.
+    pub flags: &'a [Flag],
     /// Levels are shown in metres times this: 100 for centimetres.
     pub level_scale: f64,
     /// The least range of levels (m).
@@ -55,46 +55,18 @@ pub fn levels<'a>(spec: &Levels<'a>) -> Chart<'a> {
         let reference = (spec.references[index], spec.reference_names[index]);
         chart.layers.push(line(reference.0, usize::MAX, reference.1, Pen::Dashed, Course::Held));
         chart.layers.push(line(spec.run.levels[index], shown, spec.names[index], Pen::Solid, Course::Straight));
-        chart.layers.extend(settled(spec, index));
-        chart.layers.extend(name_at(spec, index, time));
     }
+    let RunColumns { time_s, levels, .. } = spec.run;
+    chart.layers.extend(names(&Ends {
+        x: time_s,
+        y: levels,
+        scale: spec.level_scale,
+        names: spec.names,
+        window: None,
+    }));
+    let until = spec.until_s.map_or(time.1, |until| until.min(time.1));
+    chart.layers.extend(flags(spec.flags, low * spec.level_scale, (time.0, until)));
     chart
-}
-
-/// The name of a level, at the end of its curve: above that of the higher level, below that of the lower one.
-fn name_at<'a>(spec: &Levels<'a>, index: usize, (_, end): (f64, f64)) -> Option<Layer<'a>> {
-    let [level, other] = [index, 1 - index].map(|k| spec.run.levels[k].last().copied().filter(|h| h.is_finite()));
-    let is_higher = level? > other? || (level == other && index == 0);
-    Some(Layer::Label(Label {
-        at: (end, level? * spec.level_scale),
-        offset: (-6.0, if is_higher { -BESIDE } else { BESIDE }),
-        anchor: Anchor::Right,
-        text: spec.names[index].to_owned(),
-        role: Role::of_loop(index),
-        bold: true,
-    }))
-}
-
-/// An upright line where a level has settled, once that is drawn, with its word at the foot.
-fn settled<'a>(spec: &Levels<'a>, index: usize) -> Vec<Layer<'a>> {
-    let Some((time_s, text)) = &spec.settled[index] else { return Vec::new() };
-    if spec.until_s.is_some_and(|until| until < *time_s) {
-        return Vec::new();
-    }
-    let role = Role::of_loop(index);
-    let foot = [spec.run.levels[0], spec.run.levels[1], spec.references[0], spec.references[1]];
-    let low = foot.into_iter().filter_map(extent).map(|(low, _)| low).reduce(f64::min).unwrap_or_default();
-    vec![
-        Layer::Upright { x: *time_s, role, pen: Pen::Hair },
-        Layer::Label(Label {
-            at: (*time_s, low * spec.level_scale),
-            offset: (6.0, if index == 0 { 0.0 } else { -2.0 * BESIDE }),
-            anchor: Anchor::Left,
-            text: text.clone(),
-            role,
-            bold: false,
-        }),
-    ]
 }
 
 #[cfg(test)]
@@ -104,12 +76,12 @@ mod tests {
     const TIME: [f64; 5] = [0.0, 1.0, 2.0, 3.0, 4.0];
     const LEVELS: [[f64; 5]; 2] = [[0.10, 0.11, 0.12, 0.12, 0.12], [0.13, 0.13, 0.13, 0.13, 0.13]];
 
-    fn spec(until_s: Option<f64>) -> Levels<'static> {
+    fn spec(flags: &[Flag], until_s: Option<f64>) -> Levels<'_> {
         Levels {
             run: RunColumns { time_s: &TIME, levels: [&LEVELS[0], &LEVELS[1]], voltages: [&TIME, &TIME] },
             references: [&LEVELS[0], &LEVELS[1]],
             until_s,
-            settled: [Some((2.5, "settled".to_owned())), None],
+            flags,
             level_scale: 100.0,
             least_range: 0.01,
             held_levels: None,
@@ -134,7 +106,7 @@ mod tests {
 
     #[test]
     fn curves_end_at_the_time_and_axes_do_not_move() {
-        let (whole, part) = (levels(&spec(None)), levels(&spec(Some(2.0))));
+        let (whole, part) = (levels(&spec(&[], None)), levels(&spec(&[], Some(2.0))));
         assert_eq!(solid_lengths(&whole), [5, 5]);
         assert_eq!(solid_lengths(&part), [3, 3]);
         assert_eq!((whole.x.range, whole.y.range), (part.x.range, part.y.range));
@@ -142,13 +114,14 @@ mod tests {
 
     #[test]
     fn a_level_is_said_to_have_settled_once_it_has() {
-        assert!(has_settled(&levels(&spec(None))) && has_settled(&levels(&spec(Some(3.0)))));
-        assert!(!has_settled(&levels(&spec(Some(2.0)))));
+        let flags = [Flag { time_s: 2.5, text: "settled".to_owned(), role: Role::Loop1 }];
+        assert!(has_settled(&levels(&spec(&flags, None))) && has_settled(&levels(&spec(&flags, Some(3.0)))));
+        assert!(!has_settled(&levels(&spec(&flags, Some(2.0)))));
     }
 
     #[test]
     fn names_stand_at_their_curves_the_higher_one_above() {
-        let chart = levels(&spec(None));
+        let chart = levels(&spec(&[], None));
         let labels = chart.layers.iter().filter_map(|layer| match layer {
             Layer::Label(label) if label.bold => Some((label.at.1, label.offset.1 < 0.0)),
             _ => None,

@@ -16,7 +16,9 @@
 
 mod axis;
 mod chart;
+mod ends;
 mod field;
+mod flag;
 mod frame;
 mod legend;
 mod levels;
@@ -36,6 +38,7 @@ mod valve_plane;
 
 pub use axis::{Axis, Tick};
 pub use chart::{Anchor, Chart, Course, Entry, Field, Label, Layer, Marker, Pen, Role, Sample, Series, Shape};
+pub use flag::Flag;
 pub use frame::{Frame, Rect, Size, layout};
 pub use levels::{Levels, levels};
 pub use model_free::{ModelFreeCourse, ModelFreeTexts, model_free_course};

@@ -94,7 +94,7 @@ fn width(pen: Pen) -> f64 {
     match pen {
         Pen::Solid => 2.0,
         Pen::Dotted => 1.8,
-        Pen::Dashed | Pen::Faded => 1.3,
+        Pen::Dashed | Pen::Faded | Pen::Pinned(_) => 1.3,
         Pen::Hair => 1.0,
         Pen::Trail => 5.0,
     }
@@ -105,15 +105,6 @@ fn width(pen: Pen) -> f64 {
 const FINE_WIDTH: f64 = 1.0;
 /// Corners for each px of the plot from which on a line is that fine.
 const DENSE: f64 = 0.8;
-
-/// Lengths drawn and left out (CSS px).
-fn dash(pen: Pen) -> Option<(f64, f64)> {
-    match pen {
-        Pen::Dotted => Some((1.8, 2.7)),
-        Pen::Dashed => Some((5.0, 3.5)),
-        Pen::Solid | Pen::Faded | Pen::Hair | Pen::Trail => None,
-    }
-}
 
 /// Paints the things of one chart, given in CSS px.
 struct Brush<'a> {
@@ -187,7 +178,7 @@ impl Brush<'_> {
     fn line(&self, run: &[Px], color: Rgb, pen: Pen) {
         let is_dense = run.len() as f64 > DENSE * self.frame.plot.width;
         let width = if is_dense { FINE_WIDTH } else { width(pen) };
-        match dash(pen) {
+        match pen.dash() {
             None => self.path(run, color, width),
             Some((on, off)) => {
                 for dash in trace::dashes(run, on, off) {

@@ -109,7 +109,7 @@ impl Palette {
     /// The colour of a line.
     pub fn line(&self, role: Role, pen: Pen) -> Rgb {
         match pen {
-            Pen::Faded => self.color(role).over(self.background, FADED),
+            Pen::Faded | Pen::Pinned(_) => self.color(role).over(self.background, FADED),
             Pen::Trail => self.color(role).over(self.background, TRAIL),
             Pen::Solid | Pen::Dotted | Pen::Dashed | Pen::Hair => self.color(role),
         }
@@ -180,7 +180,7 @@ mod tests {
     fn lines_and_marks_can_be_seen() {
         each_palette(|palette| {
             for role in ROLES {
-                for pen in [Pen::Solid, Pen::Dotted, Pen::Dashed, Pen::Faded, Pen::Hair] {
+                for pen in [Pen::Solid, Pen::Dotted, Pen::Dashed, Pen::Faded, Pen::Pinned(1), Pen::Hair] {
                     let contrast = palette.line(role, pen).contrast(palette.background);
                     assert!(contrast >= 3.0, "{role:?} {pen:?}: {contrast}");
                 }

@@ -2,6 +2,8 @@ use std::borrow::Cow;
 
 use quadtank::sim::Trajectory;
 
+use super::ends::{Ends, names};
+use super::flag::{Flag, flags};
 use super::{Axis, Chart, Course, Entry, Layer, Pen, Role, Sample, Series};
 
 /// A level chart never shows less than this share of the height of the walls, so that noise does not look like a step.
@@ -41,8 +43,8 @@ pub struct Responses<'a> {
     pub references: [&'a [f64]; 2],
     /// The linear model.
     pub linear: Option<RunColumns<'a>>,
-    /// Pinned runs.
-    pub pinned: Vec<RunColumns<'a>>,
+    /// Pinned runs with their names.
+    pub pinned: Vec<(RunColumns<'a>, &'a str)>,
     /// Levels are shown in metres times this: 100 for centimetres.
     pub level_scale: f64,
     /// Height of the walls of tanks 1 and 2 (m).
@@ -53,6 +55,8 @@ pub struct Responses<'a> {
     pub window_s: Option<(f64, f64)>,
     /// What the level axis shows at least, in the shown unit: while something is dragged its scale should not run away.
     pub held_levels: Option<(f64, f64)>,
+    /// What happened when.
+    pub flags: &'a [Flag],
     /// Words.
     pub texts: ResponseTexts<'a>,
 }
@@ -76,8 +80,6 @@ pub struct ResponseTexts<'a> {
     pub reference: &'a str,
     /// What a dotted line is.
     pub linear: &'a str,
-    /// What a faded line is.
-    pub pinned: &'a str,
 }
 
 /// Two charts for one figure with a common time axis: levels with their references above, pump voltages below.
@@ -95,6 +97,7 @@ pub fn responses<'a>(spec: &Responses<'a>) -> [Chart<'a>; 2] {
     levels.x.numbered = false;
     levels.weight = 2.2;
     levels.layers = level_layers(spec);
+    levels.layers.extend(flags(spec.flags, low * spec.level_scale, time));
     levels.legend = legend(spec);
     let voltage = Axis::rounded(texts.voltage, voltage_range(spec, time), 3);
     let mut voltages = Chart::new(Axis::new(texts.time, time), voltage);
@@ -104,7 +107,7 @@ pub fn responses<'a>(spec: &Responses<'a>) -> [Chart<'a>; 2] {
 
 /// The runs with their pens, from the back to the front.
 fn runs<'a>(spec: &Responses<'a>) -> impl Iterator<Item = (RunColumns<'a>, Pen, &'a str)> {
-    let pinned = spec.pinned.iter().map(|&run| (run, Pen::Faded, spec.texts.pinned));
+    let pinned = (0..).zip(&spec.pinned).map(|(place, &(run, name))| (run, Pen::Pinned(place), name));
     let linear = spec.linear.map(|run| (run, Pen::Dotted, spec.texts.linear));
     pinned.chain([(spec.nonlinear, Pen::Solid, "")]).chain(linear)
 }
@@ -127,6 +130,9 @@ fn level_layers<'a>(spec: &Responses<'a>) -> Vec<Layer<'a>> {
             layers.push(line(index, pen, Course::Straight, run.time_s, level, name));
         }
     }
+    let RunColumns { time_s, levels, .. } = spec.nonlinear;
+    let (scale, window) = (spec.level_scale, spec.window_s);
+    layers.extend(names(&Ends { x: time_s, y: levels, scale, names: spec.texts.levels, window }));
     layers
 }
 
@@ -148,6 +154,9 @@ fn voltage_layers<'a>(spec: &Responses<'a>, (bottom, top): (f64, f64)) -> Vec<La
             }));
         }
     }
+    let RunColumns { time_s, voltages, .. } = spec.nonlinear;
+    let window = spec.window_s;
+    layers.extend(names(&Ends { x: time_s, y: voltages, scale: 1.0, names: spec.texts.voltages, window }));
     layers
 }
 
@@ -162,7 +171,7 @@ fn qualified<'a>(name: &'a str, which: &str, pen: Pen) -> Cow<'a, str> {
 
 /// The runs that stretch a range but do not make it.
 fn beside<'a>(spec: &Responses<'a>) -> impl Iterator<Item = RunColumns<'a>> {
-    spec.linear.into_iter().chain(spec.pinned.iter().copied())
+    spec.linear.into_iter().chain(spec.pinned.iter().map(|&(run, _)| run))
 }
 
 /// Range of the levels (m).
@@ -224,13 +233,11 @@ fn part<'a>(time_s: &[f64], column: &'a [f64], (from, to): (f64, f64)) -> &'a [f
 fn legend(spec: &Responses) -> Vec<Entry> {
     let texts = &spec.texts;
     let entry = |pen, role, text: &str| Entry { sample: Sample::Line(pen), role, text: text.into() };
-    let mut legend = vec![
-        entry(Pen::Solid, Role::Loop1, texts.levels[0]),
-        entry(Pen::Solid, Role::Loop2, texts.levels[1]),
-        entry(Pen::Dashed, Role::Muted, texts.reference),
-    ];
+    // The levels have their names at their curves.
+    let mut legend = vec![entry(Pen::Dashed, Role::Muted, texts.reference)];
     legend.extend(spec.linear.map(|_| entry(Pen::Dotted, Role::Muted, texts.linear)));
-    legend.extend(spec.pinned.first().map(|_| entry(Pen::Faded, Role::Muted, texts.pinned)));
+    let pinned = (0..).zip(&spec.pinned);
+    legend.extend(pinned.map(|(place, (_, name))| entry(Pen::Pinned(place), Role::Muted, name)));
     legend.retain(|entry| !entry.text.is_empty());
     legend
 }

@@ -288,6 +288,7 @@ fn pen_class(pen: Pen) -> &'static str {
         Pen::Dotted => "dotted",
         Pen::Dashed => "dashed",
         Pen::Faded => "faded",
+        Pen::Pinned(_) => "pinned",
         Pen::Hair => "hair",
         Pen::Trail => "trail",
     }

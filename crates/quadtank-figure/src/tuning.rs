@@ -189,6 +189,8 @@ pub struct LoopsChart<'a> {
     pub records: &'a [LoopsRecord<'a>],
     /// The stretch of time that is shown.
     pub window: (f64, f64),
+    /// Records are drawn up to this time; all of them if `None`. Axes are those of the whole stretch, so that they stand still.
+    pub until: Option<f64>,
     /// References, drawn dashed; `None` for a relay test.
     pub references: Option<[f64; 2]>,
     /// Name of the time axis, of the outputs and of the inputs.
@@ -210,7 +212,8 @@ pub fn two_loops<'a>(spec: &LoopsChart<'a>) -> [Chart<'a>; 2] {
         outputs.layers.push(Layer::Level { y, role: Role::of_loop(index), pen: Pen::Dashed });
     }
     if let Some(record) = spec.records.last() {
-        outputs.layers.extend(switch_marks(record, spec.window));
+        let (from, to) = spec.window;
+        outputs.layers.extend(switch_marks(record, (from, spec.until.map_or(to, |until| until.min(to)))));
     }
     // The chart below shows the same axis.
     outputs.x = Axis { numbered: false, ..Axis::new("", spec.window) };
@@ -246,6 +249,11 @@ fn in_sight(record: &LoopsRecord, spec: &LoopsChart) -> Range<usize> {
     first..end
 }
 
+/// How many rows of a record are drawn.
+fn drawn_rows(spec: &LoopsChart, record: &LoopsRecord) -> usize {
+    spec.until.map_or(record.time.len(), |until| record.time.partition_point(|&time| time <= until))
+}
+
 /// A chart of two columns of every record, from the lowest to the highest value in sight of those that have these `pens`.
 fn loops_chart<'a>(
     spec: &LoopsChart<'a>,
@@ -268,7 +276,8 @@ fn loops_chart<'a>(
     for record in spec.records {
         let (symbols, columns) = columns(record);
         for (index, column) in columns.into_iter().enumerate() {
-            let (x, y) = (record.time.into(), column.into());
+            let rows = drawn_rows(spec, record).min(column.len());
+            let (x, y) = (record.time[..rows].into(), column[..rows].into());
             let name = if record.name.is_empty() {
                 symbols[index].into()
             } else {
@@ -281,7 +290,8 @@ fn loops_chart<'a>(
     chart
 }
 
-/// A ring on the output at every instant at which its relay switched.
+/// A mark on the output at every instant at which its relay switched: rings of loop 1, diamonds of loop 2, which are told apart
+/// without colour.
 fn switch_marks(record: &LoopsRecord, window: (f64, f64)) -> Vec<Layer<'static>> {
     let in_sight = |switches: &[(f64, bool)]| {
         let times = switches.iter().map(|&(time, _)| time);
@@ -292,9 +302,10 @@ fn switch_marks(record: &LoopsRecord, window: (f64, f64)) -> Vec<Layer<'static>>
         return Vec::new();
     }
     let mark = |index: usize, time: f64| {
+        let shape = if index == 0 { Shape::Point } else { Shape::Diamond };
         let row = record.time.partition_point(|&t| t < time);
         let at = (time, *record.outputs[index].get(row)?);
-        Some(Layer::Marker(Marker { at, shape: Shape::Point, role: Role::of_loop(index), points_beyond: false }))
+        Some(Layer::Marker(Marker { at, shape, role: Role::of_loop(index), points_beyond: false }))
     };
     let marks =
         times.iter().enumerate().flat_map(|(index, times)| times.iter().filter_map(move |&time| mark(index, time)));
@@ -339,7 +350,7 @@ mod tests {
 
     fn loops<'a>(records: &'a [LoopsRecord<'a>], window: (f64, f64)) -> [Chart<'a>; 2] {
         let (axes, texts) = (["t", "y", "u"], ["1", "2"]);
-        two_loops(&LoopsChart { records, window, references: Some([1.0, 0.0]), axes, texts })
+        two_loops(&LoopsChart { records, window, until: None, references: Some([1.0, 0.0]), axes, texts })
     }
 
     #[test]
@@ -351,6 +362,23 @@ mod tests {
         assert_eq!(outputs.layers.iter().filter(|layer| matches!(layer, Layer::Level { .. })).count(), 2);
         let marks: Vec<_> = outputs.layers.iter().filter(|layer| matches!(layer, Layer::Marker(_))).collect();
         assert!(matches!(marks[..], [Layer::Marker(Marker { at: (1.0, 0.5), .. })]));
+    }
+
+    #[test]
+    fn a_record_is_drawn_up_to_a_time_on_the_axes_of_all_of_it() {
+        let records = [record(&[0.0, 1.0, 2.0], &[0.0, 0.5, 3.0], &[1.0, -1.0, 1.0], &[(0.5, true), (1.5, false)])];
+        let (axes, texts) = (["t", "y", "u"], ["1", "2"]);
+        let spec = |until| LoopsChart { records: &records, window: (0.0, 2.0), until, references: None, axes, texts };
+        let [(whole, _), (part, inputs), (nothing, _)] =
+            [None, Some(1.0), Some(-1.0)].map(|until| two_loops(&spec(until)).into()).map(|[y, u]: [Chart; 2]| (y, u));
+        let rows = |chart: &Chart| chart.series().map(|series| series.x.len()).collect::<Vec<_>>();
+        let marks = |chart: &Chart| chart.layers.iter().filter(|layer| matches!(layer, Layer::Marker(_))).count();
+        assert_eq!(
+            (rows(&whole), rows(&part), rows(&inputs), rows(&nothing)),
+            (vec![3, 3], vec![2, 2], vec![2, 2], vec![0, 0])
+        );
+        assert_eq!((whole.y.range, marks(&whole)), (part.y.range, 2));
+        assert_eq!((nothing.y.range, marks(&part), marks(&nothing)), (part.y.range, 1, 0));
     }
 
     #[test]

@@ -59,7 +59,7 @@ pub struct Scenario {
     pub version: u32,
     /// The run that is worked on.
     pub setup: Setup,
-    /// Runs pinned to compare with, at most 3.
+    /// Runs pinned to compare with, at most 8.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub pinned: Vec<Setup>,
     /// What the screen shows.
@@ -69,7 +69,7 @@ pub struct Scenario {
 
 impl Scenario {
     /// How many pinned runs a scenario holds.
-    pub const MAX_PINNED: usize = 3;
+    pub const MAX_PINNED: usize = 8;
 }
 
 impl BenchDocument for Scenario {

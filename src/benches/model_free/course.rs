@@ -18,7 +18,10 @@ const SHORTEST_S: f64 = 5.0;
 
 /// The course with its sentence and its figures.
 #[component]
-pub fn CourseCard() -> impl IntoView {
+pub fn CourseCard(
+    /// Whether its figures are folded away.
+    folded: bool,
+) -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
     let frames = RwSignal::new(Vec::<Frame>::new());
@@ -26,7 +29,7 @@ pub fn CourseCard() -> impl IntoView {
     let picture = pictures::course(session, axis.window);
     let (for_menu, for_table) = (picture.clone(), picture.clone());
     let title = say!(lab, free.course);
-    let (of_step, of_run) = (say!(lab, free.step_figures), say!(lab, responses.run_costs));
+    let figures = move || view! { <RunFigures /> <DataTable picture=for_table id="free-table" /> };
     // Read in three places, worked out once.
     let found = Memo::new(move |_| sentences::of_run(session));
     let readout = Signal::derive(move || session.own.cursor.get().and_then(|_| readout(session)));
@@ -53,14 +56,34 @@ pub fn CourseCard() -> impl IntoView {
                 />
                 <TimeSurface axis frames label=say!(lab, responses.cursor) spoken readout id="free-surface" />
             </div>
-            <h3>{of_step}</h3>
-            <Figures name="free-figures" caption=of_step>{move || step_table(session)}</Figures>
-            <h3>{of_run}</h3>
-            <Figures name="free-costs" caption=of_run>{move || cost_table(session)}</Figures>
-            <p class="remark" data-testid="free-note">{move || note(session)}</p>
-            <Sentence id="free-comparison" text=Signal::derive(move || sentences::of_comparison(session)) />
-            <DataTable picture=for_table id="free-table" />
+            {if folded {
+                view! {
+                    <details class="more">
+                        <summary data-testid="free-fold">{say!(lab, responses.figures)}</summary>
+                        {figures()}
+                    </details>
+                }
+                .into_any()
+            } else {
+                figures().into_any()
+            }}
         </Card>
+    }
+}
+
+/// The figures of the run, and what they are of.
+#[component]
+fn RunFigures() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let (of_step, of_run) = (say!(lab, free.step_figures), say!(lab, responses.run_costs));
+    view! {
+        <h3>{of_step}</h3>
+        <Figures name="free-figures" caption=of_step>{move || step_table(session)}</Figures>
+        <h3>{of_run}</h3>
+        <Figures name="free-costs" caption=of_run>{move || cost_table(session)}</Figures>
+        <p class="remark" data-testid="free-note">{move || note(session)}</p>
+        <Sentence id="free-comparison" text=Signal::derive(move || sentences::of_comparison(session)) />
     }
 }
 
@@ -207,11 +230,10 @@ fn note(session: Session) -> String {
         let judged = answer.judged_without_noise.then(|| tr!(lab, responses.without_noise));
         let reasons = answer.figures.iter().enumerate().filter_map(|(k, figures)| Some((k, figures.no_response?)));
         // Others are said of the run or of the loop already.
-        let said = reasons
-            .filter(|(_, reason)| {
-                use NoResponse::{NotAtRest, StepAfterEnd, TooLongToJudge};
-                matches!(reason, StepAfterEnd { .. } | NotAtRest { .. } | TooLongToJudge)
-            });
+        let said = reasons.filter(|(_, reason)| {
+            use NoResponse::{NotAtRest, StepAfterEnd, TooLongToJudge};
+            matches!(reason, StepAfterEnd { .. } | NotAtRest { .. } | TooLongToJudge)
+        });
         judged.into_iter().chain(said.map(|(k, reason)| why(session, k, reason))).collect::<Vec<_>>()
     });
     parts.unwrap_or_default().join(" ")

@@ -3,6 +3,7 @@
 mod claims;
 mod course;
 mod experiment;
+mod explore;
 mod flags;
 mod law;
 mod moment;
@@ -14,12 +15,19 @@ mod session;
 
 use leptos::prelude::*;
 
+use crate::depth::Depth;
 use flags::panels;
 pub use session::ModelFree;
 use session::Session;
 
-/// The cards that the start flags ask for.
+/// What is shown at the chosen depth.
 fn cards(session: Session) -> impl IntoView {
+    let is_first = Memo::new(move |_| session.lab.depth.get() == Depth::Explore);
+    move || if is_first.get() { view! { <explore::Explore /> }.into_any() } else { all_cards(session).into_any() }
+}
+
+/// The cards that the start flags ask for.
+fn all_cards(session: Session) -> impl IntoView {
     let lab = session.lab;
     view! {
         <div class="side left">
@@ -27,7 +35,7 @@ fn cards(session: Session) -> impl IntoView {
             {lab.shows(panels::VALVES).then(|| view! { <plane::ValvePlaneCard /> })}
             {lab.shows(panels::ZEROS).then(|| view! { <plane::ZerosCard /> })}
         </div>
-        {lab.shows(panels::RESPONSES).then(|| view! { <course::CourseCard /> })}
+        {lab.shows(panels::RESPONSES).then(|| view! { <course::CourseCard folded=false /> })}
         <div class="side right">
             {lab.shows(panels::EXPERIMENT).then(|| view! { <experiment::CaseCard /> })}
             {lab.shows(panels::CONTROLLER).then(|| view! { <law::LawCard /> })}

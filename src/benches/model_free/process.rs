@@ -1,16 +1,12 @@
-//! The drawing of the rig at the shown moment, and the player.
+//! The drawing of the rig at the shown moment, and the time bar.
 
 use leptos::prelude::*;
 
 use super::session::{set_cursor, shown, use_session};
 use crate::benches::quadruple_tank::{drawing, summary};
 use crate::texts::say;
-use crate::widgets::{Card, Player, Scale, SliderField};
+use crate::widgets::{Card, Playback, Scale, SliderField, TimeBar, shown_times};
 use quadtank::literature::DisplayUnit;
-
-/// How much faster than life the run can be shown.
-const SPEEDS: &[u32] = &[1, 5, 20, 50, 200];
-const USUAL_SPEED: u32 = 20;
 
 /// The drawing, the time and what runs through it.
 #[component]
@@ -21,20 +17,12 @@ pub fn ProcessCard() -> impl IntoView {
     let summary = move || shown(session).map(|shown| summary(lab, &shown.state, DisplayUnit::Cm)).unwrap_or_default();
     let end = session.part(|s| s.experiment.duration_s);
     let on_cursor = Callback::new(move |time| set_cursor(session, Some(time)));
-    let player = move || {
-        view! {
-            <Player
-                cursor=session.own.cursor.into()
-                on_cursor
-                end
-                speeds=SPEEDS
-                usual_speed=USUAL_SPEED
-                ids=("free-play", "free-speed")
-            />
-        }
-    };
+    let events = session
+        .part(|s| shown_times(s.experiment.set_point_steps.iter().map(|step| step.time_s), s.experiment.duration_s));
+    let on_move = Callback::new(move |time| set_cursor(session, time));
+    let playback = Playback::new(session.own.cursor.into(), on_move, events);
     view! {
-        <Card name="drawing" title=say!(lab, process.title) beside=player>
+        <Card name="drawing" title=say!(lab, process.title) >
             <SliderField
                 id=("free-time", "free-time-number")
                 label="t".to_owned()
@@ -46,6 +34,7 @@ pub fn ProcessCard() -> impl IntoView {
                 digits=Some(0)
                 unit="s".to_owned()
             />
+            <TimeBar playback id="free-play" lab slider=false />
             <svg class="rig" viewBox="0 0 276 296" role="img" aria-label=summary data-testid="free-rig">{picture}</svg>
         </Card>
     }

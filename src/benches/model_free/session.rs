@@ -9,6 +9,7 @@ use quadtank_scenario::model_free::ModelFreeScenario;
 
 use super::flags::{locks, panels};
 use super::moment::Shown;
+use crate::depth::Depth;
 use crate::lab::Lab;
 use crate::session::{self, Bench, Lock, Outcome, Panel, part_of};
 use crate::texts::tr;
@@ -48,6 +49,7 @@ impl Bench for ModelFree {
     const ID: &'static str = "model-free";
     const PICTURE: &'static str = "M4 26C12 26 10 8 20 8S30 8 44 8M4 8H44M6 28H44";
     const CLASS: &'static str = "bench free";
+    const DEPTHS: &'static [Depth] = &[Depth::Explore, Depth::Full];
     const PANELS: &'static [Panel] = panels::ALL;
     const LOCKS: &'static [Lock] = locks::ALL;
     type Document = ModelFreeScenario;

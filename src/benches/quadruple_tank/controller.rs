@@ -4,13 +4,13 @@ use leptos::prelude::*;
 
 use super::flags::locks;
 use super::sentences;
-use super::session::use_session;
+use super::session::{Session, use_session};
 use crate::controls::{ParamControl, ParamNumber, ParamRow};
 use crate::texts::{say, terms, tr};
 use crate::widgets::{Card, Scale, Segmented, Sentence, Text, Tick};
 use quadtank::control::{AntiWindup, LoopMode, Pairing, PiSettings};
 use quadtank::interaction::PairingVerdict;
-use quadtank::study::quadruple_tank::Setup;
+use quadtank::study::quadruple_tank::{Setup, calmed};
 use quadtank_scenario::{Limits, limits};
 
 /// Tt/Ti when anti-windup is switched on (Cocota 2009, ch. 4).
@@ -194,8 +194,29 @@ fn PairingSwitch() -> impl IntoView {
             on_choose=move |pairing| session.edit(|s| s.controller.pairing = pairing)
             disabled=lab.locks(locks::PAIRING)
         />
-        <p class="remark warm" hidden=fits>{say!(lab, pi.against)}</p>
+        <div class="toolbar" hidden=fits>
+            <p class="remark warm">{say!(lab, pi.against)}</p>
+            <button
+                type="button"
+                class="button small"
+                data-testid="try-advised"
+                disabled=lab.locks(locks::PAIRING) || lab.locks(locks::GAINS)
+                on:click=move |_| if let Some(pairing) = untrack(suggested) { take_advice(session, pairing) }
+            >
+                {say!(lab, mend.pairing)}
+            </button>
+        </div>
     }
+}
+
+/// Pairs as advised, with calmer gains where the present ones are not good for that.
+fn take_advice(session: Session, pairing: Pairing) {
+    session.edit(|s| {
+        s.controller.pairing = pairing;
+        if let Some(calm) = calmed(s) {
+            *s = calm;
+        }
+    });
 }
 
 #[component]

@@ -3,7 +3,6 @@
 use crate::lab::Lab;
 use leptos::prelude::*;
 
-use super::cursor::PlayControls;
 use super::flags::locks;
 use super::session::{Session, use_session};
 use crate::controls::{ParamControl, ParamNumber, ParamRow};
@@ -214,7 +213,6 @@ pub fn ExperimentCard() -> impl IntoView {
                 on_tick=move |on| session.edit(|s| s.experiment.measurement.quantised = on)
             />
             <p class="remark" hidden=move || further() == 0>{say!(lab, experiment.further, count = further())}</p>
-            <PlayControls />
         </Card>
     }
 }

@@ -1,7 +1,6 @@
 //! The home bench: from two valves to the step response.
 
 mod controller;
-mod cursor;
 mod experiment;
 mod explore;
 mod flags;
@@ -9,6 +8,7 @@ mod marks;
 mod metrics;
 mod moment;
 mod pictures;
+mod pins;
 mod poles;
 mod preset;
 mod process;

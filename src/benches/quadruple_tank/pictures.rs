@@ -1,18 +1,23 @@
 //! The charts of the home bench, from the results of the laboratory. Building them follows what they read.
 
 use super::session::Session;
+use crate::lab::Lab;
 use crate::shown::{per_metre, unit_name};
 use crate::texts::tr;
 use crate::widgets::Picture;
 use quadtank::linear::Complex;
-use quadtank::sim::Settling;
-use quadtank::study::quadruple_tank::ValveMap;
+use quadtank::sim::{EventKind, Settling};
+use quadtank::study::quadruple_tank::{Run, ValveMap};
 use quadtank_figure::{
-    self, Chart, Levels, PoleZero, PoleZeroTexts, ResponseTexts, Responses, RunColumns, ValvePlane, ValvePlaneTexts,
+    self, Chart, Flag, Levels, PoleZero, PoleZeroTexts, ResponseTexts, Responses, Role, RunColumns, ValvePlane,
+    ValvePlaneTexts,
 };
 use quadtank_scenario::{roots_to_csv, run_to_csv, valve_map_to_csv};
 
 use leptos::prelude::*;
+
+/// The curves of a pinned run that there is not.
+const NOTHING: RunColumns = RunColumns { time_s: &[], levels: [&[]; 2], voltages: [&[]; 2] };
 
 /// Least range of the chart of levels (m).
 const LEAST_LEVELS: f64 = 0.02;
@@ -90,18 +95,12 @@ pub fn levels(session: Session, held: RwSignal<Option<(f64, f64)>>) -> Picture {
         let unit = session.own.unit.get();
         let names = [1, 2].map(|k| tr!(lab, responses.level, number = k));
         let references = [1, 2].map(|k| format!("{} {k}", tr!(lab, responses.reference)));
-        let settled = run.metrics.each_ref().map(|m| match (m.no_response, m.step_time_s, m.settling_2_percent) {
-            (None, Some(step_s), Some(Settling::After { time_s })) => {
-                let text = tr!(lab, explore.settled, time = lab.number_style().significant(time_s, 2));
-                Some((step_s + time_s, text))
-            }
-            _ => None,
-        });
+        let flags = flags(lab, run);
         visit(&[quadtank_figure::levels(&Levels {
             run: RunColumns::of(&run.nonlinear),
             references: [&run.nonlinear.references[0], &run.nonlinear.references[1]],
             until_s: session.own.playback.get(),
-            settled,
+            flags: &flags,
             level_scale: per_metre(unit),
             least_range: LEAST_LEVELS,
             held_levels: held.get(),
@@ -112,6 +111,31 @@ pub fn levels(session: Session, held: RwSignal<Option<(f64, f64)>>) -> Picture {
         })]);
     };
     Picture::new(build, csv)
+}
+
+/// Most events that have a flag: more would hide the curves.
+const MOST_FLAGS: usize = 4;
+
+/// When levels settled, tanks ran over or dry, and pumps came to a limit.
+fn flags(lab: Lab, run: &Run) -> Vec<Flag> {
+    let settled = run.metrics.iter().enumerate().filter_map(|(k, m)| {
+        let (None, Some(step_s), Some(Settling::After { time_s })) =
+            (m.no_response, m.step_time_s, m.settling_2_percent)
+        else {
+            return None;
+        };
+        let text = tr!(lab, explore.settled, time = lab.number_style().significant(time_s, 2));
+        Some(Flag { time_s: step_s + time_s, text, role: Role::of_loop(k) })
+    });
+    let events = run.nonlinear.events.iter().take(MOST_FLAGS).map(|event| {
+        let text = match event.kind {
+            EventKind::Overflow { tank } => tr!(lab, chart.flag_overflow, tank = tank + 1),
+            EventKind::Empty { tank } => tr!(lab, chart.flag_empty, tank = tank + 1),
+            EventKind::Saturated { pump } => tr!(lab, chart.flag_saturated, pump = pump + 1),
+        };
+        Flag { time_s: event.time_s, text, role: Role::RightHalfPlane }
+    });
+    settled.chain(events).collect()
 }
 
 /// Levels and pump voltages; the level axis shows at least `held`.
@@ -131,16 +155,18 @@ pub fn responses(session: Session, held: RwSignal<Option<(f64, f64)>>) -> Pictur
         let references = [1, 2].map(|k| format!("{} {k}", tr!(lab, responses.reference)));
         let plant = session.charts.setup.with_untracked(|setup| setup.plant());
         let [pump_1, pump_2] = plant.pumps;
-        let pinned = pinned
-            .iter()
-            .filter_map(|p| p.result.as_ref().as_ref().ok())
-            .map(|r| RunColumns::of(&r.nonlinear))
-            .collect();
+        let names: Vec<String> = (1..=pinned.len()).map(|run| tr!(lab, pins.name, number = run)).collect();
+        // One that has no run leaves its dashes to no other.
+        let pinned = pinned.iter().zip(&names).map(|(pinned, name)| {
+            let columns = pinned.result.as_ref().as_ref().map_or(NOTHING, |run| RunColumns::of(&run.nonlinear));
+            (columns, name.as_str())
+        });
         visit(&quadtank_figure::responses(&Responses {
             nonlinear: RunColumns::of(&run.nonlinear),
             references: [&run.nonlinear.references[0], &run.nonlinear.references[1]],
             linear: (!hide_linear.get()).then(|| RunColumns::of(&run.linear)),
-            pinned,
+            pinned: pinned.collect(),
+            flags: &flags(lab, run),
             level_scale: per_metre(unit),
             walls: [plant.tanks[0].height, plant.tanks[1].height],
             voltage_limits: (pump_1.voltage_min.min(pump_2.voltage_min), pump_1.voltage_max.max(pump_2.voltage_max)),
@@ -155,7 +181,6 @@ pub fn responses(session: Session, held: RwSignal<Option<(f64, f64)>>) -> Pictur
                 voltages: [&pumps[0], &pumps[1]],
                 reference: &tr!(lab, responses.reference),
                 linear: &tr!(lab, responses.linear),
-                pinned: &tr!(lab, responses.pinned),
             },
         }));
     };

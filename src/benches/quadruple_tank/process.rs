@@ -6,12 +6,13 @@ use super::flags::locks;
 use super::moment::use_moment;
 use super::preset::{PresetRemark, PresetSelect};
 use super::published::PublishedFigures;
+use super::replay::play_cursor;
 use super::rig::Rig;
 use super::sentences;
 use super::session::use_session;
 use crate::controls::{ParamControl, ParamRow};
 use crate::texts::{say, terms, tr};
-use crate::widgets::{Card, NumberField, Scale, Text, Verdict, marked};
+use crate::widgets::{Card, NumberField, Scale, Text, TimeBar, Verdict, marked};
 use quadtank::study::quadruple_tank::{OperatingPointSpec, Setup};
 
 const GAMMA: ParamControl<Setup> = ParamControl {
@@ -46,6 +47,7 @@ pub fn ProcessCard() -> impl IntoView {
         <Card name="process" title=say!(lab, process.title) terms=TERMS beside=|| view! { <PresetSelect /> }>
             <p class="remark moment">{remark}</p>
             <Rig />
+            <TimeBar playback=play_cursor(session) id="play" lab />
             <Settings />
         </Card>
     }

@@ -5,6 +5,7 @@ use leptos::prelude::*;
 use super::metrics::{MetricsTable, why};
 use super::moment::{RigState, use_moment};
 use super::pictures;
+use super::pins::{PinButtons, PinnedRuns};
 use super::session::{Session, use_session};
 use super::set_points::SetPoints;
 use crate::errors::of_study_error;
@@ -17,7 +18,6 @@ use quadtank::sim::{EventKind, LoopMetrics, NoResponse, Settling};
 use quadtank::study::quadruple_tank::Run;
 use quadtank::study::{StudyError, StudyFault};
 use quadtank_figure::Frame;
-use quadtank_scenario::Scenario;
 
 /// The shortest stretch of time that can be shown (s).
 const SHORTEST_S: f64 = 5.0;
@@ -48,6 +48,7 @@ pub fn ResponsesCard() -> impl IntoView {
     };
     view! {
         <Card name="responses" title terms=TERMS beside>
+            <PinnedRuns />
             <div class="charts">
                 <div class="chart">
                     <ChartCanvas
@@ -83,28 +84,10 @@ pub fn ResponsesCard() -> impl IntoView {
 fn Toolbar(axis: TimeAxis) -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
-    let pin = move |_| {
-        session.document.update(|s| {
-            let setup = s.setup.clone();
-            s.pinned.push(setup);
-            if s.pinned.len() > Scenario::MAX_PINNED {
-                s.pinned.remove(0);
-            }
-        });
-    };
     let linear = move || session.document.with(|s| !s.view.hide_linear);
     view! {
         <div class="toolbar">
-            <button type="button" class="button small" data-testid="pin" on:click=pin>{say!(lab, responses.pin)}</button>
-            <button
-                type="button"
-                class="button small"
-                data-testid="unpin"
-                hidden=move || session.throttled.pinned.with(|p| p.is_empty())
-                on:click=move |_| session.document.update(|s| s.pinned.clear())
-            >
-                {say!(lab, responses.unpin)}
-            </button>
+            <PinButtons />
             <button
                 type="button"
                 class="button small"

@@ -67,7 +67,8 @@ impl Bench for QuadrupleTank {
     type Study = QuadrupleTankStudy;
     type Found = Found;
     type Own = Own;
-    const HAS_DEPTHS: bool = true;
+    const DEPTHS: &'static [Depth] = &Depth::ALL;
+    const CAN_PRESENT: bool = true;
 
     fn found(results: RwSignal<Results>) -> Found {
         Found {

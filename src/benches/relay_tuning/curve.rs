@@ -6,6 +6,7 @@ use leptos::wasm_bindgen::JsCast;
 
 use super::errors;
 use super::flags::locks;
+use super::mends;
 use super::pictures;
 use super::session::{Session, time_unit, use_session};
 use super::step::Step;
@@ -49,6 +50,7 @@ pub fn CurveCard() -> impl IntoView {
             frames
             overlay=move || view! { <Plane frames chosen /> }
             verdict=Signal::derive(move || sentence(session))
+            offers=Signal::derive(move || mends::of_curve(session))
         >
             <ParamRow session control=&IMPORTANCE />
             <Figures name="critical-point" caption=say!(lab, relay.curve_caption)>{move || table(session)}</Figures>

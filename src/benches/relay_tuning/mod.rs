@@ -5,6 +5,8 @@ mod curve;
 mod details;
 mod errors;
 mod flags;
+mod guide;
+mod mends;
 mod pictures;
 mod placement;
 mod plant;
@@ -32,5 +34,6 @@ fn cards(session: Session) -> impl IntoView {
         {lab.shows(panels::CURVE).then(|| view! { <curve::CurveCard /> })}
         {lab.shows(panels::PLACEMENT).then(|| view! { <placement::PlacementCard /> })}
         {lab.shows(panels::RESPONSES).then(|| view! { <response::ResponseCard /> })}
+        <guide::NextStep />
     }
 }

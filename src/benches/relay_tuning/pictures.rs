@@ -24,13 +24,13 @@ pub fn record_of(test: &Tested) -> Option<&LoopTrace> {
     }
 }
 
-/// The relay test over time.
-pub fn test(session: Session, window: Signal<(f64, f64)>) -> Picture {
+/// The relay test over time, drawn up to some time or whole.
+pub fn test(session: Session, window: Signal<(f64, f64)>, until: Signal<Option<f64>>) -> Picture {
     let build = move |show: &mut dyn FnMut(&[quadtank_figure::Chart])| {
         session.charts.test.with(|outcome| {
             let trace = outcome.as_ref().as_ref().ok().and_then(record_of);
             let records: Vec<LoopsRecord> = trace.map(|trace| drawn(trace, "", Pen::Solid, true)).into_iter().collect();
-            loops(session, &records, window.get(), None, show);
+            loops(session, &records, window.get(), until.get(), None, show);
         });
     };
     let csv = move || {
@@ -47,14 +47,17 @@ pub fn response(session: Session, window: Signal<(f64, f64)>) -> Picture {
     let lab = session.lab;
     let build = move |show: &mut dyn FnMut(&[quadtank_figure::Chart])| {
         let pinned = session.charts.pinned.get();
-        let names: Vec<String> = (1..=pinned.len()).map(|number| tr!(lab, relay.row_pinned, number = number)).collect();
+        let names: Vec<String> = (1..=pinned.len()).map(|number| tr!(lab, pins.name, number = number)).collect();
         let compared = tr!(lab, relay.row_comparison);
         session.charts.design.with(|outcome| {
             let mut records: Vec<LoopsRecord> = pinned
                 .iter()
                 .zip(&names)
-                .filter_map(|(pinned, name)| Some((pinned.result.as_ref().as_ref().ok()?.as_ref()?, name)))
-                .map(|(design, name)| drawn(&design.response.trace, name, Pen::Faded, false))
+                .zip(0..)
+                .filter_map(|((pinned, name), place)| {
+                    Some((pinned.result.as_ref().as_ref().ok()?.as_ref()?, name, place))
+                })
+                .map(|(design, name, place)| drawn(&design.response.trace, name, Pen::Pinned(place), false))
                 .collect();
             if let Ok(Some(Designed { response, comparison, .. })) = outcome.as_ref() {
                 let comparisons = comparison.iter();
@@ -62,7 +65,7 @@ pub fn response(session: Session, window: Signal<(f64, f64)>) -> Picture {
                 records.push(drawn(&response.trace, "", Pen::Solid, false));
             }
             let references = session.charts.setup.with_untracked(|s| s.response.references);
-            loops(session, &records, window.get(), Some(references), show);
+            loops(session, &records, window.get(), None, Some(references), show);
         });
     };
     let csv = move || session.charts.with_design(response_to_csv).unwrap_or_default();
@@ -84,6 +87,7 @@ fn loops(
     session: Session,
     records: &[LoopsRecord],
     window: (f64, f64),
+    until: Option<f64>,
     references: Option<[f64; 2]>,
     show: &mut dyn FnMut(&[quadtank_figure::Chart]),
 ) {
@@ -101,6 +105,7 @@ fn loops(
     show(&quadtank_figure::two_loops(&LoopsChart {
         records,
         window,
+        until,
         references,
         axes: axes.each_ref().map(String::as_str),
         texts: texts.each_ref().map(String::as_str),

@@ -6,6 +6,7 @@ use super::controls::symbol;
 use super::details::OtherForms;
 use super::errors;
 use super::flags::locks;
+use super::mends;
 use super::pictures::{self, short_name};
 use super::session::{Session, use_session};
 use super::step::Step;
@@ -51,6 +52,7 @@ pub fn PlacementCard() -> impl IntoView {
             place="chart square"
             overlay=move || view! { <svg class="over"><TargetHandle frames /></svg> }
             verdict=Signal::derive(move || sentence(session))
+            offers=Signal::derive(move || mends::of_design(session, "mend-placement"))
             below=|| view! { <OtherForms /> }
         >
             <Settings />

@@ -9,7 +9,7 @@ use crate::benches::quadruple_tank::name_of;
 use crate::controls::{ParamControl, ParamRow, Switch};
 use crate::lab::Lab;
 use crate::texts::{say, tr};
-use crate::widgets::{Card, Choice, Scale, Select};
+use crate::widgets::{Card, Choice, Scale, Segmented, Select};
 use quadtank::control::Pairing;
 use quadtank::literature::PresetId;
 use quadtank::literature::campestrini::PublishedCase;
@@ -83,16 +83,34 @@ fn RigSettings() -> impl IntoView {
             write=set_pairing
             lock
         />
-        <Switch
-            session
+        <MotionSwitch />
+    }
+}
+
+/// Linear or nonlinear. Dead time and lag of the linear rig, which the nonlinear one has not, are kept for the way back.
+#[component]
+fn MotionSwitch() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let kept = StoredValue::new(None::<[f64; 2]>);
+    let is_nonlinear = |s: &TuningSetup| rig(s).is_some_and(|(_, nonlinear)| nonlinear);
+    let choose = move |nonlinear: bool| {
+        let now = session.document.with_untracked(|s| behind(&s.tuning));
+        if nonlinear && now != [0.0; 2] {
+            kept.set_value(Some(now));
+        }
+        session.edit(|s| set_nonlinear(s, nonlinear, kept.get_value().filter(|_| !nonlinear)));
+    };
+    view! {
+        <Segmented
             label=say!(lab, relay.motion)
             choices=vec![
                 (false, "rig-linear", say!(lab, relay.linear)),
                 (true, "rig-nonlinear", say!(lab, relay.nonlinear)),
             ]
-            read=|s| rig(s).is_some_and(|(_, nonlinear)| nonlinear)
-            write=set_nonlinear
-            lock
+            value=lab.throttled(session.part(is_nonlinear))
+            on_choose=choose
+            disabled=lab.locks(locks::PLANT)
         />
     }
 }
@@ -142,12 +160,14 @@ fn set_pairing(setup: &mut TuningSetup, chosen: Pairing) {
     }
 }
 
-/// The nonlinear rig has neither dead time nor lag.
-fn set_nonlinear(setup: &mut TuningSetup, chosen: bool) {
+/// The nonlinear rig has neither dead time nor lag; the linear one gets those back that are `kept`.
+fn set_nonlinear(setup: &mut TuningSetup, chosen: bool, kept: Option<[f64; 2]>) {
     if let TuningPlant::QuadrupleTank { dead_time_s, lag_s, nonlinear, .. } = &mut setup.plant {
         *nonlinear = chosen;
         if *nonlinear {
             (*dead_time_s, *lag_s) = (0.0, 0.0);
+        } else if let Some(kept) = kept.filter(|_| [*dead_time_s, *lag_s] == [0.0; 2]) {
+            [*dead_time_s, *lag_s] = kept;
         }
     }
 }

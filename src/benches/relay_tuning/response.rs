@@ -5,6 +5,7 @@ use leptos::prelude::*;
 use super::controls::symbol;
 use super::errors;
 use super::flags::locks;
+use super::mends;
 use super::pictures;
 use super::readout::{Surface, readout};
 use super::session::{Session, time_unit, use_session};
@@ -13,11 +14,11 @@ use super::timeline::timeline;
 use crate::controls::Switch;
 use crate::lab::Lab;
 use crate::texts::{say, tr};
-use crate::widgets::{Choice, DataTable, Figure, Figures, ReasonedRow, Select, TableContent, ZoomButtons};
+use crate::widgets::{Choice, DataTable, Figure, Figures, Pins, ReasonedRow, Select, TableContent, ZoomButtons};
 use quadtank::linear::LoopStability;
 use quadtank::literature::campestrini::PublishedPlant;
 use quadtank::sim::Halt;
-use quadtank::study::relay_tuning::{CompareSpec, DecouplerSpec, StepResponse, TuningPlant};
+use quadtank::study::relay_tuning::{CompareSpec, DecouplerSpec, StepResponse, TuningPlant, TuningSetup};
 use quadtank_figure::Frame;
 use quadtank_scenario::tuning::TuningScenario;
 
@@ -44,12 +45,13 @@ pub fn ResponseCard() -> impl IntoView {
             name="response"
             number=4
             title=say!(lab, relay.response)
-            toolbar=move || view! { <div class="toolbar"><Pins /><ZoomButtons axis ids /></div> }
+            toolbar=move || view! { <div class="toolbar"><PinButtons /><ZoomButtons axis ids /></div> }
             picture
             frames
             overlay=move || view! { <Surface id="response-surface" axis frames label readout=values /> }
             verdict=Signal::derive(move || sentence(session))
-            below=move || view! { <DataTable picture=for_table id="response-table" /> }
+            offers=Signal::derive(move || mends::of_design(session, "mend-response"))
+            below=move || view! { <PinnedSessions /> <DataTable picture=for_table id="response-table" /> }
         >
             <Settings />
         </Step>
@@ -57,32 +59,72 @@ pub fn ResponseCard() -> impl IntoView {
 }
 
 #[component]
-fn Pins() -> impl IntoView {
+fn PinButtons() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
-    let none = Signal::derive(move || session.document.with(|s| s.pinned.is_empty()));
+    let count = Memo::new(move |_| session.document.with(|s| s.pinned.len()));
+    let is_full = move || count.get() >= TuningScenario::MAX_PINNED;
+    let why = move || is_full().then(|| tr!(lab, pins.full, count = TuningScenario::MAX_PINNED));
     let pin = move |_| {
         session.document.update(|s| {
             let setup = s.tuning.clone();
             s.pinned.push(setup);
-            if s.pinned.len() > TuningScenario::MAX_PINNED {
-                s.pinned.remove(0);
-            }
         });
     };
     view! {
-        <button type="button" class="button small" data-testid="response-pin" on:click=pin>
+        <button type="button" class="button small" data-testid="response-pin" disabled=is_full title=why on:click=pin>
             {say!(lab, responses.pin)}
         </button>
         <button
             type="button"
             class="button small"
             data-testid="response-unpin"
-            hidden=none
+            hidden=move || count.get() == 0
             on:click=move |_| session.document.update(|s| s.pinned.clear())
         >
             {say!(lab, responses.unpin)}
         </button>
+    }
+}
+
+/// The pinned sessions as chips.
+#[component]
+fn PinnedSessions() -> impl IntoView {
+    let session = use_session();
+    let pinned = move |place: usize| session.document.with(|s| s.pinned.get(place).cloned());
+    // Where its locus was moved to, and with which controllers.
+    let text = move |place: usize| {
+        let style = session.lab.number_style();
+        let of_design = |setup: TuningSetup| {
+            let [real, imaginary] = setup.design.target;
+            let sign = if imaginary < 0.0 { "−" } else { "+" };
+            let target = format!("{} {sign} {}j", style.fixed(real, 2), style.fixed(imaginary.abs(), 2));
+            let action = if setup.design.action == quadtank::tuning::Action::Pi { "PI" } else { "PID" };
+            format!("{action} · λ {target}")
+        };
+        pinned(place).map(of_design).unwrap_or_default()
+    };
+    let restore = move |place| {
+        if let Some(setup) = untrack(|| pinned(place)) {
+            session.edit(|s| *s = TuningSetup { response: s.response, ..setup });
+        }
+    };
+    let remove = move |place| {
+        session.document.update(|s| {
+            if place < s.pinned.len() {
+                s.pinned.remove(place);
+            }
+        });
+    };
+    view! {
+        <Pins
+            lab=session.lab
+            id="response-pinned"
+            count=Memo::new(move |_| session.document.with(|s| s.pinned.len()))
+            text=Callback::new(text)
+            on_restore=Callback::new(restore)
+            on_remove=Callback::new(remove)
+        />
     }
 }
 
@@ -227,7 +269,7 @@ fn table(session: Session) -> impl IntoView {
         if let Ok(Some(design)) = pinned.result.as_ref() {
             let same = session.throttled.setup.with(|s| s.plant.has_same_clock(&pinned.setup.plant));
             rows.push(group(if same {
-                tr!(lab, relay.row_pinned, number = k + 1)
+                tr!(lab, pins.name, number = k + 1)
             } else {
                 tr!(lab, relay.row_pinned_other, number = k + 1)
             }));

@@ -12,6 +12,8 @@ use quadtank::tuning::TuningError;
 use quadtank_scenario::tuning::TuningScenario;
 
 use super::flags::{locks, panels};
+use super::guide::Guide;
+use crate::depth::Depth;
 use crate::lab::Lab;
 use crate::session::{self, Bench, Lock, Outcome, Panel, part_of};
 use crate::texts::tr;
@@ -51,12 +53,15 @@ impl Found {
 pub struct Own {
     /// The published case that is shown.
     pub case: RwSignal<Option<PublishedCase>>,
+    /// How far the steps are open.
+    pub guide: Guide,
 }
 
 impl Bench for RelayTuning {
     const ID: &'static str = "relay-tuning";
     const PICTURE: &'static str = "M4 20V10H12V24H20V10H28V24H36V10H44M4 17q4-9 8 0t8 0 8 0 8 0 8 0";
     const CLASS: &'static str = "bench relay";
+    const DEPTHS: &'static [Depth] = &[Depth::Explore, Depth::Full];
     const PANELS: &'static [Panel] = panels::ALL;
     const LOCKS: &'static [Lock] = locks::ALL;
     type Document = TuningScenario;
@@ -76,7 +81,8 @@ impl Bench for RelayTuning {
     }
 
     fn own(document: RwSignal<TuningScenario>) -> Own {
-        Own { case: RwSignal::new(document.with_untracked(|document| case_of(&document.tuning))) }
+        let case = RwSignal::new(document.with_untracked(|document| case_of(&document.tuning)));
+        Own { case, guide: Guide::new() }
     }
 
     fn title(lab: Lab) -> String {

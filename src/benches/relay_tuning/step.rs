@@ -2,6 +2,9 @@
 
 use leptos::prelude::*;
 
+use super::guide;
+use super::mends::{Offer, Offers};
+use super::session::use_session;
 use crate::widgets::{Card, ChartCanvas, ChartMenu, Picture, Verdict, marked, unmarked};
 use quadtank_figure::Frame;
 
@@ -31,6 +34,9 @@ pub fn Step(
     /// What came out, and whether all is well.
     #[prop(into)]
     verdict: Signal<(bool, String)>,
+    /// What mends it, where it is a warning.
+    #[prop(optional, into)]
+    offers: Signal<Vec<Offer>>,
     /// What is folded away below.
     #[prop(optional, into)]
     below: ViewFnOnce,
@@ -42,8 +48,11 @@ pub fn Step(
     let heading = Signal::derive(move || format!("{number} · {}", title.get()));
     let for_menu = picture.clone();
     let beside = move || view! { {toolbar.run()}<ChartMenu picture=for_menu file=name title /> };
+    let hidden = guide::is_closed(use_session(), number);
+    // The first step shows what there is before anything is switched on.
+    let hidden = Signal::derive(move || number > 1 && hidden.get());
     view! {
-        <Card name title=heading beside>
+        <Card name title=heading beside hidden>
             <div class="step">
                 <div class=place>
                     <ChartCanvas picture frames summary=Signal::derive(move || unmarked(&found.get().1)) name />
@@ -53,6 +62,7 @@ pub fn Step(
             </div>
             <Verdict id=format!("{name}-verdict") warm=Signal::derive(move || !found.get().0)>
                 <p>{move || marked(&found.get().1)}</p>
+                <Offers offers />
             </Verdict>
             <div class="folded">{below.run()}</div>
         </Card>

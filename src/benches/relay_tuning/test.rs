@@ -4,16 +4,18 @@ use leptos::prelude::*;
 
 use super::details::TestDetails;
 use super::flags::locks;
+use super::guide::{self, SwitchOn};
+use super::mends;
 use super::pictures::{self, record_of, short_name};
 use super::readout::{Surface, readout};
 use super::session::{time_unit, use_session};
 use super::step::Step;
 use super::test_report::{sentence, table};
-use super::timeline::timeline;
+use super::timeline::{BEGINNING, timeline};
 use crate::controls::{ParamControl, ParamRow, Switch};
 use crate::shown::ShownUnit;
 use crate::texts::{say, tr};
-use crate::widgets::{Choice, DataTable, Figures, Scale, Select, ZoomButtons};
+use crate::widgets::{Choice, DataTable, Figures, Scale, Select, TimeBar, ZoomButtons};
 use quadtank::study::relay_tuning::{CriticalSpec, SeriesElement, TestKind, Tested, TuningSetup};
 use quadtank::tuning::TuningRule;
 use quadtank_figure::Frame;
@@ -23,8 +25,6 @@ use quadtank_scenario::Limits;
 const RATIOS: (f64, f64) = (0.02, 20.0);
 /// Modulus that the estimator of a point begins with.
 const FIRST_MODULUS: f64 = 0.2;
-/// Share of a record that is shown to begin with: enough to see it settle, little enough to see its switches.
-const BEGINNING: f64 = 0.25;
 
 const RATIO: ParamControl<TuningSetup> = ParamControl {
     ids: [("ratio", "ratio-number"); 2],
@@ -123,7 +123,8 @@ pub fn TestCard() -> impl IntoView {
     let lab = session.lab;
     let frames = RwSignal::new(Vec::<Frame>::new());
     let axis = timeline(session.part(|s| s.test.duration), BEGINNING);
-    let picture = pictures::test(session, axis.window);
+    let playback = guide::playback(session);
+    let picture = pictures::test(session, axis.window, guide::drawn_until(session));
     let for_table = picture.clone();
     let values = readout(session, axis.cursor, move |show| {
         session.throttled.test.with(|outcome| {
@@ -136,10 +137,13 @@ pub fn TestCard() -> impl IntoView {
     let label = say!(lab, relay.test_cursor);
     let below = move || {
         view! {
+            <TimeBar playback id="test-play" lab />
             <DataTable picture=for_table id="test-table" />
             <TestDetails />
         }
     };
+    let is_off = guide::is_closed(session, 1);
+    let verdict = move || if is_off.get() { (true, tr!(lab, guide.off)) } else { sentence(session) };
     view! {
         <Step
             name="test"
@@ -148,8 +152,9 @@ pub fn TestCard() -> impl IntoView {
             toolbar=move || view! { <div class="toolbar"><TakeOver /><ZoomButtons axis ids /></div> }
             picture
             frames
-            overlay=move || view! { <Surface id="test-surface" axis frames label readout=values /> }
-            verdict=Signal::derive(move || sentence(session))
+            overlay=move || view! { <Surface id="test-surface" axis frames label readout=values /> <SwitchOn playback /> }
+            verdict=Signal::derive(verdict)
+            offers=Signal::derive(move || mends::of_test(session))
             below
         >
             <Settings />

@@ -10,6 +10,14 @@ const SHORTEST: f64 = 0.005;
 /// Asked for where all of a record is to be shown, however long it is.
 const WHOLE: (f64, f64) = (0.0, f64::INFINITY);
 
+/// Share of a record that is shown to begin with: enough to see it settle, little enough to see its switches.
+pub const BEGINNING: f64 = 0.25;
+
+/// The stretch of a record that is shown to begin with.
+pub fn first_stretch(duration: f64) -> (f64, f64) {
+    (0.0, BEGINNING * duration)
+}
+
 /// A time axis from 0 to `end`, of which the first `share` is shown to begin with.
 pub fn timeline(end: Signal<f64>, share: f64) -> TimeAxis {
     let shown = RwSignal::new(None::<(f64, f64)>);

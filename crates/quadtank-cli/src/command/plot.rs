@@ -57,6 +57,7 @@ fn responses(setup: &Setup, style: &Style) -> Result<String, StudyError> {
         references: run.nonlinear.references.each_ref().map(Vec::as_slice),
         linear: Some(RunColumns::of(&run.linear)),
         pinned: Vec::new(),
+        flags: &[],
         level_scale,
         walls: [plant.tanks[0].height, plant.tanks[1].height],
         voltage_limits: (pump_1.voltage_min.min(pump_2.voltage_min), pump_1.voltage_max.max(pump_2.voltage_max)),
@@ -71,7 +72,6 @@ fn responses(setup: &Setup, style: &Style) -> Result<String, StudyError> {
             voltages: ["pump 1", "pump 2"],
             reference: "reference",
             linear: "linear model",
-            pinned: "",
         },
     });
     let size = Size { width: 840.0, height: 560.0 };

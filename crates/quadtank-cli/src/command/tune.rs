@@ -99,7 +99,7 @@ fn loops_svg(records: &[(&LoopTrace, Pen)], references: Option<[f64; 2]>, draw: 
     let window = (0.0, end.copied().unwrap_or(1.0));
     let (axes, texts) = (["time", "output", "input"], ["loop 1", "loop 2"]);
     let records: Vec<_> = records.iter().map(|&(trace, pen)| drawn(trace, pen)).collect();
-    draw(&two_loops(&LoopsChart { records: &records, window, references, axes, texts }))
+    draw(&two_loops(&LoopsChart { records: &records, window, until: None, references, axes, texts }))
 }
 
 fn curve<T>(found: &Tuning, draw: impl Fn(&CurveChart) -> T) -> T {

@@ -59,12 +59,13 @@ pub fn response_spec<'a>(run: &'a Run, linear: Option<&'a Run>, pinned: Option<&
         nonlinear: run.columns(),
         references: [&run.references[0], &run.references[1]],
         linear: linear.map(Run::columns),
-        pinned: pinned.map(Run::columns).into_iter().collect(),
+        pinned: pinned.map(|run| (run.columns(), "pinned")).into_iter().collect(),
         level_scale: 100.0,
         walls: [0.2, 0.2],
         voltage_limits: (0.0, 10.0),
         window_s: None,
         held_levels: None,
+        flags: &[],
         texts: ResponseTexts {
             time: "time (s)",
             level: "level (cm)",
@@ -74,7 +75,6 @@ pub fn response_spec<'a>(run: &'a Run, linear: Option<&'a Run>, pinned: Option<&
             voltages: ["pump 1", "pump 2"],
             reference: "reference",
             linear: "linear",
-            pinned: "pinned",
         },
     }
 }

@@ -15,7 +15,7 @@ fn responses_have_a_group_for_every_curve() {
     for role in ["loop-1", "loop-2"] {
         assert_eq!(groups(&document, &format!("line {role} solid")).len(), 2, "level and voltage");
         assert_eq!(groups(&document, &format!("line {role} dotted")).len(), 2);
-        assert_eq!(groups(&document, &format!("line {role} faded")).len(), 2);
+        assert_eq!(groups(&document, &format!("line {role} pinned")).len(), 2);
         let references = groups(&document, &format!("line {role} dashed"));
         assert_eq!(references.len(), 1);
         // All dashes are pieces of one path.

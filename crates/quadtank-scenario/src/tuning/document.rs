@@ -19,7 +19,7 @@ pub struct TuningScenario {
 
 impl TuningScenario {
     /// Most pinned sessions.
-    pub const MAX_PINNED: usize = 3;
+    pub const MAX_PINNED: usize = 8;
 }
 
 impl BenchDocument for TuningScenario {

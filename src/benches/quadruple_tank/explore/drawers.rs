@@ -1,6 +1,5 @@
-//! Everything else, folded: a drawer is made when it is opened first.
+//! Everything else, folded.
 
-use leptos::html::Details;
 use leptos::prelude::*;
 
 use super::super::controller::ControllerCard;
@@ -12,6 +11,7 @@ use super::super::rga::RelativeGainCard;
 use super::super::session::use_session;
 use super::super::why::WhyCard;
 use crate::texts::say;
+use crate::widgets::Drawer;
 
 /// All drawers.
 #[component]
@@ -29,32 +29,5 @@ pub fn Drawers() -> impl IntoView {
                 content=|| view! { <SettingsCard /> <ResponsesCard /> }
             />
         </div>
-    }
-}
-
-#[component]
-fn Drawer(
-    /// Name for tests.
-    id: &'static str,
-    /// What it holds.
-    #[prop(into)]
-    title: Signal<String>,
-    /// Its content.
-    #[prop(into)]
-    content: ViewFn,
-) -> impl IntoView {
-    let details = NodeRef::<Details>::new();
-    let seen = RwSignal::new(false);
-    let open = move |_| {
-        // The event comes after the click, when the drawer may be gone.
-        if details.try_get_untracked().flatten().is_some_and(|details| details.open()) {
-            seen.set(true);
-        }
-    };
-    view! {
-        <details class="drawer" node_ref=details on:toggle=open>
-            <summary class="button" data-testid=id>{title}</summary>
-            <div class="content">{move || seen.get().then(|| content.run())}</div>
-        </details>
     }
 }

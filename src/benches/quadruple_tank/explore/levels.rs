@@ -5,12 +5,11 @@ use std::time::Duration;
 use leptos::leptos_dom::helpers::TimeoutHandle;
 use leptos::prelude::*;
 
-use super::super::replay::{Replay, ReplayControls};
 use super::super::session::{Session, use_session};
 use super::super::set_points::SetPoints;
 use super::super::{pictures, responses};
 use crate::texts::{say, terms};
-use crate::widgets::{Card, ChartCanvas, Sentence, Text, unmarked};
+use crate::widgets::{Card, ChartCanvas, Playback, Sentence, Text, TimeBar, unmarked};
 use quadtank::study::quadruple_tank::fitted_duration_s;
 use quadtank_figure::Frame;
 
@@ -22,7 +21,7 @@ const TERMS: &[Text] = &[terms::reference, terms::rise, terms::overshoot];
 
 /// The levels of the run.
 #[component]
-pub fn LevelsCard(replay: Replay) -> impl IntoView {
+pub fn LevelsCard(replay: Playback) -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
     fit_time(session);
@@ -31,7 +30,7 @@ pub fn LevelsCard(replay: Replay) -> impl IntoView {
     let picture = pictures::levels(session, held);
     let sentence = Signal::derive(move || responses::sentence(session));
     view! {
-        <Card name="levels" title=say!(lab, explore.levels) terms=TERMS beside=move || view! { <ReplayControls replay /> }>
+        <Card name="levels" title=say!(lab, explore.levels) terms=TERMS beside=move || view! { <TimeBar playback=replay id="replay" lab /> }>
             <div class="chart">
                 <ChartCanvas picture frames summary=say!(lab, responses.summary, sentence = unmarked(&sentence.get())) name="levels" />
                 <SetPoints frames held />

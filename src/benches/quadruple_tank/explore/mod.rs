@@ -7,7 +7,7 @@ mod prompts;
 
 use leptos::prelude::*;
 
-use super::replay::Replay;
+use super::replay::replay_changes;
 use super::rig::Rig;
 use super::session::{release_levels, use_session};
 use super::valves::ValveMapCard;
@@ -19,7 +19,7 @@ use crate::widgets::{Card, marked};
 pub fn Explore() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
-    let replay = Replay::follow(session);
+    let replay = replay_changes(session);
     // The cards know voltages.
     on_cleanup(move || release_levels(session));
     view! {

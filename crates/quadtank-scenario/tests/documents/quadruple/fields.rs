@@ -133,7 +133,7 @@ fn too_many_entries_are_counted() {
     for (path, pointer, count, max) in [
         ("setup.experiment.set_point_steps", "/setup/experiment/set_point_steps", 9, limits::MAX_STEPS),
         ("setup.experiment.load_steps", "/setup/experiment/load_steps", 30, limits::MAX_STEPS),
-        ("pinned", "/pinned", 4, Scenario::MAX_PINNED),
+        ("pinned", "/pinned", Scenario::MAX_PINNED + 1, Scenario::MAX_PINNED),
     ] {
         let mut document = full();
         let list = document.pointer_mut(pointer).unwrap();
