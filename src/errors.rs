@@ -24,6 +24,9 @@ pub fn of_error(lab: Lab, unit: DisplayUnit, error: &ScenarioError) -> String {
         ScenarioError::TooMany { field, count, max } => {
             tr!(lab, refused.many, field = field, count = count, max = max)
         }
+        ScenarioError::TextTooLong { field, length, max } => {
+            tr!(lab, refused.text, field = field, length = length, max = max)
+        }
         ScenarioError::UnknownVersion { found, newest } => {
             tr!(lab, refused.version, found = found, newest = newest)
         }

@@ -5,7 +5,12 @@ use quadtank_scenario::BenchDocument;
 /// Most steps that can be undone. A document is a few kilobytes, so this is well below a megabyte.
 const MOST_STEPS: usize = 200;
 
-/// The documents of a bench in the order of its changes. A step is a change of a setup or of what is pinned: where the cursor
+/// Whether two documents are different experiments, be it by name: where the cursor stands does not matter.
+pub fn is_other_experiment<D: BenchDocument>(one: &D, other: &D) -> bool {
+    one.setup() != other.setup() || one.pinned() != other.pinned() || one.label() != other.label()
+}
+
+/// The documents of a bench in the order of its changes. A step is a change of a setup, of what is pinned, or of the name: where the cursor
 /// stands and what is zoomed into goes with the document, but is no step of its own.
 #[derive(Clone, Debug, PartialEq)]
 pub struct History<D> {
@@ -22,7 +27,7 @@ impl<D: BenchDocument> History<D> {
 
     /// Takes a document up: a new step if it holds another experiment, after which nothing can be done again.
     pub fn record(&mut self, document: &D) {
-        let is_step = document.setup() != self.present.setup() || document.pinned() != self.present.pinned();
+        let is_step = is_other_experiment(document, &self.present);
         let before = std::mem::replace(&mut self.present, document.clone());
         if is_step {
             if self.past.len() == MOST_STEPS {

@@ -12,6 +12,7 @@ use super::frames::FrameScheduler;
 use super::session::{Bench, Lock, Panel, Session};
 use super::start::StartFlags;
 use super::texts::Language;
+use super::widgets::Picture;
 use quadtank::literature::PresetId;
 use quadtank_figure::{Palette, Style};
 use quadtank_scenario::{Document, ScenarioError};
@@ -80,8 +81,21 @@ pub struct State {
     pub told_not_kept: StoredValue<bool>,
     /// How the page was started.
     pub flags: StoredValue<StartFlags>,
+    /// The pictures of the page, in the order in which they were made.
+    figures: StoredValue<Vec<Figure>>,
     /// Owns what stays when benches change.
     owner: Owner,
+}
+
+/// A picture of the page, for who shows it elsewhere.
+#[derive(Clone)]
+pub struct Figure {
+    /// Its charts.
+    pub picture: Picture,
+    /// What it says.
+    pub summary: Signal<String>,
+    /// Whether it can be seen.
+    pub is_shown: Signal<bool>,
 }
 
 /// The laboratory of this page.
@@ -110,6 +124,7 @@ impl Lab {
             first_depth: depth,
             told_not_kept: StoredValue::new(false),
             flags: StoredValue::new(flags),
+            figures: StoredValue::new(Vec::new()),
             owner: Owner::current().unwrap_or_default(),
         })))
     }
@@ -194,6 +209,19 @@ impl Lab {
     pub fn locks(self, lock: Lock) -> bool {
         debug_assert!(self.benches.iter().any(|bench| bench.locks.contains(&lock)), "no bench lists {lock:?}");
         self.flags.with_value(|flags| flags.locks(lock))
+    }
+
+    /// Takes a picture up until the view that makes it goes.
+    pub fn add_figure(self, figure: Figure) {
+        let shown = figure.is_shown;
+        self.figures.update_value(|figures| figures.push(figure));
+        on_cleanup(move || self.figures.update_value(|figures| figures.retain(|other| other.is_shown != shown)));
+    }
+
+    /// The pictures that can be seen.
+    pub fn shown_figures(self) -> Vec<Figure> {
+        let is_shown = |figure: &&Figure| figure.is_shown.try_get_untracked() == Some(true);
+        self.figures.with_value(|figures| figures.iter().filter(is_shown).cloned().collect())
     }
 
     /// How the chosen language writes numbers.

@@ -5,6 +5,7 @@ use leptos::prelude::*;
 use super::benches::BenchEntry;
 use super::download::{copy, download_text};
 use super::lab::{Lab, Notice};
+use super::naming::file_name;
 use super::start::StartFlags;
 use quadtank_scenario::{Document, ScenarioError, check_length, document_from_bytes, document_from_link};
 
@@ -134,7 +135,7 @@ pub fn json_of(lab: Lab) -> Result<String, ScenarioError> {
 /// Hands the experiment over as a file.
 pub fn save(lab: Lab) {
     match json_of(lab) {
-        Ok(text) => download_text(FILE, "application/json", &text),
+        Ok(text) => download_text(&file_name(lab, FILE), "application/json", &text),
         Err(error) => lab.notice.set(Some(Notice::Refused(error))),
     }
 }

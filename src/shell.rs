@@ -7,8 +7,10 @@ use leptos::wasm_bindgen::JsCast;
 
 use super::benches::{BENCHES, BenchEntry};
 use super::depth::Depth;
+use super::handout::{self, Handout};
 use super::keep;
 use super::lab::{Lab, Notice, use_lab};
+use super::naming::{ExperimentName, NameFields};
 use super::notices::Notices;
 use super::share;
 use super::start::StartFlags;
@@ -51,7 +53,7 @@ pub fn Laboratory(
     // What a menu offers is done, and the menu not needed any more.
     let on_click = window_event_listener(ev::click, |event| {
         let target = event.target().and_then(|target| target.dyn_into::<web_sys::Element>().ok());
-        if target.is_some_and(|target| target.matches(".menu > div > *, .menu > nav *").unwrap_or(false)) {
+        if target.is_some_and(|target| target.matches(".menu > div > :is(button, a), .menu > nav *").unwrap_or(false)) {
             close_menus(None);
         }
     });
@@ -90,6 +92,7 @@ pub fn Laboratory(
             <Notices />
             {benches.iter().map(|bench| view! { <KeptBench bench /> }).collect_view()}
             {embed.then(|| view! { <EmbedFooter /> })}
+            <Handout />
         </div>
     }
 }
@@ -116,7 +119,7 @@ fn KeptBench(bench: &'static BenchEntry) -> impl IntoView {
         // The id is that of the bench that is shown.
         seen.get().then(|| {
             view! {
-                <main class=class id=move || is_shown().then(|| "bench".to_owned())>{(bench.cards)(lab)}</main>
+                <main class=class tabindex="-1" id=move || is_shown().then(|| "bench".to_owned())>{(bench.cards)(lab)}</main>
             }
         })
     };
@@ -180,8 +183,10 @@ fn Header() -> impl IntoView {
     let lab = use_lab();
     view! {
         <header class="top">
+            <button type="button" class="button skip" data-testid="skip" on:click=|_| focus_bench()>{say!(lab, app.skip)}</button>
             <h1>{say!(lab, app.title)}</h1>
             <BenchMenu />
+            <ExperimentName />
             <span class="spacer"></span>
             <DepthSwitch />
             <Steps />
@@ -203,12 +208,23 @@ fn Header() -> impl IntoView {
                 <summary>{say!(lab, app.about)}</summary>
                 <div>
                     <p>{say!(lab, app.footer)}</p>
-                    <p>{say!(lab, app.licence)}</p>
+                    <p>{say!(lab, app.keys)}</p>
+                    <p>{say!(lab, app.links)}</p>
+                    <p>{say!(lab, app.privacy)}</p>
+                    <p>{say!(lab, app.version, version = env!("CARGO_PKG_VERSION"))} " " {say!(lab, app.licence)}</p>
                 </div>
             </details>
             <LanguageChoice />
             <ThemeSwitch />
         </header>
+    }
+}
+
+/// Puts the focus on the bench, past the header.
+fn focus_bench() {
+    let bench = document().get_element_by_id("bench").and_then(|bench| bench.dyn_into::<web_sys::HtmlElement>().ok());
+    if let Some(bench) = bench {
+        let _ = bench.focus();
     }
 }
 
@@ -322,6 +338,8 @@ fn FileMenu() -> impl IntoView {
                         {say!(lab, app.single_file)}
                     </a>
                 })}
+                <button type="button" data-testid="print" on:click=move |_| handout::print()>{say!(lab, handout.print)}</button>
+                <NameFields />
             </div>
             <input type="file" accept=".json,application/json" hidden node_ref=picker data-testid="open-input" on:change=on_file />
         </details>

@@ -1,13 +1,15 @@
 //! The benches and their list: all that the rest of the page knows of them.
 
+pub mod handover;
 mod model_free;
 mod quadruple_tank;
 mod relay_tuning;
 
 use leptos::prelude::*;
-use quadtank_scenario::{BenchDocument, Document, ScenarioError, to_json, to_link};
+use quadtank_scenario::{BenchDocument, Document, Entry, Label, ScenarioError, entries, to_json, to_link};
 
 use super::depth::Depth;
+use super::history::is_other_experiment;
 use super::lab::Lab;
 use super::session::{Bench, Lock, Panel, Session};
 pub use model_free::ModelFree;
@@ -56,6 +58,12 @@ pub struct BenchEntry {
     pub reset: fn(Lab),
     /// Whether the document holds another experiment than that, wherever its cursor stands.
     pub is_changed: fn(Lab) -> bool,
+    /// What the experiment is called, and a note on it; follows the document.
+    pub label: fn(Lab) -> Label,
+    /// Gives it another name and note.
+    pub set_label: fn(Lab, Label),
+    /// All numbers and choices of its setup.
+    pub entries: fn(Lab) -> Vec<Entry>,
     /// The document as a file has it.
     pub json: fn(Lab) -> Result<String, ScenarioError>,
     /// The document as a link has it.
@@ -88,10 +96,11 @@ impl BenchEntry {
             reset: |lab| session::<B>(lab).document.set(B::usual(lab)),
             is_changed: |lab| {
                 let usual = B::usual(lab);
-                session::<B>(lab)
-                    .document
-                    .with_untracked(|document| document.setup() != usual.setup() || document.pinned() != usual.pinned())
+                session::<B>(lab).document.with_untracked(|document| is_other_experiment(document, &usual))
             },
+            label: |lab| session::<B>(lab).document.with(|document| document.label().clone()),
+            set_label: |lab, label| session::<B>(lab).document.update(|document| *document.label_mut() = label),
+            entries: |lab| session::<B>(lab).document.with_untracked(entries),
             json: |lab| session::<B>(lab).document.with_untracked(to_json),
             link: |lab| session::<B>(lab).document.with_untracked(to_link),
         }

@@ -1,7 +1,10 @@
+use leptos::ev::KeyboardEvent;
 use leptos::prelude::*;
 
 use super::marked::marked;
 use super::terms::{Terms, Text};
+use crate::lab::use_lab;
+use crate::texts::tr;
 
 /// A card: its title with what stands beside it, and its content. Its class names it.
 #[component]
@@ -26,10 +29,38 @@ pub fn Card(
     let help = (!terms.is_empty()).then(|| view! { <Terms id=format!("{name}-terms") title terms /> });
     let heading = format!("{name}-title");
     let labelled_by = heading.clone();
+    let lab = use_lab();
+    let is_large = RwSignal::new(false);
+    let reduce = move |event: KeyboardEvent| {
+        if event.key() == "Escape" && is_large.get_untracked() {
+            is_large.set(false);
+            event.stop_propagation();
+        }
+    };
+    let size = Signal::derive(move || {
+        let title = title.get();
+        if is_large.get() { tr!(lab, card.reduce, title = title) } else { tr!(lab, card.enlarge, title = title) }
+    });
     view! {
-        <section class=format!("card {name}") aria-labelledby=labelled_by hidden=hidden>
+        <section
+            class=format!("card {name}")
+            class:large=is_large
+            aria-labelledby=labelled_by
+            hidden=hidden
+            on:keydown=reduce
+        >
             <header><h2 id=heading>{title}</h2>{help}{beside.run()}</header>
             {children()}
+            <button
+                type="button"
+                class="enlarge"
+                data-testid=format!("{name}-enlarge")
+                aria-label=size
+                title=size
+                on:click=move |_| is_large.update(|large| *large = !*large)
+            >
+                {move || if is_large.get() { "⤡" } else { "⤢" }}
+            </button>
         </section>
     }
 }

@@ -7,7 +7,8 @@ use web_sys::HtmlCanvasElement;
 use super::element_size::follow_size;
 use crate::canvas;
 use crate::download::{download_canvas, download_text};
-use crate::lab::use_lab;
+use crate::lab::{Figure, use_lab};
+use crate::naming::file_name;
 use crate::share::address_of;
 use crate::texts::tr;
 use quadtank_figure::{Chart, Frame, Rect, Sheet, Size, Style, layout, to_svg};
@@ -45,6 +46,9 @@ impl Picture {
 pub fn ChartCanvas(
     /// The charts.
     picture: Picture,
+    /// The same with what is laid over it here, for paper.
+    #[prop(optional)]
+    on_paper: Option<Picture>,
     /// Where the charts stand, for what is laid over them; set after each painting.
     frames: RwSignal<Vec<Frame>>,
     /// What the picture says, for those who do not see it.
@@ -58,6 +62,8 @@ pub fn ChartCanvas(
     let ground = StoredValue::new_local(None::<Ground>);
     let size = RwSignal::new(Size { width: 0.0, height: 0.0 });
     canvas.on_load(move |canvas| follow_size(&canvas, size));
+    let is_shown = Signal::derive(move || size.with(|size| size.width >= 1.0));
+    lab.add_figure(Figure { picture: on_paper.unwrap_or_else(|| picture.clone()), summary, is_shown });
     // A window that moves to another screen is resized or zoomed in the eyes of the browser.
     let moved = Trigger::new();
     let on_resize = window_event_listener(leptos::ev::resize, move |_| moved.notify());
@@ -132,7 +138,7 @@ pub fn ChartMenu(
     let (for_csv, for_svg, for_png) = (picture.clone(), picture.clone(), picture);
     let save_csv = move |_| {
         let text = untrack(|| (for_csv.csv)());
-        download_text(&format!("{file}.csv"), "text/csv", &text);
+        download_text(&file_name(lab, &format!("{file}.csv")), "text/csv", &text);
     };
     let save_svg = move |_| {
         let text = untrack(|| {
@@ -141,12 +147,12 @@ pub fn ChartMenu(
             let link = address_of(lab).unwrap_or_default();
             for_svg.visit(|charts| to_svg(charts, EXPORT, &style, &title.get(), &link))
         });
-        download_text(&format!("{file}.svg"), "image/svg+xml", &text);
+        download_text(&file_name(lab, &format!("{file}.svg")), "image/svg+xml", &text);
     };
     let save_png = move |_| {
         let style = untrack(|| lab.chart_style());
         if let Some(canvas) = untrack(|| for_png.visit(|charts| off_screen(charts, &style))) {
-            download_canvas(&format!("{file}.png"), &canvas);
+            download_canvas(&file_name(lab, &format!("{file}.png")), &canvas);
         }
     };
     view! {

@@ -158,3 +158,83 @@ test('a broken file names the field and the reason', async ({ lab, page }) => {
   await expect(lab.id('notice')).toContainText('could not be used');
   await lab.clean();
 });
+
+test('an experiment has a name and a note: in header, link, undo and the names of files', async ({ lab, page }) => {
+  await lab.open('lang=en');
+  await lab.page.locator('[data-testid=file-menu] > summary').click();
+  await lab.id('experiment-name').fill('Ensaio 3: γ₁ = 0,7');
+  await lab.id('experiment-note').fill('Two lines,\nsecond line');
+  await lab.id('experiment-note').blur();
+  await expect(lab.id('shown-name')).toHaveText('Ensaio 3: γ₁ = 0,7');
+  await expect(lab.id('shown-name')).toHaveAttribute('title', 'Two lines,\nsecond line');
+  await lab.axe();
+  const [download] = await Promise.all([page.waitForEvent('download'), lab.id('save').click()]);
+  expect(download.suggestedFilename()).toBe('ensaio-3-γ₁-0-7-quadtank-experiment.json');
+  await page.waitForTimeout(600);
+  await page.reload();
+  await lab.ready();
+  await expect(lab.id('shown-name')).toHaveText('Ensaio 3: γ₁ = 0,7');
+  await lab.type('gain1-number', '4');
+  await page.waitForTimeout(600);
+  await lab.id('reset').click();
+  await expect(lab.id('shown-name')).toBeHidden();
+  await lab.id('undo').click();
+  await expect(lab.id('shown-name')).toBeVisible();
+});
+
+for (const bench of ['quadruple-tank', 'relay-tuning', 'model-free']) {
+  test(`${bench} prints a handout with pictures, numbers, link and code`, async ({ lab, page }) => {
+    await lab.open(`bench=${bench}&lang=en&theme=dark`);
+    await page.evaluate(() => dispatchEvent(new Event('beforeprint')));
+    await page.emulateMedia({ media: 'print' });
+    const handout = lab.id('handout');
+    await expect(handout).toBeVisible();
+    await expect(page.locator('header.top')).toBeHidden();
+    await expect(page.locator('main')).toBeHidden();
+    expect(await handout.locator('figure svg').count()).toBeGreaterThanOrEqual(3);
+    for (const says of await handout.locator('figcaption').allInnerTexts()) expect(says.length).toBeGreaterThan(20);
+    expect(await handout.locator('li').count()).toBeGreaterThan(15);
+    await expect(handout.locator('svg.code path')).toHaveAttribute('d', /^M0 0h1v1h-1z/);
+    const link = await handout.locator('.link').innerText();
+    expect(link).toContain('#');
+    const pdf = await page.pdf();
+    expect(pdf.length).toBeGreaterThan(20_000);
+    await page.evaluate(() => dispatchEvent(new Event('afterprint')));
+    await page.emulateMedia({ media: 'screen' });
+    await expect(handout.locator('figure')).toHaveCount(0);
+    // The link leads to the same experiment.
+    await page.goto(link);
+    await lab.ready();
+    await lab.clean();
+  });
+}
+
+test('gains and rigs travel from bench to bench', async ({ lab, page }) => {
+  await lab.open('lang=en');
+  await lab.type('gamma1-number', '0.65');
+  await lab.id('to-relays').click();
+  await lab.settle();
+  expect(page.url()).toContain('bench=relay-tuning');
+  expect(await lab.value('rig-gamma1')).toBe(0.65);
+  expect(await lab.text('test-verdict')).toContain('Unimodal');
+  // Derivative action has no place on the rig.
+  await lab.id('action-pid').click();
+  await lab.settle();
+  await expect(lab.id('to-rig')).toBeHidden();
+  await lab.id('action-pi').click();
+  await lab.settle();
+  const gains = [await lab.value('gain1-number').catch(() => null)];
+  await lab.id('to-rig').click();
+  await lab.settle();
+  expect(page.url()).toContain('bench=quadruple-tank');
+  expect(await lab.value('gamma1-number')).toBe(0.65);
+  expect(await lab.value('gain1-number')).not.toBe(gains[0] ?? 3);
+  await lab.id('to-model-free').click();
+  await lab.settle();
+  expect(page.url()).toContain('bench=model-free');
+  await expect(lab.id('free-pi')).toHaveAttribute('aria-pressed', 'true');
+  await lab.clean();
+  await page.goBack();
+  await lab.settle();
+  expect(page.url()).toContain('bench=quadruple-tank');
+});

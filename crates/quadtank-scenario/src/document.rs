@@ -2,7 +2,7 @@ use quadtank::literature::PresetId;
 use quadtank::study::quadruple_tank::{Setup, setup_of};
 use serde::{Deserialize, Serialize};
 
-use super::{Document, ScenarioError, params, validate};
+use super::{Document, Label, ScenarioError, params, validate};
 
 /// The document of a bench: a setup, setups pinned to compare with, and what the screen shows of them.
 pub trait BenchDocument:
@@ -25,6 +25,12 @@ pub trait BenchDocument:
 
     /// Setups pinned to compare with.
     fn pinned(&self) -> &[Self::Setup];
+
+    /// What the experiment is called, and a note on it.
+    fn label(&self) -> &Label;
+
+    /// The same, to change it.
+    fn label_mut(&mut self) -> &mut Label;
 
     /// Checks every number against its [row](super::params), the lengths of all lists, and what has to hold between numbers.
     ///
@@ -57,6 +63,9 @@ pub struct View {
 pub struct Scenario {
     /// Version of the document: 1. It is checked before anything else is read.
     pub version: u32,
+    /// What the experiment is called, and a note on it.
+    #[serde(default, skip_serializing_if = "Label::is_empty")]
+    pub label: Label,
     /// The run that is worked on.
     pub setup: Setup,
     /// Runs pinned to compare with, at most 8.
@@ -90,7 +99,16 @@ impl BenchDocument for Scenario {
         &self.pinned
     }
 
+    fn label(&self) -> &Label {
+        &self.label
+    }
+
+    fn label_mut(&mut self) -> &mut Label {
+        &mut self.label
+    }
+
     fn validate(&self) -> Result<(), ScenarioError> {
+        self.label.check()?;
         params::check(self)?;
         validate::version(self.version, Self::VERSION)?;
         validate::setup(&self.setup, "setup")?;
@@ -126,6 +144,6 @@ impl Default for Scenario {
 /// A setup alone, nothing pinned.
 impl From<Setup> for Scenario {
     fn from(setup: Setup) -> Self {
-        Self { version: Self::VERSION, setup, pinned: Vec::new(), view: View::default() }
+        Self { version: Self::VERSION, label: Label::default(), setup, pinned: Vec::new(), view: View::default() }
     }
 }

@@ -54,6 +54,16 @@ pub enum ScenarioError {
         /// How many are allowed.
         max: usize,
     },
+    /// A text that is longer than it may be.
+    #[error("{field}: {length} characters, at most {max}")]
+    TextTooLong {
+        /// Where in the document.
+        field: String,
+        /// How many characters it has.
+        length: usize,
+        /// How many are allowed.
+        max: usize,
+    },
     /// A version that this program does not know.
     #[error("version: {found} is unknown, this program reads 1 to {newest}")]
     UnknownVersion {

@@ -8,7 +8,9 @@
 mod codec;
 mod csv;
 mod document;
+mod entries;
 mod error;
+mod label;
 pub mod limits;
 mod link;
 pub mod model_free;
@@ -28,7 +30,9 @@ mod validate;
 pub use codec::{DOCUMENT_LIMIT, Document, check_length, document_from_bytes, document_from_json, from_json, to_json};
 pub use csv::{roots_to_csv, run_to_csv, valve_map_to_csv};
 pub use document::{BenchDocument, Scenario, View};
+pub use entries::{Entry, EntryValue, entries};
 pub use error::ScenarioError;
+pub use label::Label;
 pub use limits::Limits;
 pub use link::{LINK_LIMIT, document_from_link, to_link};
 #[cfg(feature = "schema")]

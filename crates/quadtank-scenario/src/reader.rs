@@ -7,10 +7,11 @@
 use std::fmt::{self, Display};
 
 use serde::Deserialize;
-use serde::de::value::{MapDeserializer, SeqDeserializer, StrDeserializer};
-use serde::de::{DeserializeSeed, Deserializer, EnumAccess, Error, IntoDeserializer, VariantAccess, Visitor};
+use serde::de::value::StrDeserializer;
+use serde::de::{
+    DeserializeSeed, Deserializer, EnumAccess, Error, IntoDeserializer, MapAccess, SeqAccess, VariantAccess, Visitor,
+};
 use serde::forward_to_deserialize_any;
-use serde_path_to_error::{Path, Segment};
 
 use super::ScenarioError;
 use super::error::{malformed, quoted};
@@ -21,42 +22,50 @@ use super::tree::Tree;
 /// # Errors
 /// [`ScenarioError::Malformed`], which names the field.
 pub fn read<'de, T: Deserialize<'de>>(tree: &'de Tree) -> Result<T, ScenarioError> {
-    serde_path_to_error::deserialize(tree).map_err(|error| {
-        let mut path = path_of(error.path());
-        let Fault { reason, field } = error.into_inner();
-        if let Some(field) = field {
-            push_name(&mut path, field);
-        }
-        malformed(path, reason)
-    })
+    T::deserialize(tree).map_err(|fault| malformed(path_of(&fault.place), fault.reason))
 }
 
-/// The path of a value, such as `setup.controller.loops[0].gain`.
-fn path_of(path: &Path) -> String {
-    let mut text = String::new();
-    for segment in path {
-        match segment {
-            Segment::Seq { index } => text.extend(["[", &index.to_string(), "]"]),
-            Segment::Map { key: name } | Segment::Enum { variant: name } => push_name(&mut text, name),
-            Segment::Unknown => {}
+/// The path of a place, such as `setup.controller.loops[0].gain`.
+fn path_of(place: &[Step]) -> String {
+    let mut path = String::new();
+    for step in place.iter().rev() {
+        match step {
+            Step::Item(index) => path.extend(["[", &index.to_string(), "]"]),
+            Step::Field(name) => {
+                if !path.is_empty() {
+                    path.push('.');
+                }
+                path.push_str(&quoted(name));
+            }
         }
     }
-    text
+    path
 }
 
-fn push_name(path: &mut String, name: &str) {
-    if !path.is_empty() {
-        path.push('.');
-    }
-    path.push_str(&quoted(name));
+/// A step from a value to one inside it.
+#[derive(Debug)]
+enum Step {
+    Item(usize),
+    Field(String),
 }
 
-/// What is wrong about a value.
+/// What is wrong about a value, and where: it is known inside, so each value around adds its step, the innermost first. A library
+/// that wraps every visitor to do this (`serde_path_to_error`) costs 20 KB of the page.
 #[derive(Debug)]
 pub struct Fault {
     reason: String,
-    /// The field of the value that it is about, where that is not on the path.
-    field: Option<&'static str>,
+    place: Vec<Step>,
+}
+
+impl Fault {
+    fn inside(mut self, step: Step) -> Self {
+        self.place.push(step);
+        self
+    }
+
+    fn inside_field(self, name: &str) -> Self {
+        self.inside(Step::Field(name.to_owned()))
+    }
 }
 
 impl Display for Fault {
@@ -69,7 +78,7 @@ impl std::error::Error for Fault {}
 
 impl Error for Fault {
     fn custom<T: Display>(reason: T) -> Self {
-        Self { reason: reason.to_string(), field: None }
+        Self { reason: reason.to_string(), place: Vec::new() }
     }
 
     fn unknown_field(name: &str, expected: &'static [&'static str]) -> Self {
@@ -81,7 +90,7 @@ impl Error for Fault {
     }
 
     fn duplicate_field(name: &'static str) -> Self {
-        Self { reason: format!("duplicate field `{name}`"), field: Some(name) }
+        Self::custom(format!("duplicate field `{name}`")).inside_field(name)
     }
 }
 
@@ -103,8 +112,38 @@ fn is_no(tree: &Tree, expected: &str) -> Fault {
     Fault::custom(format!("invalid type: {found}, expected {expected}"))
 }
 
-fn list_of(items: &[Tree]) -> SeqDeserializer<std::slice::Iter<'_, Tree>, Fault> {
-    SeqDeserializer::new(items.iter())
+/// The items of a list.
+struct Items<'de>(std::iter::Enumerate<std::slice::Iter<'de, Tree>>);
+
+impl<'de> SeqAccess<'de> for Items<'de> {
+    type Error = Fault;
+
+    fn next_element_seed<T: DeserializeSeed<'de>>(&mut self, seed: T) -> Result<Option<T::Value>, Fault> {
+        let Some((index, item)) = self.0.next() else { return Ok(None) };
+        seed.deserialize(item).map(Some).map_err(|fault| fault.inside(Step::Item(index)))
+    }
+}
+
+/// The entries of a map: those that are left, and the one whose value comes next.
+struct Entries<'de> {
+    left: std::slice::Iter<'de, (String, Tree)>,
+    next: Option<&'de (String, Tree)>,
+}
+
+impl<'de> MapAccess<'de> for Entries<'de> {
+    type Error = Fault;
+
+    fn next_key_seed<K: DeserializeSeed<'de>>(&mut self, seed: K) -> Result<Option<K::Value>, Fault> {
+        self.next = self.left.next();
+        let Some((name, _)) = self.next else { return Ok(None) };
+        let key: StrDeserializer<'_, Fault> = name.as_str().into_deserializer();
+        seed.deserialize(key).map(Some).map_err(|fault| fault.inside_field(name))
+    }
+
+    fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Result<V::Value, Fault> {
+        let Some((name, value)) = self.next else { return Err(Fault::custom("a value without a key")) };
+        seed.deserialize(value).map_err(|fault| fault.inside_field(name))
+    }
 }
 
 impl<'de> Deserializer<'de> for &'de Tree {
@@ -140,20 +179,29 @@ impl<'de> Deserializer<'de> for &'de Tree {
         self.deserialize_u32(visitor)
     }
 
+    fn deserialize_str<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Fault> {
+        let Tree::Text(text) = self else { return Err(is_no(self, "a text")) };
+        visitor.visit_str(text)
+    }
+
+    fn deserialize_string<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Fault> {
+        self.deserialize_str(visitor)
+    }
+
     fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Fault> {
         if *self == Tree::Null { visitor.visit_none() } else { visitor.visit_some(self) }
     }
 
     fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Fault> {
         let Tree::List(items) = self else { return Err(is_no(self, "a list")) };
-        visitor.visit_seq(list_of(items))
+        visitor.visit_seq(Items(items.iter().enumerate()))
     }
 
     fn deserialize_tuple<V: Visitor<'de>>(self, length: usize, visitor: V) -> Result<V::Value, Fault> {
         let Tree::List(items) = self else { return Err(is_no(self, "a list")) };
         let count = items.len();
         if count == length {
-            return visitor.visit_seq(list_of(items));
+            return visitor.visit_seq(Items(items.iter().enumerate()));
         }
         let is_number = |item: &Tree| matches!(item, Tree::Unsigned(_) | Tree::Signed(_) | Tree::Float(_));
         // Perhaps a decimal comma, which a list takes for the end of an entry.
@@ -168,7 +216,7 @@ impl<'de> Deserializer<'de> for &'de Tree {
         visitor: V,
     ) -> Result<V::Value, Fault> {
         let Tree::Map(entries) = self else { return Err(is_no(self, "a map")) };
-        visitor.visit_map(MapDeserializer::new(entries.iter().map(|(key, value)| (key.as_str(), value))))
+        visitor.visit_map(Entries { left: entries.iter(), next: None })
     }
 
     fn deserialize_enum<V: Visitor<'de>>(
@@ -188,16 +236,8 @@ impl<'de> Deserializer<'de> for &'de Tree {
     }
 
     forward_to_deserialize_any! {
-        i8 i16 i32 i64 u8 u16 f32 char str string bytes byte_buf unit unit_struct newtype_struct tuple_struct map identifier
+        i8 i16 i32 i64 u8 u16 f32 char bytes byte_buf unit unit_struct newtype_struct tuple_struct map identifier
         ignored_any
-    }
-}
-
-impl<'de> IntoDeserializer<'de, Fault> for &'de Tree {
-    type Deserializer = Self;
-
-    fn into_deserializer(self) -> Self {
-        self
     }
 }
 
@@ -209,7 +249,7 @@ struct Choice<'de> {
 
 impl<'de> Choice<'de> {
     fn content(&self) -> Result<&'de Tree, Fault> {
-        self.content.ok_or_else(|| Fault::custom("a choice that needs a value"))
+        self.content.ok_or_else(|| Fault::custom("a choice that needs a value").inside_field(self.name))
     }
 }
 
@@ -227,18 +267,18 @@ impl<'de> VariantAccess<'de> for Choice<'de> {
     type Error = Fault;
 
     fn unit_variant(self) -> Result<(), Fault> {
-        self.content.map_or(Ok(()), |content| Err(is_no(content, "a choice without a value")))
+        self.content.map_or(Ok(()), |content| Err(is_no(content, "a choice without a value").inside_field(self.name)))
     }
 
     fn newtype_variant_seed<T: DeserializeSeed<'de>>(self, seed: T) -> Result<T::Value, Fault> {
-        seed.deserialize(self.content()?)
+        seed.deserialize(self.content()?).map_err(|fault| fault.inside_field(self.name))
     }
 
     fn tuple_variant<V: Visitor<'de>>(self, length: usize, visitor: V) -> Result<V::Value, Fault> {
-        self.content()?.deserialize_tuple(length, visitor)
+        self.content()?.deserialize_tuple(length, visitor).map_err(|fault| fault.inside_field(self.name))
     }
 
     fn struct_variant<V: Visitor<'de>>(self, fields: &'static [&'static str], visitor: V) -> Result<V::Value, Fault> {
-        self.content()?.deserialize_struct("", fields, visitor)
+        self.content()?.deserialize_struct("", fields, visitor).map_err(|fault| fault.inside_field(self.name))
     }
 }

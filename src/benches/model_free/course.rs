@@ -5,9 +5,9 @@ use leptos::prelude::*;
 use super::pictures;
 use super::sentences::{self, in_cm};
 use super::session::{Session, set_cursor, shown, use_session};
-use crate::texts::{say, tr};
+use crate::texts::{say, terms, tr};
 use crate::widgets::{
-    Card, ChartCanvas, ChartMenu, DataTable, Figure, Figures, Readout, ReasonedRow, Row, Sentence, TableContent,
+    Card, ChartCanvas, ChartMenu, DataTable, Figure, Figures, Readout, ReasonedRow, Row, Sentence, TableContent, Text,
     TimeAxis, TimeSurface, Verdict, ZoomButtons, marked, unmarked,
 };
 use quadtank::sim::{NoResponse, TrackingMetrics};
@@ -15,6 +15,9 @@ use quadtank_figure::Frame;
 
 /// The shortest stretch of time that can be shown (s).
 const SHORTEST_S: f64 = 5.0;
+
+/// The words of the card that explain themselves.
+const TERMS: &[Text] = &[terms::lost, terms::estimate, terms::costs];
 
 /// The course with its sentence and its figures.
 #[component]
@@ -43,7 +46,7 @@ pub fn CourseCard(
         }
     };
     view! {
-        <Card name="course" title beside>
+        <Card name="course" title terms=TERMS beside>
             <Verdict id="free-verdict" warm=Signal::derive(move || !found.get().0)>
                 {move || marked(&found.get().1)}
             </Verdict>

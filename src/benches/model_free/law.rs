@@ -7,8 +7,8 @@ use super::sentences::{self, CM_PER_M};
 use super::session::use_session;
 use crate::controls::{ParamControl, ParamRow, Switch};
 use crate::shown::ShownUnit;
-use crate::texts::{say, tr};
-use crate::widgets::{Card, Scale, Sentence};
+use crate::texts::{say, terms, tr};
+use crate::widgets::{Card, Scale, Sentence, Text};
 use quadtank::control::{
     EstimatorSettings, FedWith, MAX_WINDOW_SAMPLES, ModelFreeSettings, ModelFreeWindup, Pairing, Quadrature, Window,
 };
@@ -78,6 +78,9 @@ const SAMPLING: ParamControl<ModelFreeSetup> = ParamControl {
     ..ParamControl::locked_by(locks::SAMPLING)
 };
 
+/// The words of the card that explain themselves.
+const TERMS: &[Text] = &[terms::local_model, terms::estimate, terms::alpha, terms::windup];
+
 /// The settings of the law.
 #[component]
 pub fn LawCard() -> impl IntoView {
@@ -100,7 +103,7 @@ pub fn LawCard() -> impl IntoView {
     let stability = Memo::new(move |_| sentences::of_loop(session));
     let lock = locks::GAINS;
     view! {
-        <Card name="law" title=say!(lab, free.law)>
+        <Card name="law" terms=TERMS title=say!(lab, free.law)>
             <div class="formula">{formula()}</div>
             <ParamRow session control=&MODEL_GAIN />
             <ParamRow session control=&PROPORTIONAL />

@@ -25,7 +25,7 @@ pub fn ValvePlaneCard() -> impl IntoView {
     view! {
         <Card name="valve-way" title beside>
             <div class="chart square">
-                <ChartCanvas picture=pictures::plane(session, false) frames summary name="free-valve-plane" />
+                <ChartCanvas picture=pictures::plane(session, false) on_paper=pictures::plane(session, true) frames summary name="free-valve-plane" />
                 <svg class="over handles" aria-hidden="true" data-testid="free-way">{move || valve_path(session, frames)}</svg>
             </div>
         </Card>

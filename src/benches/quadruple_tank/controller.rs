@@ -5,12 +5,13 @@ use leptos::prelude::*;
 use super::flags::locks;
 use super::sentences;
 use super::session::{Session, use_session};
+use crate::benches::handover;
 use crate::controls::{ParamControl, ParamNumber, ParamRow};
 use crate::texts::{say, terms, tr};
 use crate::widgets::{Card, Scale, Segmented, Sentence, Text, Tick};
 use quadtank::control::{AntiWindup, LoopMode, Pairing, PiSettings};
 use quadtank::interaction::PairingVerdict;
-use quadtank::study::quadruple_tank::{Setup, calmed};
+use quadtank::study::quadruple_tank::{PlantSpec, Setup, calmed};
 use quadtank_scenario::{Limits, limits};
 
 /// Tt/Ti when anti-windup is switched on (Cocota 2009, ch. 4).
@@ -151,6 +152,25 @@ pub fn ControllerCard() -> impl IntoView {
                 <summary data-testid="pi-more">{say!(lab, pi.more)}</summary>
                 <FinePrint />
             </details>
+            <div class="toolbar">
+                <button
+                    type="button"
+                    class="button small"
+                    data-testid="to-relays"
+                    hidden=session.throttled_part(|s| !matches!(s.plant, PlantSpec::Preset(_)))
+                    on:click=move |_| handover::to_relays(lab, &session.document.with_untracked(|s| s.setup.clone()))
+                >
+                    {say!(lab, handover.relays)}
+                </button>
+                <button
+                    type="button"
+                    class="button small"
+                    data-testid="to-model-free"
+                    on:click=move |_| handover::to_model_free(lab, &session.document.with_untracked(|s| s.setup.clone()))
+                >
+                    {say!(lab, handover.model_free)}
+                </button>
+            </div>
             <Sentence
                 id="stability"
                 text=Signal::derive(move || stability.get().0)

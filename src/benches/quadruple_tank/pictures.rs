@@ -26,19 +26,20 @@ const PATH_POINTS: usize = 61;
 /// Steps of each valve in the exported table of the plane.
 const CSV_STEPS: u32 = 20;
 
-/// The valve plane. It does not depend on the valves themselves, so dragging the point does not repaint it.
-pub fn valve_plane(session: Session) -> Picture {
+/// The valve plane. On the screen it does not depend on the valves themselves, so that dragging the point does not repaint it; a
+/// `whole` one, for files and paper, has the point.
+pub fn valve_plane(session: Session, whole: bool) -> Picture {
     let lab = session.lab;
-    valve_plane_with(session, move || [tr!(lab, valves.minimum), tr!(lab, valves.right)])
+    valve_plane_with(session, whole, move || [tr!(lab, valves.minimum), tr!(lab, valves.right)])
 }
 
 /// The same as a map: its sides are named by what they are like to control.
-pub fn valve_map(session: Session) -> Picture {
+pub fn valve_map(session: Session, whole: bool) -> Picture {
     let lab = session.lab;
-    valve_plane_with(session, move || [tr!(lab, explore.easy_side), tr!(lab, explore.hard_side)])
+    valve_plane_with(session, whole, move || [tr!(lab, explore.easy_side), tr!(lab, explore.hard_side)])
 }
 
-fn valve_plane_with(session: Session, sides: impl Fn() -> [String; 2] + Send + Sync + 'static) -> Picture {
+fn valve_plane_with(session: Session, whole: bool, sides: impl Fn() -> [String; 2] + Send + Sync + 'static) -> Picture {
     let map = Memo::new(move |_| session.document.with(|s| ValveMap::of(&s.setup).ok().map(ValveMap::without_setting)));
     let csv = move || map.get().map(|m| valve_map_to_csv(&m, CSV_STEPS)).unwrap_or_default();
     let build = move |visit: &mut dyn FnMut(&[Chart])| {
@@ -49,7 +50,7 @@ fn valve_plane_with(session: Session, sides: impl Fn() -> [String; 2] + Send + S
         visit(&[quadtank_figure::valve_plane(&ValvePlane {
             right_most_zero: &|valves| map.rightmost_zero(valves),
             published: &[],
-            setting: None,
+            setting: whole.then(|| session.document.with(|s| s.setup.valves)),
             texts,
         })]);
     };

@@ -9,7 +9,7 @@ use crate::texts::{say, tr};
 use crate::widgets::{Choice, Select};
 use quadtank::literature::PresetId;
 use quadtank::study::quadruple_tank::{PlantSpec, Setup, first_experiment, setup_of};
-use quadtank_scenario::Scenario;
+use quadtank_scenario::{Label, Scenario};
 
 /// Name of a rig in the language of the laboratory.
 pub fn name_of(lab: Lab, id: PresetId) -> String {
@@ -45,6 +45,7 @@ pub fn load(session: Session, id: PresetId) {
     session.document.update(|s| {
         let fresh = Scenario {
             version: s.version,
+            label: Label::default(),
             setup: setup_of(id),
             pinned: std::mem::take(&mut s.pinned),
             view: s.view.clone(),

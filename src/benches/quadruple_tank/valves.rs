@@ -27,8 +27,9 @@ pub fn ValvePlaneCard() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
     let frames = RwSignal::new(Vec::<Frame>::new());
-    let picture = pictures::valve_plane(session);
-    let for_menu = picture.clone();
+    let picture = pictures::valve_plane(session, false);
+    let on_paper = pictures::valve_plane(session, true);
+    let for_menu = on_paper.clone();
     let title = say!(lab, valves.title);
     let summary = Signal::derive(move || summary(session));
     let hint = (!lab.locks(locks::VALVES)).then(|| view! { <span class="remark">{say!(lab, valves.remark)}</span> });
@@ -36,7 +37,7 @@ pub fn ValvePlaneCard() -> impl IntoView {
     view! {
         <Card name="plane" title terms=TERMS beside>
             <div class="chart square">
-                <ChartCanvas picture frames summary name="valve-plane" />
+                <ChartCanvas picture on_paper frames summary name="valve-plane" />
                 <Overlay frames />
             </div>
             <Sentence id="valves-sentence" text=Signal::derive(move || sentences::of_rightmost(session)) />
@@ -50,11 +51,17 @@ pub fn ValveMapCard() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
     let frames = RwSignal::new(Vec::<Frame>::new());
-    let picture = pictures::valve_map(session);
+    let picture = pictures::valve_map(session, false);
     view! {
         <Card name="map" title=say!(lab, explore.valves) terms=TERMS beside=move || view! { <HoldSwitch /> }>
             <div class="chart square">
-                <ChartCanvas picture frames summary=Signal::derive(move || summary(session)) name="valve-map" />
+                <ChartCanvas
+                    picture
+                    on_paper=pictures::valve_map(session, true)
+                    frames
+                    summary=Signal::derive(move || summary(session))
+                    name="valve-map"
+                />
                 <Overlay frames />
             </div>
         </Card>

@@ -11,8 +11,8 @@ use super::pictures;
 use super::session::{Session, time_unit, use_session};
 use super::step::Step;
 use crate::controls::{ParamControl, ParamRow};
-use crate::texts::{say, tr};
-use crate::widgets::{Figures, Nudge, PointHandle, Row, TableContent, first_frame};
+use crate::texts::{say, terms, tr};
+use crate::widgets::{Figures, Nudge, PointHandle, Row, TableContent, Text, first_frame};
 use quadtank::study::relay_tuning::{CriticalSpec, TuningSetup};
 use quadtank::tuning::GainLimit;
 use quadtank_figure::Frame;
@@ -33,6 +33,9 @@ const IMPORTANCE: ParamControl<TuningSetup> = ParamControl {
     ..ParamControl::locked_by(locks::POINT)
 };
 
+/// The words of the card that explain themselves.
+const TERMS: &[Text] = &[terms::critical_curve, terms::importance, terms::ultimate];
+
 /// The critical curve.
 #[component]
 pub fn CurveCard() -> impl IntoView {
@@ -44,6 +47,7 @@ pub fn CurveCard() -> impl IntoView {
         <Step
             name="curve"
             number=2
+            terms=TERMS
             title=say!(lab, relay.curve)
             toolbar=move || view! { <span class="remark">{say!(lab, relay.curve_remark)}</span> }
             picture=pictures::curve(session, chosen)

@@ -12,8 +12,8 @@ use super::session::{Session, use_session};
 use super::step::Step;
 use crate::controls::{ParamControl, ParamRow, Switch};
 use crate::lab::Lab;
-use crate::texts::{say, tr};
-use crate::widgets::{Choice, Figures, Nudge, PointHandle, Row, Scale, Select, TableContent};
+use crate::texts::{say, terms, tr};
+use crate::widgets::{Choice, Figures, Nudge, PointHandle, Row, Scale, Select, TableContent, Text};
 use quadtank::linear::{Closure, LoopStability};
 use quadtank::study::relay_tuning::{DesignRoot, TuningSetup, rule_targets};
 use quadtank::tuning::{Action, PlacementMethod, PlacementWarning, TuningRule};
@@ -35,6 +35,9 @@ const TARGET: ParamControl<TuningSetup> = ParamControl {
     ..ParamControl::locked_by(locks::TARGET)
 };
 
+/// The words of the card that explain themselves.
+const TERMS: &[Text] = &[terms::locus, terms::target, terms::margins];
+
 /// The placement.
 #[component]
 pub fn PlacementCard() -> impl IntoView {
@@ -45,6 +48,7 @@ pub fn PlacementCard() -> impl IntoView {
         <Step
             name="placement"
             number=3
+            terms=TERMS
             title=say!(lab, relay.placement)
             toolbar=move || view! { <span class="remark">{say!(lab, relay.placement_remark)}</span> }
             picture=pictures::loci(session)

@@ -11,13 +11,15 @@ use super::readout::{Surface, readout};
 use super::session::{Session, time_unit, use_session};
 use super::step::Step;
 use super::timeline::timeline;
+use crate::benches::handover;
 use crate::controls::Switch;
 use crate::lab::Lab;
-use crate::texts::{say, tr};
-use crate::widgets::{Choice, DataTable, Figure, Figures, Pins, ReasonedRow, Select, TableContent, ZoomButtons};
+use crate::texts::{say, terms, tr};
+use crate::widgets::{Choice, DataTable, Figure, Figures, Pins, ReasonedRow, Select, TableContent, Text, ZoomButtons};
 use quadtank::linear::LoopStability;
 use quadtank::literature::campestrini::PublishedPlant;
 use quadtank::sim::Halt;
+use quadtank::study::handover::rig_under;
 use quadtank::study::relay_tuning::{CompareSpec, DecouplerSpec, StepResponse, TuningPlant, TuningSetup};
 use quadtank_figure::Frame;
 use quadtank_scenario::tuning::TuningScenario;
@@ -25,6 +27,9 @@ use quadtank_scenario::tuning::TuningScenario;
 /// The references whose steps can be looked at.
 const FIRST: [f64; 2] = [1.0, 0.0];
 const SECOND: [f64; 2] = [0.0, 1.0];
+
+/// The words of the card that explain themselves.
+const TERMS: &[Text] = &[terms::decoupler, terms::overshoot];
 
 /// The response.
 #[component]
@@ -44,6 +49,7 @@ pub fn ResponseCard() -> impl IntoView {
         <Step
             name="response"
             number=4
+            terms=TERMS
             title=say!(lab, relay.response)
             toolbar=move || view! { <div class="toolbar"><PinButtons /><ZoomButtons axis ids /></div> }
             picture
@@ -157,7 +163,30 @@ fn Settings() -> impl IntoView {
             on_choose=move |chosen| session.edit(|s| s.response.compare = chosen)
             disabled=lab.locks(locks::EXPERIMENT)
         />
+        <ToRig />
         <Figures name="response-figures" caption=say!(lab, relay.response_caption)>{move || table(session)}</Figures>
+    }
+}
+
+/// Takes the controllers to the rig, where they are PI controllers of one.
+#[component]
+fn ToRig() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let rig = move || {
+        session.throttled.setup.with(|setup| session.throttled.with_design(|design| rig_under(setup, design)).flatten())
+    };
+    let known = Memo::new(move |_| rig().is_some());
+    view! {
+        <button
+            type="button"
+            class="button small"
+            data-testid="to-rig"
+            hidden=move || !known.get()
+            on:click=move |_| if let Some(rig) = untrack(rig) { handover::to_rig(lab, rig) }
+        >
+            {say!(lab, handover.rig)}
+        </button>
     }
 }
 

@@ -5,7 +5,7 @@ use leptos::prelude::*;
 use super::guide;
 use super::mends::{Offer, Offers};
 use super::session::use_session;
-use crate::widgets::{Card, ChartCanvas, ChartMenu, Picture, Verdict, marked, unmarked};
+use crate::widgets::{Card, ChartCanvas, ChartMenu, Picture, Text, Verdict, marked, unmarked};
 use quadtank_figure::Frame;
 
 /// A step of the bench as a card. Its children are the settings.
@@ -40,6 +40,8 @@ pub fn Step(
     /// What is folded away below.
     #[prop(optional, into)]
     below: ViewFnOnce,
+    /// Explanations of the words in it.
+    terms: &'static [Text],
     /// The settings.
     children: Children,
 ) -> impl IntoView {
@@ -52,7 +54,7 @@ pub fn Step(
     // The first step shows what there is before anything is switched on.
     let hidden = Signal::derive(move || number > 1 && hidden.get());
     view! {
-        <Card name title=heading beside hidden>
+        <Card name title=heading beside terms hidden>
             <div class="step">
                 <div class=place>
                     <ChartCanvas picture frames summary=Signal::derive(move || unmarked(&found.get().1)) name />

@@ -14,8 +14,8 @@ use super::test_report::{sentence, table};
 use super::timeline::{BEGINNING, timeline};
 use crate::controls::{ParamControl, ParamRow, Switch};
 use crate::shown::ShownUnit;
-use crate::texts::{say, tr};
-use crate::widgets::{Choice, DataTable, Figures, Scale, Select, TimeBar, ZoomButtons};
+use crate::texts::{say, terms, tr};
+use crate::widgets::{Choice, DataTable, Figures, Scale, Select, Text, TimeBar, ZoomButtons};
 use quadtank::study::relay_tuning::{CriticalSpec, SeriesElement, TestKind, Tested, TuningSetup};
 use quadtank::tuning::TuningRule;
 use quadtank_figure::Frame;
@@ -116,6 +116,9 @@ const OF_TEST: ParamControl<TuningSetup> = ParamControl {
 };
 const OF_LOOP: ParamControl<TuningSetup> = ParamControl { class: ["loop1", "loop2"], ..OF_TEST };
 
+/// The words of the card that explain themselves.
+const TERMS: &[Text] = &[terms::relay, terms::ultimate, terms::describing, terms::hysteresis];
+
 /// The relay test.
 #[component]
 pub fn TestCard() -> impl IntoView {
@@ -148,6 +151,7 @@ pub fn TestCard() -> impl IntoView {
         <Step
             name="test"
             number=1
+            terms=TERMS
             title=say!(lab, relay.test)
             toolbar=move || view! { <div class="toolbar"><TakeOver /><ZoomButtons axis ids /></div> }
             picture

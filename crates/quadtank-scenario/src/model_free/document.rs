@@ -1,7 +1,7 @@
 use quadtank::study::model_free::ModelFreeSetup;
 use serde::{Deserialize, Serialize};
 
-use crate::{BenchDocument, Document, ScenarioError, params, validate};
+use crate::{BenchDocument, Document, Label, ScenarioError, params, validate};
 
 /// A run under the model-free law.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -10,6 +10,9 @@ use crate::{BenchDocument, Document, ScenarioError, params, validate};
 pub struct ModelFreeScenario {
     /// Version of the document: 3. It is checked before anything else is read.
     pub version: u32,
+    /// What the experiment is called, and a note on it.
+    #[serde(default, skip_serializing_if = "Label::is_empty")]
+    pub label: Label,
     /// The run.
     pub model_free: ModelFreeSetup,
     /// Time at which the cursor stands (s); `None` at the end.
@@ -35,7 +38,16 @@ impl BenchDocument for ModelFreeScenario {
         &[]
     }
 
+    fn label(&self) -> &Label {
+        &self.label
+    }
+
+    fn label_mut(&mut self) -> &mut Label {
+        &mut self.label
+    }
+
     fn validate(&self) -> Result<(), ScenarioError> {
+        self.label.check()?;
         params::check(self)?;
         validate::version(self.version, Self::VERSION)?;
         super::validate::setup(&self.model_free, "model_free")
@@ -67,6 +79,6 @@ impl Default for ModelFreeScenario {
 
 impl From<ModelFreeSetup> for ModelFreeScenario {
     fn from(model_free: ModelFreeSetup) -> Self {
-        Self { version: Self::VERSION, model_free, cursor_s: None }
+        Self { version: Self::VERSION, label: Label::default(), model_free, cursor_s: None }
     }
 }

@@ -1,7 +1,7 @@
 use quadtank::study::relay_tuning::TuningSetup;
 use serde::{Deserialize, Serialize};
 
-use crate::{BenchDocument, Document, ScenarioError, params, validate};
+use crate::{BenchDocument, Document, Label, ScenarioError, params, validate};
 
 /// A relay-tuning session.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -10,6 +10,9 @@ use crate::{BenchDocument, Document, ScenarioError, params, validate};
 pub struct TuningScenario {
     /// Version of the document: 2. It is checked before anything else is read.
     pub version: u32,
+    /// What the experiment is called, and a note on it.
+    #[serde(default, skip_serializing_if = "Label::is_empty")]
+    pub label: Label,
     /// The session.
     pub tuning: TuningSetup,
     /// Sessions whose responses stay in sight, oldest first.
@@ -40,7 +43,16 @@ impl BenchDocument for TuningScenario {
         &self.pinned
     }
 
+    fn label(&self) -> &Label {
+        &self.label
+    }
+
+    fn label_mut(&mut self) -> &mut Label {
+        &mut self.label
+    }
+
     fn validate(&self) -> Result<(), ScenarioError> {
+        self.label.check()?;
         params::check(self)?;
         validate::version(self.version, Self::VERSION)?;
         super::validate::setup(&self.tuning, "tuning")?;
@@ -74,6 +86,6 @@ impl Default for TuningScenario {
 /// A session alone, nothing pinned.
 impl From<TuningSetup> for TuningScenario {
     fn from(tuning: TuningSetup) -> Self {
-        Self { version: Self::VERSION, tuning, pinned: Vec::new() }
+        Self { version: Self::VERSION, label: Label::default(), tuning, pinned: Vec::new() }
     }
 }

@@ -13,7 +13,7 @@ use quadtank::sim::{Experiment, Load, LoadStep, Measurement, SetPointStep};
 use quadtank::study::model_free::{ModelFreeSetup, StartSpec};
 use quadtank::study::quadruple_tank::{OperatingPointSpec, PlantSpec, Setup};
 use quadtank_scenario::model_free::ModelFreeScenario;
-use quadtank_scenario::{BenchDocument, Limits, Scenario, View, limits};
+use quadtank_scenario::{Label, Limits, Scenario, View, limits};
 
 /// One of the published rigs.
 pub fn preset() -> impl Strategy<Value = PresetId> {
@@ -151,13 +151,15 @@ pub fn view() -> impl Strategy<Value = View> {
         .prop_map(|(cursor_s, zoom_s, hide_linear)| View { cursor_s, zoom_s, hide_linear })
 }
 
+/// Any characters, of at most the lengths that are allowed.
+fn label() -> impl Strategy<Value = Label> {
+    (vec(any::<char>(), 0..=Label::MAX_NAME), vec(any::<char>(), 0..20))
+        .prop_map(|(name, note)| Label { name: name.into_iter().collect(), note: note.into_iter().collect() })
+}
+
 pub fn scenario(steps: usize, pinned: usize) -> impl Strategy<Value = Scenario> {
-    (setup(steps), vec(setup(steps), 0..=pinned), view()).prop_map(|(setup, pinned, view)| Scenario {
-        version: Scenario::VERSION,
-        setup,
-        pinned,
-        view,
-    })
+    let parts = (setup(steps), vec(setup(steps), 0..=pinned), view(), label());
+    parts.prop_map(|(setup, pinned, view, label)| Scenario { label, pinned, view, ..Scenario::from(setup) })
 }
 
 fn valve() -> impl Strategy<Value = ValveSchedule> {
@@ -246,7 +248,6 @@ pub fn model_free_setup(steps: usize) -> impl Strategy<Value = ModelFreeSetup> {
 }
 
 pub fn model_free(steps: usize) -> impl Strategy<Value = ModelFreeScenario> {
-    (model_free_setup(steps), prop::option::of(within(limits::TIME_S))).prop_map(|(model_free, cursor_s)| {
-        ModelFreeScenario { version: ModelFreeScenario::VERSION, model_free, cursor_s }
-    })
+    (model_free_setup(steps), prop::option::of(within(limits::TIME_S)))
+        .prop_map(|(model_free, cursor_s)| ModelFreeScenario { cursor_s, ..ModelFreeScenario::from(model_free) })
 }

@@ -18,7 +18,7 @@ use quadtank::study::relay_tuning::{
 use quadtank::tuning::{Action, PlacementMethod, TuningRule};
 use quadtank_scenario::model_free::ModelFreeScenario;
 use quadtank_scenario::tuning::TuningScenario;
-use quadtank_scenario::{BenchDocument, Limits, Scenario, View, limits};
+use quadtank_scenario::{Limits, Scenario, limits};
 
 /// Farthest target of a placement, the limit of the document.
 const FARTHEST_TARGET: f64 = 1e6;
@@ -173,7 +173,7 @@ impl Draw {
             controller: self.loops(sampling_time_s),
             experiment: self.experiment(duration_s),
         };
-        Scenario { version: Scenario::VERSION, setup, pinned: Vec::new(), view: View::default() }
+        Scenario::from(setup)
     }
 
     fn valve(&mut self, duration_s: f64) -> ValveSchedule {
@@ -343,6 +343,6 @@ impl Draw {
                 ]),
             },
         };
-        TuningScenario { version: TuningScenario::VERSION, tuning: setup, pinned: Vec::new() }
+        TuningScenario::from(setup)
     }
 }

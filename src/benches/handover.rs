@@ -1,0 +1,44 @@
+//! Gains and rigs that travel from bench to bench. What was on the other bench is a step back (undo).
+
+use leptos::prelude::*;
+use quadtank::study::handover::{model_free_on, relay_session_on};
+use quadtank::study::quadruple_tank::Setup;
+use quadtank_scenario::model_free::ModelFreeScenario;
+use quadtank_scenario::tuning::TuningScenario;
+use quadtank_scenario::{BenchDocument, Scenario, ScenarioError};
+
+use super::{ModelFree, QuadrupleTank, RelayTuning};
+use crate::lab::{Lab, Notice};
+use crate::session::Bench;
+use crate::share::go_to;
+
+/// Shows a document on its bench, unless that refuses it.
+fn hand_over<B: Bench>(lab: Lab, document: B::Document) {
+    if let Err(error) = document.validate() {
+        return lab.notice.set(Some(Notice::Refused(error)));
+    }
+    lab.open_in::<B>(document);
+    if let Some(bench) = lab.benches.iter().find(|bench| bench.id == B::ID) {
+        go_to(lab, bench);
+    }
+}
+
+/// Tries controllers on the rig.
+pub fn to_rig(lab: Lab, setup: Setup) {
+    hand_over::<QuadrupleTank>(lab, Scenario::from(setup));
+}
+
+/// Tunes a rig by relays; does nothing for one that relay sessions do not know.
+pub fn to_relays(lab: Lab, rig: &Setup) {
+    if let Some(session) = relay_session_on(rig) {
+        hand_over::<RelayTuning>(lab, TuningScenario::from(session));
+    }
+}
+
+/// Compares the controllers of a rig with the law without a model.
+pub fn to_model_free(lab: Lab, rig: &Setup) {
+    match model_free_on(rig) {
+        Ok(setup) => hand_over::<ModelFree>(lab, ModelFreeScenario::from(setup)),
+        Err(error) => lab.notice.set(Some(Notice::Refused(ScenarioError::Study { setup: Scenario::ROOT, error }))),
+    }
+}
