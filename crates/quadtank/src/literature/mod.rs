@@ -2,10 +2,12 @@
 //!
 //! [`PresetId`] names the published rigs of all sources.
 
+pub mod andreis;
 pub mod campestrini;
 mod cocota;
 mod johansson;
 pub mod junqueira;
+pub mod level_slides;
 mod rig;
 mod units;
 

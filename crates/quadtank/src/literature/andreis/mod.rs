@@ -1,0 +1,8 @@
+//! Andreis (2017): assessment and tuning of level controllers. The plant (after Garcia 2005), its operating points and controllers.
+
+mod rig;
+
+pub use rig::{
+    CURRENT_TUNING, NOMINAL_INFLOW, NOMINAL_LEVEL, STEP_TEST_INFLOW, Tuning, UNCERTAIN_AREA,
+    UNCERTAIN_VALVE_COEFFICIENT, VALVE_COEFFICIENT, plant, uncertain_plant,
+};
