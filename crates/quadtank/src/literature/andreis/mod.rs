@@ -1,8 +1,13 @@
-//! Andreis (2017): assessment and tuning of level controllers. The plant (after Garcia 2005), its operating points and controllers.
+//! Andreis (2017): assessment and tuning of level controllers. The plant (after Garcia 2005), its operating points, disturbances and
+//! controllers, and the printed variances.
 
+mod disturbances;
 mod rig;
+mod tables;
 
+pub use disturbances::PublishedDisturbance;
 pub use rig::{
     CURRENT_TUNING, NOMINAL_INFLOW, NOMINAL_LEVEL, STEP_TEST_INFLOW, Tuning, UNCERTAIN_AREA,
     UNCERTAIN_VALVE_COEFFICIENT, VALVE_COEFFICIENT, plant, uncertain_plant,
 };
+pub use tables::{PublishedMethod, PublishedModel, PublishedObjective, PublishedVariance, VARIANCES};
