@@ -6,6 +6,7 @@
 wasm_bindgen_test::wasm_bindgen_test_configure!(run_in_browser);
 
 mod andreis_plant;
+mod andreis_tuning;
 mod andreis_variances;
 mod campestrini_loops;
 mod campestrini_placement;

@@ -1,10 +1,12 @@
 //! Andreis (2017): assessment and tuning of level controllers. The plant (after Garcia 2005), its operating points, disturbances and
 //! controllers, and the printed variances.
 
+mod commercial;
 mod disturbances;
 mod rig;
 mod tables;
 
+pub use commercial::{COMMERCIAL_CONTROLLERS, CommercialController};
 pub use disturbances::PublishedDisturbance;
 pub use rig::{
     CURRENT_TUNING, NOMINAL_INFLOW, NOMINAL_LEVEL, STEP_TEST_INFLOW, Tuning, UNCERTAIN_AREA,
