@@ -3,11 +3,16 @@
 
 mod commercial;
 mod disturbances;
+mod indices;
 mod rig;
 mod tables;
 
 pub use commercial::{COMMERCIAL_CONTROLLERS, CommercialController};
 pub use disturbances::PublishedDisturbance;
+pub use indices::{
+    AndreisRemark, HUNDREDTHS, INDICES, PublishedIndex, PublishedWrongIndex, WRONG_INDICES, remarks_on_equation,
+    remarks_on_table,
+};
 pub use rig::{
     CURRENT_TUNING, NOMINAL_INFLOW, NOMINAL_LEVEL, STEP_TEST_INFLOW, Tuning, UNCERTAIN_AREA,
     UNCERTAIN_VALVE_COEFFICIENT, VALVE_COEFFICIENT, plant, uncertain_plant,
