@@ -91,7 +91,11 @@ impl BothIndices {
     /// # Errors
     /// As [`VarianceIndex::new`].
     pub fn of(reference: &[SampleStatistics; 2], actual: &[SampleStatistics; 2]) -> Result<Self, IndexError> {
-        let of = |k: usize| VarianceIndex::new(reference[k].variance, actual[k].variance);
+        let of = |k: usize| {
+            // Rounding is no variance.
+            let actual = if actual[k].is_still() { 0.0 } else { actual[k].variance };
+            VarianceIndex::new(reference[k].variance, actual)
+        };
         Ok(Self { level: of(0)?, outflow: of(1)? })
     }
 

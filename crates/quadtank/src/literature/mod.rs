@@ -7,8 +7,10 @@ pub mod campestrini;
 mod cocota;
 mod johansson;
 pub mod junqueira;
+mod level_preset;
 pub mod level_slides;
 mod rig;
 mod units;
 
+pub use level_preset::LevelPresetId;
 pub use rig::{DisplayUnit, PiExperiment, Preset, PresetId, Printed};

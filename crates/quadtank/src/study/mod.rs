@@ -1,6 +1,7 @@
 //! What a bench computes: from a setup, which its document holds, to results. One module per bench.
 
 mod error;
+pub mod level_loop;
 mod linear_plant;
 pub mod model_free;
 pub mod quadruple_tank;

@@ -85,7 +85,8 @@ impl StepRecord<'_> {
     /// # Errors
     /// [`ReactionError`] for a record that does not show one.
     pub fn fit(&self, method: ReactionMethod) -> Result<ReactionFit, ReactionError> {
-        let first = self.time_s.partition_point(|&time| time < self.step_time_s);
+        // The last row that the step does not show in yet.
+        let first = self.time_s.partition_point(|&time| time <= self.step_time_s).saturating_sub(1);
         let rows = self.time_s.len().min(self.signal.len()).saturating_sub(first);
         if rows < LEAST_ROWS {
             return Err(ReactionError::EmptyRecord { rows });

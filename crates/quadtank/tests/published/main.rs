@@ -15,6 +15,7 @@ mod campestrini_relay;
 mod campestrini_tables;
 mod closed_loop;
 mod junqueira;
+mod level_loop_study;
 mod level_slides;
 mod tables;
 

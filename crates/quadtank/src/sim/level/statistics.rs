@@ -39,6 +39,11 @@ impl SampleStatistics {
         self.maximum - self.minimum
     }
 
+    /// Whether nothing moves: a deviation that is rounding of the mean.
+    pub fn is_still(&self) -> bool {
+        self.standard_deviation() <= 1e-12 * self.mean.abs()
+    }
+
     /// Standard deviation.
     pub fn standard_deviation(&self) -> f64 {
         self.variance.sqrt()
@@ -54,6 +59,7 @@ mod tests {
         let found = SampleStatistics::of(&[1.0, 4.0, 2.0, 5.0]).unwrap();
         assert_eq!((found.minimum, found.maximum, found.mean, found.range()), (1.0, 5.0, 3.0, 4.0));
         assert!((found.variance - 10.0 / 3.0).abs() < 1e-15);
+        assert!(!found.is_still() && SampleStatistics::of(&[0.1 + 0.2, 0.3]).unwrap().is_still());
         assert_eq!((SampleStatistics::of(&[]), SampleStatistics::of(&[1.0])), (None, None));
     }
 }
