@@ -8,10 +8,11 @@ use quadtank::plant::level::{LevelError, Outflow};
 use quadtank::sim::level::{InflowDisturbance, InflowSignal, LevelController, LevelRunError, SignalStep};
 use quadtank::study::Study;
 use quadtank::study::level_loop::{
-    ContourMap, ContourSettings, Finding, LevelLoopAnswer, LevelLoopSetup, LevelLoopStudy, LevelPlantSpec, ModelSource,
-    Objective, PiTuning, Results, StepTestFault, SuggestedRule, compare_table, published_setup, run_level_loop,
-    trade_off,
+    ContourMap, ContourSettings, Finding, LevelLoopAnswer, LevelLoopSetup, LevelLoopStudy, LevelPlantSpec, LevelSearch,
+    ModelSource, Objective, PiTuning, Results, SearchMethod, StepTestFault, SuggestedRule, compare_table,
+    published_setup, run_level_loop, trade_off,
 };
+use quadtank::tuning::search::GeneticSettings;
 use quadtank::tuning::{LevelWorth, ModelRule, ProcessModel, ReactionError, Regulation, TuningError};
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
@@ -143,6 +144,52 @@ fn the_map_shows_the_bound_and_the_flat_valley() {
     coarse.advance(6);
     let known: Vec<usize> = (0..63).filter(|&cell| coarse.cells()[cell].is_some()).collect();
     assert_eq!(known, [0, 4, 8, 36, 40, 44]);
+}
+
+/// The three searches of a setup end at the same optimum, whatever the slices, and each shows its path.
+#[test]
+fn searches_of_a_setup() {
+    let setup = published_setup(LevelPresetId::Andreis, PublishedDisturbance::SineH);
+    let start = PiTuning { gain: 49.9, integral_time_s: 2999.7 };
+    let genetic = GeneticSettings { generations: 30, ..GeneticSettings::default() };
+    for method in [SearchMethod::Gradient(start), SearchMethod::NelderMead(start), SearchMethod::Genetic(genetic)] {
+        let mut search = LevelSearch::new(&setup, method).unwrap();
+        let mut slices = 1;
+        while search.advance(25) {
+            slices += 1;
+        }
+        let best = search.best().unwrap();
+        within(best.cost, 4.2472e-5, 5e-9, &format!("{method:?}"));
+        within(best.point[0], 4.96, 0.1, "Kp");
+        assert!(search.path().len() > 3 && search.evaluations() > 25 * (slices - 1), "{method:?}");
+        assert_eq!(search.population().len(), if matches!(method, SearchMethod::Genetic(_)) { 25 } else { 0 });
+    }
+    let broken = changed(|s| s.search.gain = [10.0, 10.0]);
+    assert!(matches!(
+        LevelSearch::new(&broken, SearchMethod::NelderMead(start)),
+        Err(LevelRunError::OutOfRange { field: "search", .. })
+    ));
+}
+
+/// On the loop of the slides the IAE goes on falling with the gain, by less and less, up to any bound. A penalty on moves gives the
+/// search an answer that does not depend on the bound.
+#[test]
+fn a_search_without_a_price_on_moves_is_ill_posed() {
+    let best = |largest_gain: f64, move_penalty: f64| {
+        let mut setup = published_setup(LevelPresetId::LectureSlides, SineL);
+        setup.search.gain[1] = largest_gain;
+        setup.search.move_penalty = move_penalty;
+        let start = PiTuning { gain: 5.0, integral_time_s: 300.0 };
+        let mut search = LevelSearch::new(&setup, SearchMethod::NelderMead(start)).unwrap();
+        while search.advance(50) {}
+        search.best().unwrap()
+    };
+    let [low, high] = [40.0, 100.0].map(|largest| best(largest, 0.0));
+    assert!(low.point[0] > 38.0 && high.point[0] > 60.0, "{low:?} {high:?}");
+    assert!(high.cost < low.cost && high.cost > 0.94 * low.cost, "{low:?} {high:?}");
+    let [narrow, wide] = [40.0, 100.0].map(|largest| best(largest, 1.0));
+    within(wide.point[0], narrow.point[0], 0.02 * narrow.point[0], "gain with a penalty");
+    assert!(narrow.point[0] < 30.0, "{narrow:?}");
 }
 
 #[test]

@@ -5,6 +5,7 @@ mod contour;
 mod findings;
 mod published;
 mod results;
+mod search;
 mod setup;
 mod step_test;
 mod suggestions;
@@ -15,6 +16,7 @@ pub use contour::{ContourMap, ContourSettings};
 pub use findings::Finding;
 pub use published::{Compared, ComparedTable, compare_table, published_setup};
 pub use results::{LevelLoopStudy, PlantAnswer, Results};
+pub use search::{LevelSearch, SearchMethod};
 pub use setup::{
     Harris, LevelLoopSetup, LevelPlantSpec, ModelError, ModelSource, Objective, PiTuning, SearchSpec, StepTestSpec,
 };
