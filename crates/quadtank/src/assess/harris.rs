@@ -37,6 +37,14 @@ pub enum HarrisError {
         /// Order of the model.
         order: usize,
     },
+    /// More samples and coefficients than are fitted.
+    #[error("{samples} samples are too many for a model of order {order}")]
+    TooMuchWork {
+        /// How many there are.
+        samples: usize,
+        /// Order of the model.
+        order: usize,
+    },
     /// The data are such that their model is not unique, as a constant or a pure sine.
     #[error("the data do not determine a model of order {order}")]
     NotDetermined {
@@ -50,6 +58,8 @@ pub enum HarrisError {
 
 /// Samples per coefficient.
 const SAMPLES_PER_COEFFICIENT: usize = 4;
+/// Most samples times the square of the order, some 30 ms.
+const MOST_WORK: usize = 10_000_000;
 /// Smallest pivot, relative to the largest.
 const SMALLEST_PIVOT: f64 = 1e-10;
 
@@ -67,6 +77,9 @@ pub fn harris_index(samples: &[f64], dead_time: usize, order: usize) -> Result<H
     let count = samples.len();
     if count < order.saturating_mul(SAMPLES_PER_COEFFICIENT + 1) || dead_time >= count {
         return Err(HarrisError::TooFewSamples { samples: count, order });
+    }
+    if count.saturating_mul(order).saturating_mul(order) > MOST_WORK {
+        return Err(HarrisError::TooMuchWork { samples: count, order });
     }
     let mean = samples.iter().sum::<f64>() / count as f64;
     let deviations: Vec<f64> = samples.iter().map(|y| y - mean).collect();
@@ -159,6 +172,8 @@ mod tests {
         assert_eq!(harris_index(&[], 2, 4), Err(HarrisError::TooFewSamples { samples: 0, order: 4 }));
         assert_eq!(harris_index(&constant, 0, 4), Err(HarrisError::OutOfRange { field: "dead_time", value: 0 }));
         assert_eq!(harris_index(&constant, 2, 0), Err(HarrisError::OutOfRange { field: "order", value: 0 }));
+        let long = vec![0.3; 200_000];
+        assert_eq!(harris_index(&long, 2, 20), Err(HarrisError::TooMuchWork { samples: 200_000, order: 20 }));
         let sine: Vec<f64> = (0..300).map(|k| (0.2 * f64::from(k)).sin()).collect();
         assert!(matches!(harris_index(&sine, 2, 8), Err(HarrisError::NotDetermined { order: 8 })));
         let broken = [f64::NAN; 200];

@@ -135,6 +135,12 @@ fn what_makes_no_run_is_refused_with_its_value() {
         ));
     }
     assert!(matches!(simulation.run(&LevelController::pi(1e30, 10.0)), Err(LevelRunError::TooMuchWork { .. })));
+    // An output without limits that takes the actuator beyond all numbers.
+    let mut wild = plant.clone();
+    (wild.output.clips, wild.actuator.lag_s) = (false, 0.01);
+    let steps = vec![SignalStep { time_s: 5.0, size: 1e308 }];
+    let run = LevelSimulation::new(&wild, &good).unwrap().run(&LevelController::Manual { steps });
+    assert_eq!(run, Err(LevelRunError::NotFinite { time_s: 6.0 }));
     // A gain of 0 is a controller that is off.
     let idle = simulation.run(&LevelController::pi(0.0, 10.0)).unwrap();
     assert_eq!(idle, simulation.run(&LevelController::off()).unwrap());

@@ -163,3 +163,31 @@ fn ranges_of_the_current_plant() {
     let now = statistics(PublishedDisturbance::SineH, Nominal, CURRENT_TUNING)[0].variance;
     assert!(statistics(PublishedDisturbance::SineH, Uncertain, simc.tuning)[0].variance < now);
 }
+
+/// Tables 5.7 and 5.8: 4 ticks for the best, one less for each that follows, 0 (a cross in print) for what is worse than the current
+/// tuning. The row Sine H of tight control with the nominal model is printed as 3, 4, 2 and a cross: Table 5.3 says otherwise.
+#[test]
+fn tables_5_7_and_5_8() {
+    let ranking = |disturbance, objective, methods: &[PublishedMethod], model| {
+        let variance = |method, model| {
+            let [level, outflow] = statistics(disturbance, model, tuning(disturbance, objective, method, model));
+            if objective == Tight { level.variance } else { outflow.variance }
+        };
+        let current = variance(Current, Nominal);
+        let variances: Vec<f64> = methods.iter().map(|&method| variance(method, model)).collect();
+        let ticks = |of: f64| if of < current { 4 - variances.iter().filter(|&&other| other < of).count() } else { 0 };
+        variances.iter().map(|&of| ticks(of)).collect::<Vec<_>>()
+    };
+    let tight = [Gradient, Genetic, Skogestad, Lambda];
+    // SIMC and Lambda tuning are one row of the averaging tables.
+    let averaging = [Gradient, Genetic, Skogestad];
+    let printed_tight = [[[3, 4, 1, 2], [3, 4, 1, 2]], [[4, 3, 0, 0], [3, 4, 2, 0]], [[3, 4, 0, 0], [3, 4, 0, 0]]];
+    let printed_averaging = [[[3, 4, 2], [4, 2, 3]], [[4, 3, 2], [4, 3, 2]], [[4, 3, 2], [3, 4, 2]]];
+    for (k, disturbance) in PublishedDisturbance::ALL.into_iter().enumerate() {
+        for (m, model) in PublishedIndex::MODELS.into_iter().enumerate() {
+            assert_eq!(ranking(disturbance, Tight, &tight, model), printed_tight[k][m], "{disturbance:?} {model:?}");
+            let found = ranking(disturbance, Averaging, &averaging, model);
+            assert_eq!(found, printed_averaging[k][m], "averaging {disturbance:?} {model:?}");
+        }
+    }
+}

@@ -128,6 +128,12 @@ pub enum LevelRunError {
         /// Time between rows (s).
         log_step_s: f64,
     },
+    /// A run whose numbers become too large, as without limits on the output.
+    #[error("the numbers of the run are too large from {time_s} s on")]
+    NotFinite {
+        /// The first row for which they are (s).
+        time_s: f64,
+    },
     /// More integration steps than any run is given.
     #[error("the run would take {steps} steps of integration, more than {max}")]
     TooMuchWork {

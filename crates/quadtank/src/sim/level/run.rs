@@ -156,7 +156,9 @@ impl LevelSimulation {
             }
         }
         running.log_row(log, self.rows);
-        Ok(())
+        let rows = log.level.iter().zip(&log.outflow).zip(&log.output);
+        let broken = rows.map(|((level, flow), output)| level + flow + output).position(|sum| !sum.is_finite());
+        broken.map_or(Ok(()), |row| Err(LevelRunError::NotFinite { time_s: log.time_s[row] }))
     }
 
     /// Time (s) of the beginning of a step.
