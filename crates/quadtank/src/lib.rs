@@ -10,6 +10,7 @@
 //! | 2 | [`control`] | what acts: sampled PI and PID controllers, alone, decentralised or as a matrix; relays; the linear loops they close |
 //! | 3 | [`sim`] | plant + controller + experiment → trajectories, events, metrics |
 //! | 4 | [`tuning`] | how gains are found: relay tests, ultimate points, critical curve, rules, placement |
+//! | 4 | [`assess`] | how well a running loop does: variance indices, Harris index, margins, valve travel |
 //! | 5 | [`literature`] | what is printed, by source: rigs, cases, printed numbers and what is to be known about them |
 //! | 6 | [`study`] | what each bench computes: from the setup of its document to results, and the verdicts on them |
 //!
@@ -20,6 +21,7 @@
 
 mod numeric;
 
+pub mod assess;
 pub mod control;
 pub mod interaction;
 pub mod linear;

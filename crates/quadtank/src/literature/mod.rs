@@ -2,11 +2,15 @@
 //!
 //! [`PresetId`] names the published rigs of all sources.
 
+pub mod andreis;
 pub mod campestrini;
 mod cocota;
 mod johansson;
 pub mod junqueira;
+mod level_preset;
+pub mod level_slides;
 mod rig;
 mod units;
 
+pub use level_preset::LevelPresetId;
 pub use rig::{DisplayUnit, PiExperiment, Preset, PresetId, Printed};

@@ -1,11 +1,13 @@
 //! What is really there: tanks, outlets, pumps, valves and sensors, and the nonlinear equations they obey.
 //!
-//! Start with [`QuadrupleTank`]; [`OperatingPoint`] is where it rests, [`Jacobian`] how it moves around that point.
+//! Start with [`QuadrupleTank`]; [`OperatingPoint`] is where it rests, [`Jacobian`] how it moves around that point. [`level`] has one
+//! tank with the instruments of a level loop.
 
 mod equilibrium;
 mod error;
 mod feasible;
 mod jacobian;
+pub mod level;
 mod quadruple;
 mod schedule;
 mod tank;

@@ -1,13 +1,16 @@
-//! Plant + controller + experiment → trajectories, events and metrics; and the zero dynamics of the nonlinear plant.
+//! Plant + controller + experiment → trajectories, events and metrics; and the zero dynamics of the nonlinear plant. [`level`] has
+//! runs of one level loop.
 
 mod comparison;
 mod course;
 mod experiment;
 mod explicit;
+mod gaussian;
 mod held_tank;
 mod hydraulics;
 mod implicit;
 mod integrate;
+pub mod level;
 mod linear;
 mod metrics;
 mod model_free;

@@ -1,23 +1,19 @@
 //! What the sensors make of the true levels.
 
-use std::f64::consts::TAU;
-
-use rand_pcg::Pcg32;
-use rand_pcg::rand_core::{Rng, SeedableRng};
-
 use crate::plant::Sensor;
 
 use super::experiment::Measurement;
+use super::gaussian::GaussianSource;
 
 /// The measurement of a run: white Gaussian noise from a seed, then the sensor.
 pub(super) struct Noise {
-    source: Pcg32,
+    source: GaussianSource,
     measurement: Measurement,
 }
 
 impl Noise {
     pub(super) fn new(measurement: &Measurement) -> Self {
-        Self { source: Pcg32::seed_from_u64(u64::from(measurement.seed)), measurement: *measurement }
+        Self { source: GaussianSource::new(measurement.seed), measurement: *measurement }
     }
 
     /// Measured signals (V) for the true levels 1 and 2 (m).
@@ -30,19 +26,12 @@ impl Noise {
         if self.measurement.quantised { sensor.quantise(signal) } else { signal }
     }
 
-    /// One deviation (m), by the transform of Box and Muller (1958): it needs no table. Single precision is plenty for
-    /// noise and hides the last bit of logarithm and cosine, in which platforms differ; so a seed gives the same run
-    /// everywhere.
+    /// One deviation (m).
     fn deviation(&mut self) -> f64 {
         if self.measurement.noise_std == 0.0 {
             return 0.0;
         }
-        // Above 0, so that the logarithm is finite, and up to 1.
-        let mut uniform = || (f64::from(self.source.next_u32()) + 1.0) / (f64::from(u32::MAX) + 1.0);
-        let (radius, angle) = ((-2.0 * uniform().ln()).sqrt(), TAU * uniform());
-        #[expect(clippy::cast_possible_truncation, reason = "to single precision, see above")]
-        let normal = (radius * angle.cos()) as f32;
-        self.measurement.noise_std * f64::from(normal)
+        self.measurement.noise_std * self.source.next()
     }
 }
 

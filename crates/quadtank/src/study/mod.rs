@@ -2,6 +2,7 @@
 
 mod error;
 pub mod handover;
+pub mod level_loop;
 mod linear_plant;
 pub mod model_free;
 pub mod quadruple_tank;

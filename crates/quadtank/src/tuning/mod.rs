@@ -8,12 +8,19 @@ mod design;
 mod error;
 mod experiment;
 mod identification;
+mod level_cost;
 mod limit_cycle;
+mod model_rules;
 mod placement;
+mod process_model;
 mod proposal;
+mod reaction_curve;
+mod regulation;
 mod relay_reading;
 mod rules;
+pub mod search;
 mod tank_elements;
+mod ultimate;
 
 pub use critical::{CriticalPoint, CriticalSearch, GainLimit, frequency_range, importance, importance_direction};
 pub use curve::{Corner, CriticalCurve, CurvePoint};
@@ -25,12 +32,20 @@ pub use experiment::{
     with_integrator,
 };
 pub use identification::{complete_response, sine_test};
+pub use level_cost::{CostMeasure, LevelCost, LevelProblem, LevelWorth, VIOLATION, sensitivity_peak};
 pub use limit_cycle::{LimitCycle, limit_cycles};
+pub use model_rules::ModelRule;
 pub use placement::{ControllerPair, integral_action_may_be_stable, place_both_loci, place_one_locus};
+pub use process_model::ProcessModel;
 pub use proposal::{Action, PlacementMethod, PlacementWarning, Proposal, dynamic_relative_gain, propose, response_at};
+pub use reaction_curve::{ReactionError, ReactionFit, ReactionMethod, StepRecord};
+pub use regulation::{
+    Regulation, RegulationError, RegulationReason, SetPointStretch, open_loop_regulation, proportional_regulation,
+};
 pub use relay_reading::{
     CurveDistance, Exciter, LoopMeasurement, Oscillation, RelayReading, RelayVerdict, distance_from_curve,
     read_relay_test,
 };
 pub use rules::{TuningRule, UltimatePoint};
 pub use tank_elements::tank_transfer_matrix;
+pub use ultimate::ultimate_point_of;

@@ -10,7 +10,7 @@ const FLOORS: [&[&str]; 7] = [
     &["plant", "linear"],
     &["interaction", "control"],
     &["sim"],
-    &["tuning"],
+    &["tuning", "assess"],
     &["literature"],
     &["study"],
 ];

@@ -2,6 +2,8 @@
 
 mod architecture;
 mod full_and_dry;
+mod level;
+mod level_runs;
 mod linear;
 mod oracle;
 mod plant;

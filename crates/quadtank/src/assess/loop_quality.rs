@@ -1,0 +1,85 @@
+use crate::control::{ParallelPid, level_loop};
+use crate::linear::{LinearError, LoopStability, Margins};
+use crate::plant::level::LevelGains;
+use crate::sim::level::LevelController;
+
+/// Stability and margins of the linear loop of a level controller around a rest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LoopQuality {
+    /// Whether it is stable.
+    pub stability: LoopStability,
+    /// Margins of a stable loop; `None` for any other, and where they are not computed.
+    pub margins: Option<Margins>,
+}
+
+impl LoopQuality {
+    /// Of a controller; `None` for an output by hand, which closes no loop. A sampled controller counts as a continuous one with half
+    /// of its sampling time as dead time.
+    ///
+    /// # Errors
+    /// As [`level_loop`].
+    pub fn of(gains: &LevelGains, controller: &LevelController) -> Result<Option<Self>, LinearError> {
+        let pi = |gain: f64, time: f64| ParallelPid { proportional: gain, integral: gain / time, derivative: 0.0 };
+        let linear = match controller {
+            LevelController::Manual { .. } => return Ok(None),
+            LevelController::Pi { gain, integral_time_s, .. } => {
+                level_loop(gains, &pi(*gain, *integral_time_s), 0.0, 0.0)?
+            }
+            LevelController::Pid { proportional, integral, derivative, filter_time_s } => {
+                let pid = ParallelPid { proportional: *proportional, integral: *integral, derivative: *derivative };
+                level_loop(gains, &pid, *filter_time_s, 0.0)?
+            }
+            LevelController::Sampled { settings, sampling_time_s } => {
+                let pid = pi(settings.gain, settings.integral_time_s);
+                level_loop(gains, &pid, 0.0, 0.5 * sampling_time_s)?
+            }
+        };
+        let stability = linear.stability();
+        let margins = if stability == LoopStability::Stable { linear.margins() } else { None };
+        Ok(Some(Self { stability, margins }))
+    }
+
+    /// Sensitivity peak Ms, 1 at least.
+    pub fn sensitivity_peak(&self) -> Option<f64> {
+        self.margins.map(|margins| margins.distance.recip())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::control::{AntiWindup, LoopMode, PiSettings};
+    use crate::literature::{andreis, level_slides};
+
+    #[test]
+    fn every_controller_has_the_quality_of_its_loop() {
+        let plant = andreis::plant();
+        let gains = plant.gains(&plant.rest(1.0, 0.017).unwrap());
+        let of = |controller: &LevelController| LoopQuality::of(&gains, controller).unwrap();
+        assert_eq!(of(&LevelController::off()), None);
+        let continuous = of(&LevelController::pi(10.0, 2500.0)).unwrap();
+        let settings = PiSettings {
+            gain: 10.0,
+            integral_time_s: 2500.0,
+            set_point_weight: 1.0,
+            anti_windup: AntiWindup::Off,
+            mode: LoopMode::Automatic,
+        };
+        let sampled = of(&LevelController::Sampled { settings, sampling_time_s: 1.0 }).unwrap();
+        assert!(sampled.sensitivity_peak().unwrap() > continuous.sensitivity_peak().unwrap());
+        let unstable = of(&LevelController::pi(120.0, 2500.0)).unwrap();
+        assert!(unstable.margins.is_none() && unstable.sensitivity_peak().is_none());
+        // Without a gain nothing is sensitive.
+        assert!((of(&LevelController::pi(0.0, 2500.0)).unwrap().sensitivity_peak().unwrap() - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn the_loops_of_the_slides_are_stable() {
+        let plant = level_slides::plant();
+        let gains = plant.gains(&plant.rest(0.5, 0.0).unwrap());
+        for pid in level_slides::settings() {
+            let controller = LevelController::pid(pid, level_slides::DERIVATIVE_FILTER_S);
+            assert_eq!(LoopQuality::of(&gains, &controller).unwrap().unwrap().stability, LoopStability::Stable);
+        }
+    }
+}

@@ -1,0 +1,25 @@
+//! The study of the level-loop bench: test, model, rules, run, indices, trade-off and the map of a cost.
+
+mod answer;
+mod contour;
+mod findings;
+mod published;
+mod results;
+mod search;
+mod setup;
+mod step_test;
+mod suggestions;
+mod trade_off;
+
+pub use answer::{LevelLoopAnswer, LevelLoopFault, run_level_loop};
+pub use contour::{ContourMap, ContourSettings};
+pub use findings::Finding;
+pub use published::{Compared, ComparedTable, compare_table, published_setup};
+pub use results::{LevelLoopStudy, PlantAnswer, Results};
+pub use search::{LevelSearch, SearchMethod};
+pub use setup::{
+    Harris, LevelLoopSetup, LevelPlantSpec, ModelError, ModelSource, Objective, PiTuning, SearchSpec, StepTestSpec,
+};
+pub use step_test::{StepTestAnswer, StepTestFault, run_step_test};
+pub use suggestions::{SuggestedRule, Suggestion, suggest};
+pub use trade_off::{TradeOff, TradeOffPoint, trade_off};

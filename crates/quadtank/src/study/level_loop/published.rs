@@ -1,0 +1,201 @@
+use crate::literature::andreis::{
+    self, AndreisRemark, CURRENT_TUNING, INDICES, PublishedDisturbance, PublishedIndex, PublishedMethod,
+    PublishedModel, PublishedObjective, PublishedVariance, Tuning, VARIANCES, WRONG_INDICES, remarks_on_table,
+};
+use crate::literature::{LevelPresetId, level_slides};
+use crate::plant::level::LevelPlant;
+use crate::sim::level::{
+    InflowDisturbance, LevelController, LevelExperiment, LevelRunError, LevelSimulation, SetPointScale, SignalStep,
+};
+use crate::tuning::{CostMeasure, ReactionMethod};
+
+use super::{
+    Harris, LevelLoopSetup, LevelPlantSpec, ModelError, ModelSource, Objective, PiTuning, SearchSpec, StepTestSpec,
+};
+
+/// A printed number beside the computed one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Compared {
+    /// Disturbance of the row.
+    pub disturbance: PublishedDisturbance,
+    /// Method of the row.
+    pub method: PublishedMethod,
+    /// Model of the row.
+    pub model: PublishedModel,
+    /// The tuning.
+    pub tuning: Tuning,
+    /// As printed.
+    pub printed: f64,
+    /// As computed.
+    pub computed: f64,
+}
+
+impl Compared {
+    /// Relative distance of the computed number from the printed one.
+    pub fn deviation(&self) -> f64 {
+        self.computed / self.printed - 1.0
+    }
+}
+
+/// A published table, every number beside the computed one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ComparedTable {
+    /// Its number, 1 for 5.1.
+    pub table: u32,
+    /// Its numbers, by rows.
+    pub numbers: Vec<Compared>,
+    /// What is to be known about the print.
+    pub remarks: &'static [AndreisRemark],
+}
+
+/// Computes a table of chapter 5 of Andreis (2017) anew: 1 to 6, 9, 10, 12, 13, 17 and 18. Others are empty.
+///
+/// # Errors
+/// [`LevelRunError`], which no published case has.
+pub fn compare_table(table: u32) -> Result<ComparedTable, LevelRunError> {
+    let variances = VARIANCES.iter().filter(|row| row.table() == table).map(compare_variance);
+    let indices = INDICES.iter().filter(|row| row.table == table);
+    let indices = indices.flat_map(|row| [0, 1].map(|k| compare_index(row, k)));
+    let wrong_objective = match table {
+        17 => Some(PublishedObjective::Tight),
+        18 => Some(PublishedObjective::Averaging),
+        _ => None,
+    };
+    let methods = [PublishedMethod::Current, PublishedMethod::Gradient, PublishedMethod::Genetic];
+    let wrong = WRONG_INDICES.iter().filter(|row| Some(row.objective) == wrong_objective).flat_map(|row| {
+        methods.into_iter().zip(row.variances).map(|(method, printed)| {
+            let of = PublishedObjective::other(row.objective);
+            compare(row.disturbance, row.objective, method, PublishedModel::Nominal, printed, |of_level, of_outflow| {
+                if of == PublishedObjective::Tight { of_level } else { of_outflow }
+            })
+        })
+    });
+    let numbers = variances.chain(indices).chain(wrong).collect::<Result<_, _>>()?;
+    Ok(ComparedTable { table, numbers, remarks: remarks_on_table(table) })
+}
+
+fn plant_of(model: PublishedModel) -> LevelPlant {
+    match model {
+        PublishedModel::Nominal => andreis::plant(),
+        PublishedModel::Uncertain => andreis::uncertain_plant(),
+    }
+}
+
+/// Variances of level and outflow.
+fn variances(plant: &LevelPlant, disturbance: PublishedDisturbance, tuning: Tuning) -> Result<[f64; 2], LevelRunError> {
+    let experiment = disturbance.experiment();
+    let controller = LevelController::pi(tuning.gain, tuning.integral_time_s);
+    let log = LevelSimulation::new(plant, &experiment)?.run(&controller)?;
+    let empty = LevelRunError::EmptyLog { duration_s: experiment.duration_s, log_step_s: experiment.log_step_s };
+    Ok(log.statistics(0..log.len()).ok_or(empty)?.map(|of| of.variance))
+}
+
+fn compare(
+    disturbance: PublishedDisturbance,
+    objective: PublishedObjective,
+    method: PublishedMethod,
+    model: PublishedModel,
+    printed: f64,
+    number: impl Fn(f64, f64) -> f64,
+) -> Result<Compared, LevelRunError> {
+    let tuning =
+        PublishedVariance::find(disturbance, objective, method, model).map_or(CURRENT_TUNING, |row| row.tuning);
+    let [level, outflow] = variances(&plant_of(model), disturbance, tuning)?;
+    Ok(Compared { disturbance, method, model, tuning, printed, computed: number(level, outflow) })
+}
+
+fn compare_variance(row: &PublishedVariance) -> Result<Compared, LevelRunError> {
+    let is_tight = row.objective == PublishedObjective::Tight;
+    let number = |level, outflow| if is_tight { level } else { outflow };
+    compare(row.disturbance, row.objective, row.method, row.model, row.variance, number)
+}
+
+/// The index with a model, 0 or 1; the current loop is always the plant.
+fn compare_index(row: &PublishedIndex, model: usize) -> Result<Compared, LevelRunError> {
+    let is_tight = row.objective == PublishedObjective::Tight;
+    let current = variances(&andreis::plant(), row.disturbance, CURRENT_TUNING)?;
+    let number = |level: f64, outflow: f64| if is_tight { level / current[0] } else { outflow / current[1] };
+    let models = PublishedIndex::MODELS;
+    compare(row.disturbance, row.objective, row.method, models[model], row.printed[model], number)
+}
+
+/// The setup that shows a published loop: the plant of Andreis (2017) or its model with errors under a disturbance of the source with
+/// the current controller; the loop of the lecture slides with its third setting and a step of the set-point.
+pub fn published_setup(id: LevelPresetId, disturbance: PublishedDisturbance) -> LevelLoopSetup {
+    match id {
+        LevelPresetId::Andreis | LevelPresetId::AndreisUncertain => of_andreis(id, disturbance),
+        LevelPresetId::LectureSlides => of_slides(),
+    }
+}
+
+fn of_andreis(id: LevelPresetId, disturbance: PublishedDisturbance) -> LevelLoopSetup {
+    LevelLoopSetup {
+        plant: LevelPlantSpec::Preset(id),
+        test: StepTestSpec {
+            level: andreis::NOMINAL_LEVEL,
+            inflow: andreis::STEP_TEST_INFLOW,
+            step: 1.28,
+            step_time_s: 500.0,
+            return_time_s: None,
+            duration_s: 4407.0,
+            method: ReactionMethod::OnePoint { dead_time_s: 0.0 },
+        },
+        objective: Objective::Tight,
+        model_source: ModelSource::Test,
+        closed_loop_time_s: 5.88,
+        controller: LevelController::pi(CURRENT_TUNING.gain, CURRENT_TUNING.integral_time_s),
+        reference: PiTuning { gain: 93.7, integral_time_s: 2999.7 },
+        model_error: ModelError::NONE,
+        experiment: disturbance.experiment(),
+        search: SearchSpec {
+            gain: [0.2, 100.0],
+            integral_time_s: [0.6, 6000.0],
+            measure: CostMeasure::LevelVariance,
+            move_penalty: 0.0,
+            largest_sensitivity: None,
+            keep_band: false,
+        },
+        harris: Harris { dead_time_rows: 6, order: 20 },
+    }
+}
+
+fn of_slides() -> LevelLoopSetup {
+    const LEVEL: f64 = 0.3;
+    let minute = level_slides::MINUTE;
+    LevelLoopSetup {
+        plant: LevelPlantSpec::Preset(LevelPresetId::LectureSlides),
+        test: StepTestSpec {
+            level: LEVEL,
+            inflow: 0.0,
+            step: 1.5,
+            step_time_s: 5.0 * minute,
+            return_time_s: None,
+            duration_s: 65.0 * minute,
+            method: ReactionMethod::TwoPoint,
+        },
+        objective: Objective::Tight,
+        model_source: ModelSource::Local,
+        closed_loop_time_s: minute,
+        controller: LevelController::pid(level_slides::settings()[2], level_slides::DERIVATIVE_FILTER_S),
+        reference: PiTuning { gain: 2.0, integral_time_s: 2.0 * minute },
+        model_error: ModelError::NONE,
+        experiment: LevelExperiment {
+            level: LEVEL,
+            inflow: 0.0,
+            duration_s: 60.0 * minute,
+            log_step_s: 0.1 * minute,
+            disturbance: InflowDisturbance::NONE,
+            set_point_steps: vec![SignalStep { time_s: 0.0, size: 0.3 }],
+            set_point_scale: SetPointScale::Level,
+        },
+        search: SearchSpec {
+            gain: [0.1, 200.0],
+            integral_time_s: [minute, 60.0 * minute],
+            measure: CostMeasure::Iae,
+            move_penalty: 0.0,
+            largest_sensitivity: None,
+            keep_band: false,
+        },
+        harris: Harris { dead_time_rows: 1, order: 10 },
+    }
+}

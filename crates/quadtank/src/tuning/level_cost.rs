@@ -1,0 +1,149 @@
+use serde::{Deserialize, Serialize};
+
+use crate::control::{AntiWindup, ParallelPid, level_loop};
+use crate::linear::LoopStability;
+use crate::plant::level::LevelPlant;
+use crate::sim::level::{LevelController, LevelExperiment, LevelFigures, LevelLog, LevelRunError, LevelSimulation};
+
+/// What a level loop is judged by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum CostMeasure {
+    /// Variance of the level (m²): tight control (Andreis 2017, Eqs. 47, 48).
+    LevelVariance,
+    /// Variance of the outflow ((m³/s)²): averaging control (Andreis 2017, Eqs. 49, 50).
+    OutflowVariance,
+    /// Integral of the absolute error (m s).
+    Iae,
+    /// Integral of the square of the error (m² s).
+    Ise,
+    /// Integral of time times the absolute error (m s²).
+    Itae,
+}
+
+/// A cost with what it may not pay for.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct LevelCost {
+    /// The measure.
+    pub measure: CostMeasure,
+    /// Added to the cost for each square of a move of the output from row to row.
+    pub move_penalty: f64,
+    /// Largest sensitivity peak Ms of the linear loop; `None` for any loop.
+    pub largest_sensitivity: Option<f64>,
+    /// Levels (m) between which the level has to stay, such as 30 and 70 % of the range; `None` for any level.
+    pub level_band: Option<[f64; 2]>,
+}
+
+impl LevelCost {
+    /// A measure alone.
+    pub const fn plain(measure: CostMeasure) -> Self {
+        Self { measure, move_penalty: 0.0, largest_sensitivity: None, level_band: None }
+    }
+}
+
+/// What a pair of settings is worth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LevelWorth {
+    /// The cost of settings that keep to all constraints.
+    Cost(f64),
+    /// By what share a constraint is violated: Ms of its limit, the level of the width of its band. Infinite for an unstable loop.
+    Violates(f64),
+    /// The loop has no run.
+    NoRun(LevelRunError),
+}
+
+/// Where the costs of settings begin that violate a constraint; those that do not are far below.
+pub const VIOLATION: f64 = 1e12;
+/// Largest violation that counts.
+const WORST: f64 = 1e6;
+
+/// A level loop whose PI settings are sought.
+#[derive(Clone, Debug)]
+pub struct LevelProblem {
+    simulation: LevelSimulation,
+    transmitter_gain: f64,
+    cost: LevelCost,
+    anti_windup: AntiWindup,
+    log: LevelLog,
+}
+
+impl LevelProblem {
+    /// Prepares the runs.
+    ///
+    /// # Errors
+    /// As [`LevelSimulation::new`].
+    pub fn new(
+        plant: &LevelPlant,
+        experiment: &LevelExperiment,
+        cost: LevelCost,
+        anti_windup: AntiWindup,
+    ) -> Result<Self, LevelRunError> {
+        let simulation = LevelSimulation::new(plant, experiment)?;
+        let transmitter_gain = plant.transmitter.gain();
+        Ok(Self { simulation, transmitter_gain, cost, anti_windup, log: LevelLog::default() })
+    }
+
+    /// Cost of a gain and an integral time (s) as a number to be searched: settings that violate a constraint are dearer than all
+    /// that do not, by how much they violate it (Deb 2000); without a run they are infinitely dear.
+    pub fn cost(&mut self, settings: [f64; 2]) -> f64 {
+        match self.worth(settings) {
+            LevelWorth::Cost(cost) => cost,
+            LevelWorth::Violates(share) => VIOLATION * (1.0 + share.min(WORST)),
+            LevelWorth::NoRun(_) => f64::INFINITY,
+        }
+    }
+
+    /// What a gain and an integral time (s) are worth.
+    pub fn worth(&mut self, [gain, integral_time_s]: [f64; 2]) -> LevelWorth {
+        let controller = LevelController::Pi { gain, integral_time_s, anti_windup: self.anti_windup };
+        if let Err(error) = controller.check() {
+            return LevelWorth::NoRun(error);
+        }
+        if let Some(share) = self.sensitivity_violation(gain, integral_time_s) {
+            return LevelWorth::Violates(share);
+        }
+        if let Err(error) = self.simulation.run_into(&controller, &mut self.log) {
+            return LevelWorth::NoRun(error);
+        }
+        // A run has two rows at least.
+        let Some(figures) = LevelFigures::of(&self.log, self.transmitter_gain) else {
+            return LevelWorth::Violates(f64::INFINITY);
+        };
+        if let Some(share) = self.band_violation(&figures) {
+            return LevelWorth::Violates(share);
+        }
+        let measured = match self.cost.measure {
+            CostMeasure::LevelVariance => figures.level.variance,
+            CostMeasure::OutflowVariance => figures.outflow.variance,
+            CostMeasure::Iae => figures.iae,
+            CostMeasure::Ise => figures.ise,
+            CostMeasure::Itae => figures.itae,
+        };
+        LevelWorth::Cost(measured + self.cost.move_penalty * figures.squared_moves)
+    }
+
+    /// By what share Ms is too large; `None` where it is not.
+    fn sensitivity_violation(&self, gain: f64, integral_time_s: f64) -> Option<f64> {
+        let largest = self.cost.largest_sensitivity?;
+        let peak = sensitivity_peak(&self.simulation, gain, integral_time_s).unwrap_or(f64::INFINITY);
+        (peak > largest).then(|| peak / largest - 1.0)
+    }
+
+    /// By what share of its width the level leaves the band; `None` where it does not.
+    fn band_violation(&self, figures: &LevelFigures) -> Option<f64> {
+        let [low, high] = self.cost.level_band?;
+        let beyond = (low - figures.level.minimum).max(figures.level.maximum - high);
+        (beyond > 0.0).then(|| beyond / (high - low).max(f64::MIN_POSITIVE))
+    }
+}
+
+/// Ms of the linear loop around the rest of a simulation; `None` for an unstable loop, or where it is not computed.
+pub fn sensitivity_peak(simulation: &LevelSimulation, gain: f64, integral_time_s: f64) -> Option<f64> {
+    let pid = ParallelPid { proportional: gain, integral: gain / integral_time_s, derivative: 0.0 };
+    let linear = level_loop(simulation.gains(), &pid, 0.0, 0.0).ok()?;
+    let is_stable = linear.stability() == LoopStability::Stable;
+    is_stable.then(|| linear.margins()).flatten().map(|margins| margins.distance.recip())
+}
