@@ -369,8 +369,8 @@ mod tests {
         let records = [record(&[0.0, 1.0, 2.0], &[0.0, 0.5, 3.0], &[1.0, -1.0, 1.0], &[(0.5, true), (1.5, false)])];
         let (axes, texts) = (["t", "y", "u"], ["1", "2"]);
         let spec = |until| LoopsChart { records: &records, window: (0.0, 2.0), until, references: None, axes, texts };
-        let [(whole, _), (part, inputs), (nothing, _)] =
-            [None, Some(1.0), Some(-1.0)].map(|until| two_loops(&spec(until)).into()).map(|[y, u]: [Chart; 2]| (y, u));
+        let [[whole, _], [part, inputs], [nothing, _]] =
+            [None, Some(1.0), Some(-1.0)].map(|until| two_loops(&spec(until)));
         let rows = |chart: &Chart| chart.series().map(|series| series.x.len()).collect::<Vec<_>>();
         let marks = |chart: &Chart| chart.layers.iter().filter(|layer| matches!(layer, Layer::Marker(_))).count();
         assert_eq!(
