@@ -87,7 +87,7 @@ pub fn NumberField(
     scale: Scale,
     /// Decimals shown; `None` for three significant digits.
     digits: Option<usize>,
-    /// Smallest allowed magnitude, where the sign is free but zero is not allowed.
+    /// Smallest allowed magnitude besides zero, where the sign is free.
     #[prop(default = 0.0)]
     smallest: f64,
     /// What the value has to be a multiple of; 0 for any value.
@@ -114,7 +114,7 @@ pub fn NumberField(
     let accept = move |v: f64| {
         let (min, max) = limits.get_untracked();
         let on_grid = is_multiple(v, grid.get_untracked());
-        let fits = (min..=max).contains(&v) && v.abs() >= smallest && on_grid;
+        let fits = (min..=max).contains(&v) && (v == 0.0 || v.abs() >= smallest) && on_grid;
         if fits {
             on_change.run(v);
         }
@@ -156,7 +156,7 @@ pub fn NumberField(
                 text = format!("{text}, {}", tr!(lab, field.multiple, step = show(grid.get())));
             }
             if smallest > 0.0 {
-                text = format!("± {text}");
+                text = tr!(lab, field.or_zero, range = format!("± {text}"));
             }
             match refusal {
                 Refusal::NoNumber => tr!(lab, field.no_number, allowed = text),

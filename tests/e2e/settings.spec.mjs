@@ -209,3 +209,17 @@ for (const theme of ['light', 'dark']) {
     });
   }
 }
+
+test('a gain of 0 opens a loop, and the page says so', async ({ lab }) => {
+  await lab.open('lang=en');
+  await lab.type('gain1-number', '0');
+  await expect(lab.id('gain1-number')).not.toHaveAttribute('aria-invalid', 'true');
+  await expect(lab.id('open1')).toBeVisible();
+  await expect(lab.id('open2')).toBeHidden();
+  expect(await lab.text('stability')).toContain('Closed loop stable');
+  await lab.clean();
+  await lab.type('gain1-number', '0.0001');
+  await expect(lab.id('gain1-number')).toHaveAttribute('aria-invalid', 'true');
+  await lab.type('gain1-number', '2');
+  await expect(lab.id('open1')).toBeHidden();
+});

@@ -20,6 +20,7 @@ const TRACKING_RATIO: f64 = 0.5;
 const MANUAL_UNTIL_S: f64 = 500.0;
 
 const SIGN_IDS: [&str; 2] = ["sign1", "sign2"];
+const OPEN_IDS: [&str; 2] = ["open1", "open2"];
 const MANUAL_IDS: [&str; 2] = ["manual1", "manual2"];
 
 const GAIN: ParamControl<Setup> = ParamControl {
@@ -247,8 +248,13 @@ fn LoopControls(index: usize) -> impl IntoView {
         let pump = session.document.with(|s| s.setup.controller.pairing.pump_of(index)) + 1;
         tr!(lab, pi.heading, level = index + 1, pump = pump)
     };
+    // A gain of 0 opens the loop: its pump keeps the voltage that it starts with.
+    let is_open = session.part(move |s| s.controller.loops[index].gain == 0.0);
     view! {
-        <h3 class=["loop1", "loop2"][index]>{heading}</h3>
+        <h3 class=["loop1", "loop2"][index]>
+            {heading}
+            <span class="tag" data-testid=OPEN_IDS[index] hidden=move || !is_open.get()>" (" {say!(lab, pi.open)} ")"</span>
+        </h3>
         <ParamRow session control=&GAIN index />
         <ParamRow session control=&INTEGRAL_TIME index />
     }

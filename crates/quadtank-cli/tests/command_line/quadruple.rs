@@ -142,7 +142,7 @@ fn schema_describes_what_presets_prints() {
     assert_eq!(setup["controller"]["required"], json!(["pairing", "loops", "sampling_time_s"]));
     assert_eq!(setup["controller"]["properties"]["pairing"]["enum"], json!(["diagonal", "swapped"]));
     assert_eq!(schema["required"], json!(["version", "setup"]));
-    assert_eq!(schema["properties"]["pinned"]["maxItems"], json!(3));
+    assert_eq!(schema["properties"]["pinned"]["maxItems"], json!(8));
     assert_eq!(schema["properties"]["version"]["maximum"], json!(1.0));
     assert_eq!(schema["additionalProperties"], json!(false));
 }

@@ -29,7 +29,8 @@ where
         }
     }
     let mut values: Vec<f64> = columns.column_iter().map(|column| column.norm() * largest).collect();
-    values.sort_by(|x, y| y.total_cmp(x));
+    values.sort_by(f64::total_cmp);
+    values.reverse();
     values.iter().all(ComplexField::is_finite).then_some(values)
 }
 

@@ -54,8 +54,7 @@ pub enum NoResponse {
     MarginalLoop,
     /// A tank overflows at the operating point, so the run does not begin at rest.
     StartOverflows,
-    /// The run has noise and takes so much work ([`MAX_JUDGED_WORK`](super::MAX_JUDGED_WORK)) that its twin without noise, of which
-    /// the figures would be, is not run.
+    /// The run has noise and takes so much work that its twin without noise, of which the figures would be, is not run.
     TooLongToJudge,
 }
 

@@ -55,7 +55,7 @@ pub const LEAVES: [(&str, &str, f64); 42] = [
     ("setup.plant.parameters.rig.gravity", "/setup/plant/parameters/rig/gravity", 0.0),
     ("setup.valves[1]", "/setup/valves/1", -0.1),
     ("setup.operating_point.pump_voltage[0]", "/setup/operating_point/pump_voltage/0", -3.0),
-    ("setup.controller.loops[0].gain", "/setup/controller/loops/0/gain", 0.0),
+    ("setup.controller.loops[0].gain", "/setup/controller/loops/0/gain", 1e-4),
     ("setup.controller.loops[1].gain", "/setup/controller/loops/1/gain", -1e4),
     ("setup.controller.loops[0].integral_time_s", "/setup/controller/loops/0/integral_time_s", 0.0),
     ("setup.controller.loops[0].set_point_weight", "/setup/controller/loops/0/set_point_weight", 2.0),
