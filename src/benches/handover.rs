@@ -12,20 +12,23 @@ use crate::lab::{Lab, Notice};
 use crate::session::Bench;
 use crate::share::go_to;
 
-/// Shows a document on its bench, unless that refuses it.
-fn hand_over<B: Bench>(lab: Lab, document: B::Document) {
+/// Shows a document on its bench, under the name that the experiment has, unless that bench refuses it.
+fn hand_over<B: Bench>(lab: Lab, mut document: B::Document) {
     if let Err(error) = document.validate() {
         return lab.notice.set(Some(Notice::Refused(error)));
     }
+    *document.label_mut() = untrack(|| (lab.bench.get_untracked().label)(lab));
     lab.open_in::<B>(document);
     if let Some(bench) = lab.benches.iter().find(|bench| bench.id == B::ID) {
         go_to(lab, bench);
+        window().scroll_to_with_x_and_y(0.0, 0.0);
     }
 }
 
-/// Tries controllers on the rig.
+/// Tries controllers on the rig, beside what is pinned there.
 pub fn to_rig(lab: Lab, setup: Setup) {
-    hand_over::<QuadrupleTank>(lab, Scenario::from(setup));
+    let pinned = lab.session::<QuadrupleTank>().document.with_untracked(|document| document.pinned.clone());
+    hand_over::<QuadrupleTank>(lab, Scenario { pinned, ..Scenario::from(setup) });
 }
 
 /// Tunes a rig by relays; does nothing for one that relay sessions do not know.

@@ -194,3 +194,27 @@ test.describe('on a phone', () => {
     expect(await page.evaluate(() => scrollX + document.scrollingElement.scrollWidth)).toBe(390);
   });
 });
+
+test('valves that are turned slowly across the line keep their place and a run', async ({ lab, page }) => {
+  await lab.open('lang=en&view=explore');
+  await expect(page.getByRole('checkbox', { name: /hold the levels/ })).toBeChecked();
+  const handle = lab.id('valve-handle');
+  const from = await handle.boundingBox();
+  const plane = await handle.evaluate((e) => { const { x, y, width, height } = e.closest('svg').getBoundingClientRect(); return { x, y, width, height }; });
+  let [x, y] = [from.x + from.width / 2, from.y + from.height / 2];
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  for (let k = 0; k < 40; k += 1) {
+    [x, y] = [x - 2, y + 1.5];
+    await page.mouse.move(x, y);
+    await lab.settle();
+    const box = await handle.boundingBox();
+    expect(Math.hypot(box.x + box.width / 2 - x, box.y + box.height / 2 - y), `step ${k}`).toBeLessThan(8);
+    expect(box.x).toBeGreaterThan(plane.x - 30);
+    expect(await lab.text('levels-sentence'), `step ${k}`).not.toContain('no operating point');
+  }
+  await page.mouse.up();
+  await lab.settle();
+  expect(await level(lab, 1)).toBeGreaterThan(0);
+  await lab.clean();
+});

@@ -52,8 +52,19 @@ pub struct Own {
     pub playback: RwSignal<Option<f64>>,
     /// Whether the levels at rest are held when valves are turned in Explore, instead of the pump voltages.
     pub holds_levels: RwSignal<bool>,
-    /// The levels that are held, with the operating point that was set for them.
-    pub held: StoredValue<Option<([f64; 2], OperatingPointSpec)>>,
+    /// What is held while valves are turned.
+    pub held: StoredValue<Option<Held>>,
+}
+
+/// What is held while valves are turned.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Held {
+    /// The lower levels when it began (m).
+    levels: [f64; 2],
+    /// The pump voltages then (V), for valves with which no pumps hold these levels.
+    voltages: [f64; 2],
+    /// The operating point that was set last.
+    point: OperatingPointSpec,
 }
 
 impl Bench for QuadrupleTank {
@@ -116,21 +127,22 @@ pub fn turn_valves(session: Session, valves: [f64; 2]) {
         release_levels(session);
     }
     session.edit(|s| {
-        let levels = match session.own.held.get_value() {
-            Some((levels, point)) if point == s.operating_point => Some(levels),
-            _ => s.operating_point().ok().map(|point| [point.levels[0], point.levels[1]]),
-        };
+        let held = session.own.held.get_value().filter(|held| held.point == s.operating_point).or_else(|| {
+            let point = s.operating_point().ok()?;
+            let levels = [point.levels[0], point.levels[1]];
+            Some(Held { levels, voltages: point.pump_voltage, point: s.operating_point })
+        });
         s.valves = valves;
-        if let Some(levels) = levels.filter(|_| holds) {
-            s.operating_point = held_operating_point(s, levels);
-            session.own.held.set_value(Some((levels, s.operating_point)));
+        if let Some(held) = held.filter(|_| holds) {
+            s.operating_point = held_operating_point(s, held.levels, held.voltages);
+            session.own.held.set_value(Some(Held { point: s.operating_point, ..held }));
         }
     });
 }
 
 /// From now on the pump voltages stay that hold the levels now, if it was Explore that held these.
 pub fn release_levels(session: Session) {
-    let is_held = |s: &Setup| session.own.held.get_value().is_some_and(|(_, point)| point == s.operating_point);
+    let is_held = |s: &Setup| session.own.held.get_value().is_some_and(|held| held.point == s.operating_point);
     let voltages = session.document.with_untracked(|document| {
         let setup = &document.setup;
         is_held(setup).then(|| setup.operating_point().ok()).flatten().map(|point| point.pump_voltage)

@@ -70,16 +70,14 @@ pub fn tracking_metrics(
     pairing: Pairing,
 ) -> [TrackingMetrics; 2] {
     let limits = pairing.by_loop(plant.controller_limits());
-    std::array::from_fn(|i| {
-        let column = |values: &[f64]| values.iter().copied().step_by(rows_per_sample).collect();
-        Samples {
-            time: column(&run.time_s),
-            level: column(&run.levels[i]),
-            reference: column(&run.references[i]),
-            output: column(&run.controller_output[i]),
-        }
-        .figures(limits[i])
-    })
+    let column = |values: &[f64]| values.iter().copied().step_by(rows_per_sample).collect();
+    let samples: [Samples; 2] = std::array::from_fn(|i| Samples {
+        time: column(&run.time_s),
+        level: column(&run.levels[i]),
+        reference: column(&run.references[i]),
+        output: column(&run.controller_output[i]),
+    });
+    std::array::from_fn(|i| samples[i].figures(limits[i], &samples[1 - i].reference))
 }
 
 /// The samples of one loop.
@@ -91,7 +89,8 @@ struct Samples {
 }
 
 impl Samples {
-    fn figures(&self, (min, max): (f64, f64)) -> TrackingMetrics {
+    /// The figures, with `other` the reference of the other level: from its next step on the response is to that as well.
+    fn figures(&self, (min, max): (f64, f64), other: &[f64]) -> TrackingMetrics {
         let sampling_time = self.time.get(1).copied().unwrap_or(0.0);
         let error = |k: usize| self.reference[k] - self.level[k];
         let sum = |f: &dyn Fn(usize) -> f64| (0..self.time.len()).map(f).sum::<f64>();
@@ -100,14 +99,16 @@ impl Samples {
         let lost_at_s = self.lost_at(step.map_or(0, |(first, _)| first));
         let settling_s = step.and_then(|(first, size)| {
             let outside = |k: &usize| error(*k).abs() > SETTLED * f64::abs(size);
-            let settled = (first..self.time.len()).rev().find(outside).map_or(first, |k| k + 1);
-            let stays = self.time.len() - settled;
-            (stays >= self.shown(first)).then(|| self.time[settled] - self.time[first])
+            let end = window_end(other, first);
+            let settled = (first..end).rev().find(outside).map_or(first, |k| k + 1);
+            let stays = end - settled;
+            (stays >= shown(end - first)).then(|| self.time[settled] - self.time[first])
         });
         let figures = TrackingMetrics {
             iae: sampling_time * sum(&|k| error(k).abs()),
             ise: sampling_time * sum(&|k| error(k).powi(2)),
-            overshoot: step.map(|(first, size)| (first..self.time.len()).map(|k| -error(k) / size).fold(0.0, f64::max)),
+            overshoot: step
+                .map(|(first, size)| (first..window_end(other, first)).map(|k| -error(k) / size).fold(0.0, f64::max)),
             no_response: None,
             settling_s,
             total_variation: self.output.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum(),
@@ -143,12 +144,18 @@ impl Samples {
         let last = (first..self.time.len()).rev().find(tracked)?;
         let held = (first..=last).rev().take_while(tracked).count();
         let away = self.time.len() - 1 - last;
-        (held >= HELD && away >= self.shown(first)).then(|| self.time[last + 1])
+        (held >= HELD && away >= shown(self.time.len() - first)).then(|| self.time[last + 1])
     }
+}
 
-    /// How many samples it takes to show something in a response that begins at sample `first`.
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a tenth of a count")]
-    fn shown(&self, first: usize) -> usize {
-        ((SHOWN * (self.time.len() - first) as f64) as usize).max(1)
-    }
+/// How many samples it takes to show something in a response of so many.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a tenth of a count")]
+fn shown(samples: usize) -> usize {
+    ((SHOWN * samples as f64) as usize).max(1)
+}
+
+/// Where the response to a step at sample `first` ends: at the next step of the other reference, else at the end.
+fn window_end(other: &[f64], first: usize) -> usize {
+    let steps = |k: &usize| (other[*k] - other[*k - 1]).abs() > LEAST_STEP;
+    (first + 1..other.len()).find(steps).unwrap_or(other.len())
 }

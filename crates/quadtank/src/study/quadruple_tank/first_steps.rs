@@ -72,12 +72,12 @@ pub fn calmed(setup: &Setup) -> Option<Setup> {
     None
 }
 
-/// Where a rig rests whose valves are turned while its lower levels (m) are held, as long as pumps and walls allow that; else the
-/// operating point of `setup`. Near γ1 + γ2 = 1 no pumps hold two levels of one's choice.
-pub fn held_operating_point(setup: &Setup, levels: [f64; 2]) -> OperatingPointSpec {
+/// Where a rig rests whose valves are turned while its lower levels (m) are held, as long as pumps and walls allow that; else what
+/// the pumps do at `voltages` (V). Near γ1 + γ2 = 1 no pumps hold two levels of one's choice.
+pub fn held_operating_point(setup: &Setup, levels: [f64; 2], voltages: [f64; 2]) -> OperatingPointSpec {
     let held = Setup { operating_point: OperatingPointSpec::Levels(levels), ..setup.clone() };
     let is_allowed = held.operating_point().is_ok_and(|point| held.plant().violations(&point).is_empty());
-    if is_allowed { held.operating_point } else { setup.operating_point }
+    if is_allowed { held.operating_point } else { OperatingPointSpec::PumpVoltage(voltages) }
 }
 
 /// A way to move both levels at once, seen from a zero.
@@ -149,12 +149,15 @@ mod tests {
     #[test]
     fn levels_are_held_as_long_as_pumps_can() {
         let mut setup = first_experiment();
-        let levels = [0.1226, 0.1278];
+        let (levels, voltages) = ([0.1226, 0.1278], [3.0, 3.1]);
         for (valves, is_held) in [([0.7, 0.6], true), ([0.3, 0.3], true), ([0.52, 0.5], false), ([0.6, 0.4], false)] {
             setup.valves = valves;
-            let held = held_operating_point(&setup, levels);
-            assert_eq!(held == OperatingPointSpec::Levels(levels), is_held, "{valves:?}");
-            assert_eq!(held == setup.operating_point, !is_held, "{valves:?}");
+            // One turn after the other, as a hand does.
+            setup.operating_point = held_operating_point(&setup, levels, voltages);
+            let expected =
+                if is_held { OperatingPointSpec::Levels(levels) } else { OperatingPointSpec::PumpVoltage(voltages) };
+            assert_eq!(setup.operating_point, expected, "{valves:?}");
+            assert!(setup.operating_point().is_ok(), "{valves:?}");
         }
     }
 
