@@ -75,6 +75,8 @@ pub struct State {
     pub depth: RwSignal<Depth>,
     /// Whether the page is shown to an audience: large, and without what surrounds the bench.
     presents: RwSignal<bool>,
+    /// The card that fills the window, by its name, where one does.
+    pub large: RwSignal<Option<&'static str>>,
     /// How much of a bench is shown when the page begins, which says what a bench begins with.
     pub first_depth: Depth,
     /// Whether it was said that nothing is kept.
@@ -121,6 +123,7 @@ impl Lab {
             notice: RwSignal::new(None),
             depth: RwSignal::new(depth),
             presents: RwSignal::new(false),
+            large: RwSignal::new(None),
             first_depth: depth,
             told_not_kept: StoredValue::new(false),
             flags: StoredValue::new(flags),

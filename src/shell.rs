@@ -60,6 +60,7 @@ pub fn Laboratory(
     let on_key = window_event_listener(ev::keydown, move |event| match event.key().as_str() {
         "Escape" => {
             close_menus(None);
+            lab.large.set(None);
             lab.present(false);
         }
         "f" | "F" if is_plain(&event) => lab.present(!untrack(|| lab.is_presenting())),

@@ -1,4 +1,3 @@
-use leptos::ev::KeyboardEvent;
 use leptos::prelude::*;
 
 use super::marked::marked;
@@ -30,13 +29,7 @@ pub fn Card(
     let heading = format!("{name}-title");
     let labelled_by = heading.clone();
     let lab = use_lab();
-    let is_large = RwSignal::new(false);
-    let reduce = move |event: KeyboardEvent| {
-        if event.key() == "Escape" && is_large.get_untracked() {
-            is_large.set(false);
-            event.stop_propagation();
-        }
-    };
+    let is_large = Signal::derive(move || lab.large.get() == Some(name));
     let size = Signal::derive(move || {
         let title = title.get();
         if is_large.get() { tr!(lab, card.reduce, title = title) } else { tr!(lab, card.enlarge, title = title) }
@@ -47,7 +40,6 @@ pub fn Card(
             class:large=is_large
             aria-labelledby=labelled_by
             hidden=hidden
-            on:keydown=reduce
         >
             <header><h2 id=heading>{title}</h2>{help}{beside.run()}</header>
             {children()}
@@ -57,7 +49,7 @@ pub fn Card(
                 data-testid=format!("{name}-enlarge")
                 aria-label=size
                 title=size
-                on:click=move |_| is_large.update(|large| *large = !*large)
+                on:click=move |_| lab.large.update(|large| *large = if *large == Some(name) { None } else { Some(name) })
             >
                 {move || if is_large.get() { "⤡" } else { "⤢" }}
             </button>

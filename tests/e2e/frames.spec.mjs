@@ -159,7 +159,7 @@ for (const [path, base] of [
     expect(await whole.value('gamma1-number')).toBe(0.52);
     // The address follows to another bench under such a path as well.
     await whole.bench('relay-tuning');
-    expect(opened.url()).toBe(`${site.origin}${path}${query}&bench=relay-tuning`);
+    expect(opened.url()).toBe(`${site.origin}${path}${query.replace('&view=full', '')}&bench=relay-tuning&view=full`);
     site.close();
   });
 }

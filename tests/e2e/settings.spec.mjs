@@ -33,7 +33,7 @@ test('every text is there in both languages, with the numbers as they are writte
   expect(portuguese).toMatch(PORTUGUESE);
   expect(portuguese.match(ENGLISH)).toBeNull();
   expect((await lab.picture('valve-plane')).hash).not.toBe(drawn.hash);
-  expect(portuguese.replaceAll('Apache-2.0', '').match(/\d\.\d/)).toBeNull();
+  expect(portuguese.replaceAll('Apache-2.0', '').replaceAll(/\d+\.\d+\.\d+/g, '').match(/\d\.\d/)).toBeNull();
   expect(await lab.text('lambda-11')).toBe('−0,64');
   expect(await lab.id('gamma1-number').inputValue()).toBe('0,43');
   await lab.clean();
@@ -168,8 +168,8 @@ const LOCKS = {
   preset: ['preset'],
   valves: ['gamma1', 'gamma1-number', 'gamma2', 'gamma2-number'],
   voltages: ['voltage1', 'voltage2'],
-  pairing: ['pairing-diagonal', 'pairing-swapped'],
-  gains: ['gain1', 'gain1-number', 'gain2', 'gain2-number', 'integral1', 'integral1-number', 'integral2', 'integral2-number', 'sign1', 'sign2'],
+  pairing: ['pairing-diagonal', 'pairing-swapped', 'try-advised'],
+  gains: ['gain1', 'gain1-number', 'gain2', 'gain2-number', 'integral1', 'integral1-number', 'integral2', 'integral2-number', 'sign1', 'sign2', 'try-advised'],
   sampling: ['antiwindup', 'manual1', 'manual2', 'sampling', 'sampling-number', 'tracking', 'tracking-number', 'weight', 'weight-number'],
   experiment: ['duration', 'duration-number', 'load-kind', 'noise', 'noise-number', 'quantised', 'step1', 'step1-number', 'step1-time', 'step2', 'step2-number', 'step2-time', 'try-easy', 'try-hard'],
 };
@@ -218,7 +218,7 @@ test('a gain of 0 opens a loop, and the page says so', async ({ lab }) => {
   await expect(lab.id('open2')).toBeHidden();
   expect(await lab.text('stability')).toContain('Closed loop stable');
   await lab.clean();
-  await lab.type('gain1-number', '0.0001');
+  await lab.id('gain1-number').fill('0.0001');
   await expect(lab.id('gain1-number')).toHaveAttribute('aria-invalid', 'true');
   await lab.type('gain1-number', '2');
   await expect(lab.id('open1')).toBeHidden();
