@@ -19,7 +19,7 @@ async fn on_the_home_bench_the_zero_crosses_with_the_valves() {
 
 #[wasm_bindgen_test]
 async fn on_the_relay_bench_a_smaller_ratio_ends_the_simple_oscillation() {
-    let page = Page::open("bench=relay-tuning&lang=en").await;
+    let page = Page::open("bench=relay-tuning&lang=en&view=full").await;
     assert!(page.text("test-verdict").contains("Unimodal"), "{}", page.text("test-verdict"));
     // Between 0.6 and 0.15 no test of Wood and Berry's column is unimodal (Campestrini 2006, §4.3).
     page.set("ratio-number", "0.4").await;
@@ -29,7 +29,7 @@ async fn on_the_relay_bench_a_smaller_ratio_ends_the_simple_oscillation() {
 
 #[wasm_bindgen_test]
 async fn on_the_model_free_bench_case_b_loses_a_level() {
-    let page = Page::open("bench=model-free&lang=en").await;
+    let page = Page::open("bench=model-free&lang=en&view=full").await;
     for button in ["free-b", "free-s3"] {
         page.press(button).await;
     }
