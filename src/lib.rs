@@ -18,6 +18,7 @@ mod keep;
 mod lab;
 mod naming;
 mod notices;
+mod pinned;
 mod session;
 mod share;
 mod shell;

@@ -150,7 +150,7 @@ pub enum Pen {
     Dashed,
     /// What it is compared with.
     Faded,
-    /// A pinned run, by its place among them: as pale as what it is compared with, and each with dashes of its own.
+    /// A pinned run, by its index: a pale line whose dashes depend on the index.
     Pinned(u8),
     /// A thin line that only guides the eye.
     Hair,

@@ -290,8 +290,7 @@ fn loops_chart<'a>(
     chart
 }
 
-/// A mark on the output at every instant at which its relay switched: rings of loop 1, diamonds of loop 2, which are told apart
-/// without colour.
+/// A mark on each output where its relay switches: a ring for loop 1, a diamond for loop 2, so that they differ without colour.
 fn switch_marks(record: &LoopsRecord, window: (f64, f64)) -> Vec<Layer<'static>> {
     let in_sight = |switches: &[(f64, bool)]| {
         let times = switches.iter().map(|&(time, _)| time);

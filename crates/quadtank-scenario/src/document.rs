@@ -26,6 +26,9 @@ pub trait BenchDocument:
     /// Setups pinned to compare with.
     fn pinned(&self) -> &[Self::Setup];
 
+    /// The same, to change them; `None` for a document that keeps none.
+    fn pinned_mut(&mut self) -> Option<&mut Vec<Self::Setup>>;
+
     /// What the experiment is called, and a note on it.
     fn label(&self) -> &Label;
 
@@ -97,6 +100,10 @@ impl BenchDocument for Scenario {
 
     fn pinned(&self) -> &[Setup] {
         &self.pinned
+    }
+
+    fn pinned_mut(&mut self) -> Option<&mut Vec<Setup>> {
+        Some(&mut self.pinned)
     }
 
     fn label(&self) -> &Label {

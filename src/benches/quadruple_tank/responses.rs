@@ -5,10 +5,11 @@ use leptos::prelude::*;
 use super::metrics::{MetricsTable, why};
 use super::moment::{RigState, use_moment};
 use super::pictures;
-use super::pins::{PinButtons, PinnedRuns};
+use super::pins;
 use super::session::{Session, use_session};
 use super::set_points::SetPoints;
 use crate::errors::of_study_error;
+use crate::pinned::{PinButtons, PinnedSetups};
 use crate::shown::{length_digits, to_shown, unit_name};
 use crate::texts::{say, terms, tr};
 use crate::widgets::{
@@ -18,6 +19,7 @@ use quadtank::sim::{EventKind, LoopMetrics, NoResponse, Settling};
 use quadtank::study::quadruple_tank::Run;
 use quadtank::study::{StudyError, StudyFault};
 use quadtank_figure::Frame;
+use quadtank_scenario::Scenario;
 
 /// The shortest stretch of time that can be shown (s).
 const SHORTEST_S: f64 = 5.0;
@@ -48,7 +50,7 @@ pub fn ResponsesCard() -> impl IntoView {
     };
     view! {
         <Card name="responses" title terms=TERMS beside>
-            <PinnedRuns />
+            <PinnedSetups session id="pinned" text=pins::text restore=pins::restore />
             <div class="charts">
                 <div class="chart">
                     <ChartCanvas
@@ -87,7 +89,7 @@ fn Toolbar(axis: TimeAxis) -> impl IntoView {
     let linear = move || session.document.with(|s| !s.view.hide_linear);
     view! {
         <div class="toolbar">
-            <PinButtons />
+            <PinButtons session ids=("pin", "unpin") max=Scenario::MAX_PINNED />
             <button
                 type="button"
                 class="button small"

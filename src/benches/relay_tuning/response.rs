@@ -14,8 +14,9 @@ use super::timeline::timeline;
 use crate::benches::handover;
 use crate::controls::Switch;
 use crate::lab::Lab;
+use crate::pinned::{PinButtons, PinnedSetups};
 use crate::texts::{say, terms, tr};
-use crate::widgets::{Choice, DataTable, Figure, Figures, Pins, ReasonedRow, Select, TableContent, Text, ZoomButtons};
+use crate::widgets::{Choice, DataTable, Figure, Figures, ReasonedRow, Select, TableContent, Text, ZoomButtons};
 use quadtank::linear::LoopStability;
 use quadtank::literature::campestrini::PublishedPlant;
 use quadtank::sim::Halt;
@@ -51,87 +52,31 @@ pub fn ResponseCard() -> impl IntoView {
             number=4
             terms=TERMS
             title=say!(lab, relay.response)
-            toolbar=move || view! { <div class="toolbar"><PinButtons /><ZoomButtons axis ids /></div> }
+            toolbar=move || view! { <div class="toolbar"><PinButtons session ids=("response-pin", "response-unpin") max=TuningScenario::MAX_PINNED /><ZoomButtons axis ids /></div> }
             picture
             frames
             overlay=move || view! { <Surface id="response-surface" axis frames label readout=values /> }
             verdict=Signal::derive(move || sentence(session))
             offers=Signal::derive(move || mends::of_design(session, "mend-response"))
-            below=move || view! { <PinnedSessions /> <DataTable picture=for_table id="response-table" /> }
+            below=move || view! { <PinnedSetups session id="response-pinned" text=pinned_text restore /> <DataTable picture=for_table id="response-table" /> }
         >
             <Settings />
         </Step>
     }
 }
 
-#[component]
-fn PinButtons() -> impl IntoView {
-    let session = use_session();
-    let lab = session.lab;
-    let count = Memo::new(move |_| session.document.with(|s| s.pinned.len()));
-    let is_full = move || count.get() >= TuningScenario::MAX_PINNED;
-    let why = move || is_full().then(|| tr!(lab, pins.full, count = TuningScenario::MAX_PINNED));
-    let pin = move |_| {
-        session.document.update(|s| {
-            let setup = s.tuning.clone();
-            s.pinned.push(setup);
-        });
-    };
-    view! {
-        <button type="button" class="button small" data-testid="response-pin" disabled=is_full title=why on:click=pin>
-            {say!(lab, responses.pin)}
-        </button>
-        <button
-            type="button"
-            class="button small"
-            data-testid="response-unpin"
-            hidden=move || count.get() == 0
-            on:click=move |_| session.document.update(|s| s.pinned.clear())
-        >
-            {say!(lab, responses.unpin)}
-        </button>
-    }
+/// Where the locus of a pinned session was moved to, and with which controllers.
+fn pinned_text(session: Session, pinned: &TuningSetup) -> String {
+    let style = session.lab.number_style();
+    let [real, imaginary] = pinned.design.target;
+    let sign = if imaginary < 0.0 { "−" } else { "+" };
+    let action = if pinned.design.action == quadtank::tuning::Action::Pi { "PI" } else { "PID" };
+    format!("{action} · λ {} {sign} {}j", style.fixed(real, 2), style.fixed(imaginary.abs(), 2))
 }
 
-/// The pinned sessions as chips.
-#[component]
-fn PinnedSessions() -> impl IntoView {
-    let session = use_session();
-    let pinned = move |place: usize| session.document.with(|s| s.pinned.get(place).cloned());
-    // Where its locus was moved to, and with which controllers.
-    let text = move |place: usize| {
-        let style = session.lab.number_style();
-        let of_design = |setup: TuningSetup| {
-            let [real, imaginary] = setup.design.target;
-            let sign = if imaginary < 0.0 { "−" } else { "+" };
-            let target = format!("{} {sign} {}j", style.fixed(real, 2), style.fixed(imaginary.abs(), 2));
-            let action = if setup.design.action == quadtank::tuning::Action::Pi { "PI" } else { "PID" };
-            format!("{action} · λ {target}")
-        };
-        pinned(place).map(of_design).unwrap_or_default()
-    };
-    let restore = move |place| {
-        if let Some(setup) = untrack(|| pinned(place)) {
-            session.edit(|s| *s = TuningSetup { response: s.response, ..setup });
-        }
-    };
-    let remove = move |place| {
-        session.document.update(|s| {
-            if place < s.pinned.len() {
-                s.pinned.remove(place);
-            }
-        });
-    };
-    view! {
-        <Pins
-            lab=session.lab
-            id="response-pinned"
-            count=Memo::new(move |_| session.document.with(|s| s.pinned.len()))
-            text=Callback::new(text)
-            on_restore=Callback::new(restore)
-            on_remove=Callback::new(remove)
-        />
-    }
+/// Takes a pinned session up in the present step.
+fn restore(present: &mut TuningSetup, pinned: &TuningSetup) {
+    *present = TuningSetup { response: present.response, ..pinned.clone() };
 }
 
 #[component]

@@ -38,6 +38,10 @@ impl BenchDocument for ModelFreeScenario {
         &[]
     }
 
+    fn pinned_mut(&mut self) -> Option<&mut Vec<ModelFreeSetup>> {
+        None
+    }
+
     fn label(&self) -> &Label {
         &self.label
     }

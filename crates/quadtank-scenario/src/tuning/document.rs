@@ -43,6 +43,10 @@ impl BenchDocument for TuningScenario {
         &self.pinned
     }
 
+    fn pinned_mut(&mut self) -> Option<&mut Vec<TuningSetup>> {
+        Some(&mut self.pinned)
+    }
+
     fn label(&self) -> &Label {
         &self.label
     }

@@ -77,6 +77,7 @@ mod tests {
     use crate::control::Pairing;
     use crate::linear::{LoopStability, Stability};
     use crate::literature::PresetId;
+    use crate::sim::Settling;
     use crate::study::model_free::{analyse_model_free, run_model_free};
     use crate::study::quadruple_tank::analyse;
     use crate::study::relay_tuning::{Mend, PlantStudy};
@@ -112,6 +113,19 @@ mod tests {
         session.design.action = Action::Pid;
         let design = PlantStudy::of(&session.plant).unwrap().design(&session).unwrap().unwrap();
         assert_eq!(rig_under(&session, &design), None);
+    }
+
+    /// The home bench finds settling times by interpolation between rows, the model-free bench by samples, so they agree to one.
+    #[test]
+    fn the_same_loops_settle_after_the_same_time_on_both_benches() {
+        let rig = setup_of(PresetId::JohanssonMinimumPhase);
+        let at_home = quadruple_tank::run(&rig).unwrap().metrics;
+        let (_, compared) = run_model_free(&model_free_on(&rig).unwrap()).unwrap().comparison.unwrap();
+        for (home, other) in at_home.iter().zip(compared) {
+            let Some(Settling::After { time_s }) = home.settling_2_percent else { panic!("{home:?}") };
+            let other = other.settling_s.unwrap();
+            assert!((other - time_s).abs() <= rig.controller.sampling_time_s, "{other} s and {time_s} s");
+        }
     }
 
     #[test]

@@ -157,7 +157,7 @@ impl LevelPlant {
         Self { tank, ..self.clone() }
     }
 
-    /// An opening that the actuator curve does not reach, with what it does.
+    /// The error for a valve opening outside the range of the actuator curve.
     fn unreachable(&self, needed: f64) -> LevelError {
         let travels = || self.actuator.curve.0.iter().map(|point| point[1]);
         let (low, high) = (travels().fold(1.0, f64::min), travels().fold(0.0, f64::max));

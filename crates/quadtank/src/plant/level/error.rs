@@ -35,7 +35,7 @@ pub enum LevelError {
     /// A balance that the valve cannot hold at this level, however far it is opened or closed.
     #[error("the valve would need an opening of {needed}, outside {min} to {max}")]
     ValveOutOfReach {
-        /// Opening asked for: share of the flow of the open valve. Not finite where no opening gives any flow.
+        /// Required opening, as a share of the flow of the open valve; not finite where no opening gives any flow.
         needed: f64,
         /// Opening of the closed valve.
         min: f64,
@@ -45,7 +45,7 @@ pub enum LevelError {
     /// A balance for which the controller output would leave its range.
     #[error("the controller output would have to be {needed}, outside {min} to {max}")]
     OutputOutOfReach {
-        /// Output asked for, in its unit.
+        /// Required controller output, in the unit of its signal range (mA or psi).
         needed: f64,
         /// Lower end of its range.
         min: f64,

@@ -32,7 +32,7 @@ pub enum Finding {
     },
     /// The disturbance takes more from the inflow than there is; less than none is not fed.
     InflowCut {
-        /// Lowest inflow asked for (m³/s).
+        /// Lowest inflow of the disturbed experiment (m³/s).
         lowest: f64,
     },
     /// The controller has no gain: nothing is controlled.
