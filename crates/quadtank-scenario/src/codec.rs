@@ -3,6 +3,7 @@ use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 
 use super::error::{malformed, quoted};
+use super::level_loop::LevelLoopScenario;
 use super::model_free::ModelFreeScenario;
 use super::path::{byte_at, decimal_comma, path_before};
 use super::text::text_of;
@@ -22,6 +23,8 @@ pub enum Document {
     Tuning(TuningScenario),
     /// A run under the model-free law, version 3.
     ModelFree(ModelFreeScenario),
+    /// A level loop, version 4.
+    LevelLoop(LevelLoopScenario),
 }
 
 /// A kind of document: what reading, links and schema need of its type.
@@ -35,8 +38,12 @@ pub(super) struct DocumentKind {
 }
 
 /// All kinds of documents, by rising versions: a new one is a line here and a variant of [`Document`].
-pub(super) const KINDS: [DocumentKind; 3] =
-    [DocumentKind::of::<Scenario>(), DocumentKind::of::<TuningScenario>(), DocumentKind::of::<ModelFreeScenario>()];
+pub(super) const KINDS: [DocumentKind; 4] = [
+    DocumentKind::of::<Scenario>(),
+    DocumentKind::of::<TuningScenario>(),
+    DocumentKind::of::<ModelFreeScenario>(),
+    DocumentKind::of::<LevelLoopScenario>(),
+];
 
 /// The newest version.
 pub(super) const NEWEST: u32 = KINDS[KINDS.len() - 1].version;
@@ -175,5 +182,6 @@ pub(super) fn document_to_json(document: &Document) -> Result<String, ScenarioEr
         Document::Quadruple(scenario) => to_json(scenario),
         Document::Tuning(scenario) => to_json(scenario),
         Document::ModelFree(scenario) => to_json(scenario),
+        Document::LevelLoop(scenario) => to_json(scenario),
     }
 }

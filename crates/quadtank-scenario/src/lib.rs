@@ -11,6 +11,7 @@ mod document;
 mod entries;
 mod error;
 mod label;
+pub mod level_loop;
 pub mod limits;
 mod link;
 pub mod model_free;

@@ -70,7 +70,7 @@ fn place_in_setup(path: &str) -> String {
     let mut pieces = path.split('[');
     let first = pieces.next().unwrap_or_default().to_owned();
     let place = pieces.fold(first, |place, piece| place + "[" + piece.trim_start_matches(|c: char| c.is_ascii_digit()));
-    let mut roots = KINDS.iter().map(|kind| kind.root).chain(["pinned[]"]);
+    let mut roots = KINDS.iter().map(|kind| kind.root).chain(["pinned[]", "pinned_loops[]"]);
     let inside = roots.find_map(|root| place.strip_prefix(root)?.strip_prefix('.'));
     match inside.map(|inside| (inside, inside.strip_prefix("compare."))) {
         Some((_, Some(compared))) => format!("controller.{compared}"),
