@@ -1,8 +1,11 @@
 //! The study of the level-loop bench: test, model, rules, run, indices, trade-off and the map of a cost.
 
 mod answer;
+mod choices;
 mod contour;
+mod element;
 mod findings;
+mod heated;
 mod published;
 mod results;
 mod search;
@@ -12,8 +15,11 @@ mod suggestions;
 mod trade_off;
 
 pub use answer::{LevelLoopAnswer, LevelLoopFault, run_level_loop};
+pub use choices::PublishedTuning;
 pub use contour::{ContourMap, ContourSettings};
+pub use element::{Element, ElementCurve};
 pub use findings::Finding;
+pub use heated::{HEATED_STEPS_S, HeatedAnswer, heated_tank};
 pub use published::{Compared, ComparedTable, compare_table, published_setup};
 pub use results::{LevelLoopStudy, PlantAnswer, Results};
 pub use search::{LevelSearch, SearchMethod};

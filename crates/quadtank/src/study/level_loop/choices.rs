@@ -1,0 +1,165 @@
+use crate::literature::LevelPresetId;
+use crate::literature::andreis::{
+    CURRENT_TUNING, PublishedDisturbance, PublishedMethod, PublishedModel, PublishedObjective, PublishedVariance,
+    Tuning,
+};
+use crate::sim::level::{LevelController, LevelExperiment};
+use crate::tuning::CostMeasure;
+
+use super::{LevelLoopSetup, LevelPlantSpec, Objective, PiTuning};
+
+/// A published tuning of the loop that a setup is about.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PublishedTuning {
+    /// How it was found.
+    pub method: PublishedMethod,
+    /// What for.
+    pub objective: PublishedObjective,
+    /// The tuning.
+    pub tuning: PiTuning,
+}
+
+impl From<Tuning> for PiTuning {
+    fn from(tuning: Tuning) -> Self {
+        Self { gain: tuning.gain, integral_time_s: tuning.integral_time_s }
+    }
+}
+
+impl Objective {
+    /// The objective of the source.
+    pub const fn published(self) -> PublishedObjective {
+        match self {
+            Self::Tight => PublishedObjective::Tight,
+            Self::Averaging { .. } => PublishedObjective::Averaging,
+        }
+    }
+
+    /// The variance that it is about.
+    pub const fn measure(self) -> CostMeasure {
+        match self {
+            Self::Tight => CostMeasure::LevelVariance,
+            Self::Averaging { .. } => CostMeasure::OutflowVariance,
+        }
+    }
+}
+
+impl LevelLoopSetup {
+    /// The published disturbance that the experiment is, wherever it starts; `None` for one of its own.
+    pub fn published_disturbance(&self) -> Option<PublishedDisturbance> {
+        let is_same = |known: &PublishedDisturbance| {
+            let published = known.experiment();
+            let experiment =
+                LevelExperiment { level: published.level, inflow: published.inflow, ..self.experiment.clone() };
+            experiment == published
+        };
+        PublishedDisturbance::ALL.into_iter().find(is_same)
+    }
+
+    /// The tunings that Andreis (2017) prints for this loop and disturbance, for either objective, each once; the current one first.
+    pub fn published_tunings(&self) -> Vec<PublishedTuning> {
+        let LevelPlantSpec::Preset(LevelPresetId::Andreis | LevelPresetId::AndreisUncertain) = self.plant else {
+            return Vec::new();
+        };
+        let Some(disturbance) = self.published_disturbance() else { return Vec::new() };
+        let current = PublishedTuning {
+            method: PublishedMethod::Current,
+            objective: PublishedObjective::Tight,
+            tuning: CURRENT_TUNING.into(),
+        };
+        let methods =
+            [PublishedMethod::Gradient, PublishedMethod::Genetic, PublishedMethod::Skogestad, PublishedMethod::Lambda];
+        let both = [PublishedObjective::Tight, PublishedObjective::Averaging];
+        let rows = both.into_iter().flat_map(|objective| methods.map(|method| (objective, method)));
+        let printed = rows.filter_map(|(objective, method)| {
+            let row = PublishedVariance::find(disturbance, objective, method, PublishedModel::Nominal)?;
+            Some(PublishedTuning { method, objective, tuning: row.tuning.into() })
+        });
+        std::iter::once(current).chain(printed).fold(Vec::new(), |mut known, next| {
+            if known.iter().all(|one: &PublishedTuning| one.tuning != next.tuning) {
+                known.push(next);
+            }
+            known
+        })
+    }
+
+    /// Takes another objective up: the cost of the search is its variance, and the reference the tuning that the source found best for
+    /// it, where there is one.
+    pub fn set_objective(&mut self, objective: Objective) {
+        self.objective = objective;
+        self.search.measure = objective.measure();
+        let of_it =
+            |one: &PublishedTuning| one.method == PublishedMethod::Gradient && one.objective == objective.published();
+        if let Some(best) = self.published_tunings().into_iter().find(of_it) {
+            self.reference = best.tuning;
+        }
+    }
+
+    /// Takes a published disturbance up, at the level and the inflow at which the experiment starts now, with the reference that
+    /// belongs to it.
+    pub fn set_published_disturbance(&mut self, disturbance: PublishedDisturbance) {
+        let start = &self.experiment;
+        self.experiment = LevelExperiment { level: start.level, inflow: start.inflow, ..disturbance.experiment() };
+        self.set_objective(self.objective);
+    }
+
+    /// The tuning of a continuous PI controller; `None` for any other.
+    pub fn pi_tuning(&self) -> Option<PiTuning> {
+        match self.controller {
+            LevelController::Pi { gain, integral_time_s, .. } => Some(PiTuning { gain, integral_time_s }),
+            _ => None,
+        }
+    }
+
+    /// Makes the controller a continuous PI controller with a tuning; the anti-windup stays.
+    pub fn set_pi_tuning(&mut self, tuning: PiTuning) {
+        let PiTuning { gain, integral_time_s } = tuning;
+        self.controller = LevelController::Pi { gain, integral_time_s, anti_windup: self.anti_windup() };
+    }
+
+    /// The band that averaging control is usually given: 30 to 70 % of the range of the transmitter (Foley 2000; Horton 2003).
+    pub fn usual_band(&self) -> [f64; 2] {
+        let [low, high] = self.plant().transmitter.level_range;
+        [0.3, 0.7].map(|share| low + share * (high - low))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::level_loop::published_setup;
+
+    #[test]
+    fn another_objective_brings_its_variance_and_the_reference_of_the_source() {
+        let mut setup = LevelLoopSetup::default();
+        assert_eq!(setup.published_disturbance(), Some(PublishedDisturbance::SineL));
+        setup.set_objective(Objective::Averaging { band: setup.usual_band() });
+        assert_eq!(setup.search.measure, CostMeasure::OutflowVariance);
+        assert_eq!(setup.reference, PiTuning { gain: 0.2, integral_time_s: 2999.7 });
+        setup.set_objective(Objective::Tight);
+        assert_eq!(setup, LevelLoopSetup::default());
+    }
+
+    #[test]
+    fn another_disturbance_keeps_where_the_experiment_starts() {
+        let mut setup = LevelLoopSetup::default();
+        setup.experiment.inflow = 0.012;
+        setup.set_published_disturbance(PublishedDisturbance::SineH);
+        assert_eq!(
+            (setup.experiment.inflow, setup.published_disturbance()),
+            (0.012, Some(PublishedDisturbance::SineH))
+        );
+        assert_eq!(setup.reference, PiTuning { gain: 5.0, integral_time_s: 2999.7 });
+    }
+
+    #[test]
+    fn published_tunings_are_listed_once_and_only_for_the_loop_of_the_source() {
+        let tunings = LevelLoopSetup::default().published_tunings();
+        let gains: Vec<f64> = tunings.iter().map(|one| one.tuning.gain).collect();
+        assert_eq!(gains[0], 10.0);
+        for (k, one) in tunings.iter().enumerate() {
+            assert!(tunings[k + 1..].iter().all(|other| other.tuning != one.tuning), "{gains:?}");
+        }
+        let slides = published_setup(LevelPresetId::LectureSlides, PublishedDisturbance::SineL);
+        assert_eq!((slides.published_tunings(), slides.published_disturbance()), (Vec::new(), None));
+    }
+}
