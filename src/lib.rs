@@ -23,6 +23,7 @@ mod session;
 mod share;
 mod shell;
 mod shown;
+mod slices;
 mod start;
 mod stopped;
 mod storage;

@@ -1,6 +1,7 @@
 //! The benches and their list: all that the rest of the page knows of them.
 
 pub mod handover;
+mod level_loop;
 mod model_free;
 mod quadruple_tank;
 mod relay_tuning;
@@ -12,13 +13,18 @@ use super::depth::Depth;
 use super::history::is_other_experiment;
 use super::lab::Lab;
 use super::session::{Bench, Lock, Panel, Session};
+pub use level_loop::LevelLoop;
 pub use model_free::ModelFree;
 pub use quadruple_tank::{QuadrupleTank, load, name_of};
 pub use relay_tuning::RelayTuning;
 
 /// All benches in the order of the navigation; the first is the home bench.
-pub static BENCHES: [BenchEntry; 3] =
-    [BenchEntry::of::<QuadrupleTank>(), BenchEntry::of::<RelayTuning>(), BenchEntry::of::<ModelFree>()];
+pub static BENCHES: [BenchEntry; 4] = [
+    BenchEntry::of::<QuadrupleTank>(),
+    BenchEntry::of::<RelayTuning>(),
+    BenchEntry::of::<ModelFree>(),
+    BenchEntry::of::<LevelLoop>(),
+];
 
 /// A bench in the list: what the page does with any of them.
 pub struct BenchEntry {

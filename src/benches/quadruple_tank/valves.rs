@@ -1,6 +1,5 @@
 //! The valve plane: γ1 across, γ2 upwards, shaded by the right-most zero, with a point to drag.
 
-use leptos::ev::KeyboardEvent;
 use leptos::prelude::*;
 
 use super::flags::locks;
@@ -9,7 +8,7 @@ use super::session::{Session, turn_valves, use_session};
 use super::{pictures, sentences};
 use crate::lab::Notice;
 use crate::texts::{say, terms, tr};
-use crate::widgets::{Card, ChartCanvas, ChartMenu, Nudge, PointHandle, Sentence, Text, first_frame};
+use crate::widgets::{Card, ChartCanvas, ChartMenu, Nudge, PointButton, PointHandle, Sentence, Text, first_frame};
 use quadtank::literature::PresetId;
 use quadtank_figure::Frame;
 
@@ -139,10 +138,6 @@ fn PublishedPoint(id: PresetId, frames: RwSignal<Vec<Frame>>) -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
     let valves = id.preset().plant.valves;
-    let place = move || {
-        let (x, y) = first_frame(frames).to_px(valves.into());
-        format!("translate({x} {y})")
-    };
     let short = match id {
         PresetId::JohanssonMinimumPhase | PresetId::CocotaMinimumPhase => "P−",
         PresetId::JohanssonNonMinimumPhase | PresetId::CocotaNonMinimumPhase => "P+",
@@ -162,28 +157,15 @@ fn PublishedPoint(id: PresetId, frames: RwSignal<Vec<Frame>>) -> impl IntoView {
             }
         }
     };
-    let on_key = move |event: KeyboardEvent| {
-        if matches!(event.key().as_str(), "Enter" | " ") {
-            event.prevent_default();
-            choose();
-        }
-    };
     view! {
-        <g
-            class="published"
-            role="button"
-            tabindex="0"
-            aria-label=label
-            data-testid=format!("point-{}", id.name())
-            transform=place
-            on:click=move |_| choose()
-            on:keydown=on_key
-        >
-            <title>{label}</title>
-            <circle class="hit" r="14" />
-            <circle class="mark" r="4.5" />
-            <text x="13" y="18">{short}</text>
-        </g>
+        <PointButton
+            id=format!("point-{}", id.name())
+            label
+            text=short
+            at=Signal::stored(valves.into())
+            on_choose=move |()| choose()
+            frames
+        />
     }
 }
 

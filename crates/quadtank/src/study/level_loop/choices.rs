@@ -102,6 +102,13 @@ impl LevelLoopSetup {
         self.set_objective(self.objective);
     }
 
+    /// Whether a map of the cost and a search of another setup are those of this one, whatever the controller is now.
+    pub fn has_same_problem(&self, other: &Self) -> bool {
+        (&self.plant, &self.experiment, self.cost(), self.search)
+            == (&other.plant, &other.experiment, other.cost(), other.search)
+            && self.anti_windup() == other.anti_windup()
+    }
+
     /// The tuning of a continuous PI controller; `None` for any other.
     pub fn pi_tuning(&self) -> Option<PiTuning> {
         match self.controller {
@@ -137,6 +144,16 @@ mod tests {
         assert_eq!(setup.reference, PiTuning { gain: 0.2, integral_time_s: 2999.7 });
         setup.set_objective(Objective::Tight);
         assert_eq!(setup, LevelLoopSetup::default());
+    }
+
+    #[test]
+    fn the_controller_does_not_change_the_problem_of_a_search_but_the_objective_does() {
+        let setup = LevelLoopSetup::default();
+        let mut other = setup.clone();
+        other.set_pi_tuning(PiTuning { gain: 3.0, integral_time_s: 40.0 });
+        assert!(setup.has_same_problem(&other));
+        other.set_objective(Objective::Averaging { band: other.usual_band() });
+        assert!(!setup.has_same_problem(&other));
     }
 
     #[test]

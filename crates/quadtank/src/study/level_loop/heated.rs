@@ -14,6 +14,16 @@ pub struct HeatedAnswer {
     pub temperature_error: f64,
 }
 
+impl HeatedAnswer {
+    /// Error of the level (m) from which on the numbers are none of the tank: a tenth of the 10 m at which it comes to rest.
+    const DIVERGED: f64 = 1.0;
+
+    /// Whether the step is too long for the method.
+    pub fn diverges(&self) -> bool {
+        self.level_error > Self::DIVERGED
+    }
+}
+
 /// Length of the run (s): 10 h as in the slides.
 const DURATION_S: f64 = 10.0 * level_slides::HOUR;
 /// Steps of the method into which a step is cut for the temperature to compare with, which has no solution in closed form.
@@ -68,5 +78,13 @@ mod tests {
         let error = |hours: f64| heated_tank(hours * level_slides::HOUR).unwrap().level_error;
         let ratio = error(1.0) / error(0.5);
         assert!((14.0..20.0).contains(&ratio), "{ratio}");
+    }
+
+    /// The method is stable up to 2.785 time constants (of 2 h).
+    #[test]
+    fn a_step_beyond_the_stable_ones_diverges() {
+        assert!(!heated_tank(2.0 * level_slides::HOUR).unwrap().diverges());
+        let beyond = heated_tank(0.5 * DURATION_S).unwrap();
+        assert!(beyond.level_error > heated_tank(2.0 * level_slides::HOUR).unwrap().level_error, "{beyond:?}");
     }
 }

@@ -20,12 +20,12 @@ pub use contour::{ContourMap, ContourSettings};
 pub use element::{Element, ElementCurve};
 pub use findings::Finding;
 pub use heated::{HEATED_STEPS_S, HeatedAnswer, heated_tank};
-pub use published::{Compared, ComparedTable, compare_table, published_setup};
+pub use published::{COMPARED_TABLES, Compared, ComparedQuantity, ComparedTable, compare_table, published_setup};
 pub use results::{LevelLoopStudy, PlantAnswer, Results};
 pub use search::{LevelSearch, SearchMethod};
 pub use setup::{
     Harris, LevelLoopSetup, LevelPlantSpec, ModelError, ModelSource, Objective, PiTuning, SearchSpec, StepTestSpec,
 };
-pub use step_test::{StepTestAnswer, StepTestFault, run_step_test};
+pub use step_test::{ModelMatch, StepTestAnswer, StepTestFault, run_step_test};
 pub use suggestions::{SuggestedRule, Suggestion, suggest};
 pub use trade_off::{TradeOff, TradeOffPoint, trade_off};

@@ -37,16 +37,34 @@ impl Compared {
     }
 }
 
+/// What the numbers of a published table are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ComparedQuantity {
+    /// Variances of the level (m²).
+    LevelVariance,
+    /// Variances of the outflow ((m³/s)²).
+    OutflowVariance,
+    /// Indices: ratios of variances.
+    Index,
+}
+
 /// A published table, every number beside the computed one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ComparedTable {
     /// Its number, 1 for 5.1.
     pub table: u32,
+    /// The objective of its tunings.
+    pub objective: PublishedObjective,
+    /// What its numbers are.
+    pub quantity: ComparedQuantity,
     /// Its numbers, by rows.
     pub numbers: Vec<Compared>,
     /// What is to be known about the print.
     pub remarks: &'static [AndreisRemark],
 }
+
+/// The tables that [`compare_table`] computes, 1 for 5.1.
+pub const COMPARED_TABLES: [u32; 12] = [1, 2, 3, 4, 5, 6, 9, 10, 12, 13, 17, 18];
 
 /// Computes a table of chapter 5 of Andreis (2017) anew: 1 to 6, 9, 10, 12, 13, 17 and 18. Others are empty.
 ///
@@ -71,7 +89,39 @@ pub fn compare_table(table: u32) -> Result<ComparedTable, LevelRunError> {
         })
     });
     let numbers = variances.chain(indices).chain(wrong).collect::<Result<_, _>>()?;
-    Ok(ComparedTable { table, numbers, remarks: remarks_on_table(table) })
+    let (objective, quantity) = kind_of_table(table);
+    Ok(ComparedTable { table, objective, quantity, numbers, remarks: remarks_on_table(table) })
+}
+
+/// The objective of the tunings of a table, and what its numbers are.
+const fn kind_of_table(table: u32) -> (PublishedObjective, ComparedQuantity) {
+    use ComparedQuantity::{Index, LevelVariance, OutflowVariance};
+    use PublishedObjective::{Averaging, Tight};
+    match table {
+        2 | 4 | 6 => (Averaging, OutflowVariance),
+        9 | 10 => (Tight, Index),
+        12 | 13 => (Averaging, Index),
+        17 => (Tight, OutflowVariance),
+        18 => (Averaging, LevelVariance),
+        _ => (Tight, LevelVariance),
+    }
+}
+
+impl ComparedTable {
+    /// The loop behind one of its numbers.
+    pub fn setup_of(&self, row: &Compared) -> LevelLoopSetup {
+        let plant = match row.model {
+            PublishedModel::Nominal => LevelPresetId::Andreis,
+            PublishedModel::Uncertain => LevelPresetId::AndreisUncertain,
+        };
+        let mut setup = published_setup(plant, row.disturbance);
+        setup.set_objective(match self.objective {
+            PublishedObjective::Tight => Objective::Tight,
+            PublishedObjective::Averaging => Objective::Averaging { band: setup.usual_band() },
+        });
+        setup.set_pi_tuning(row.tuning.into());
+        setup
+    }
 }
 
 fn plant_of(model: PublishedModel) -> LevelPlant {
@@ -197,5 +247,28 @@ fn of_slides() -> LevelLoopSetup {
             keep_band: false,
         },
         harris: Harris { dead_time_rows: 1, order: 10 },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::level_loop::run_level_loop;
+
+    #[test]
+    fn the_loop_behind_a_variance_has_that_variance() {
+        for table in COMPARED_TABLES {
+            let found = compare_table(table).unwrap();
+            assert!(!found.numbers.is_empty(), "{table}");
+            for row in &found.numbers {
+                let figures = run_level_loop(&found.setup_of(row)).unwrap().figures;
+                let computed = match found.quantity {
+                    ComparedQuantity::LevelVariance => figures.level.variance,
+                    ComparedQuantity::OutflowVariance => figures.outflow.variance,
+                    ComparedQuantity::Index => continue,
+                };
+                assert_eq!(computed, row.computed, "{table}: {row:?}");
+            }
+        }
     }
 }

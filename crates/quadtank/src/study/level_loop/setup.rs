@@ -131,6 +131,15 @@ impl SearchSpec {
         [self.gain, self.integral_time_s].map(|[low, high]| Axis { low, high, scale: AxisScale::Logarithmic })
     }
 
+    /// Whether gain and integral time (s) of a point are at an end of the box, within a thousandth of it in the logarithm.
+    pub fn at_bounds(&self, point: [f64; 2]) -> [bool; 2] {
+        let axes = self.axes();
+        [0, 1].map(|k| {
+            let share = axes[k].share(point[k]);
+            !(0.001..=0.999).contains(&share)
+        })
+    }
+
     /// Settings moved into the box.
     pub fn clip(&self, tuning: PiTuning) -> PiTuning {
         let within = |value: f64, [low, high]: [f64; 2]| value.max(low).min(high);

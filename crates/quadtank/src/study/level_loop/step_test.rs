@@ -10,7 +10,7 @@ use crate::tuning::{
     open_loop_regulation,
 };
 
-use super::StepTestSpec;
+use super::{PlantAnswer, StepTestSpec};
 
 /// Rows of the log of a test.
 const ROWS: f64 = 600.0;
@@ -26,6 +26,35 @@ pub struct StepTestAnswer {
     pub fitted: Option<Vec<f64>>,
     /// What it says of the tank; `None` without a step back.
     pub regulation: Option<Result<Regulation, RegulationError>>,
+}
+
+/// How the model of a test compares with the plant where it works.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ModelMatch {
+    /// Slope K/τ of the model that was read from the test (1/s).
+    pub tested: f64,
+    /// The same around the rest of the experiment (1/s).
+    pub here: f64,
+}
+
+impl ModelMatch {
+    /// Ratio of slopes from which on a tuning for one plant is no tuning for the other: as much as a usual gain margin leaves.
+    const MILD: f64 = 1.5;
+
+    /// Of a test and a plant; `None` for a test without a model.
+    pub fn of(test: &StepTestAnswer, plant: &PlantAnswer) -> Option<Self> {
+        Some(Self { tested: test.fit.as_ref().ok()?.model.slope(), here: plant.model.slope() })
+    }
+
+    /// How much faster the plant answers where it works than where it was tested.
+    pub fn ratio(&self) -> f64 {
+        self.here / self.tested
+    }
+
+    /// Whether a tuning by the test suits the plant where it works.
+    pub fn suits(&self) -> bool {
+        (Self::MILD.recip()..=Self::MILD).contains(&self.ratio())
+    }
 }
 
 /// Why a test has no record.

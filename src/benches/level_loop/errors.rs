@@ -1,0 +1,117 @@
+//! Why a loop has no rest, no run or no test, in the language of the reader.
+
+use quadtank::assess::{HarrisError, IndexError};
+use quadtank::plant::level::LevelError;
+use quadtank::sim::level::LevelRunError;
+use quadtank::study::level_loop::{LevelLoopFault, StepTestFault};
+use quadtank::tuning::{ReactionError, TuningError};
+
+use crate::lab::Lab;
+use crate::texts::tr;
+
+/// Why a loop has no such rest.
+pub fn of_plant(lab: Lab, error: &LevelError) -> String {
+    let style = lab.number_style();
+    let cm = |metres: f64| style.fixed(100.0 * metres, 1);
+    match *error {
+        LevelError::LevelOutsideTank { value, height } => {
+            tr!(lab, level_error.outside_tank, level = cm(value), height = cm(height))
+        }
+        LevelError::NegativeFlow { value } => {
+            tr!(lab, level_error.negative_flow, flow = style.significant(1000.0 * value, 3))
+        }
+        LevelError::ValveOutOfReach { needed, min, .. } if needed < min => {
+            let percent = |share: f64| style.significant(100.0 * share, 2);
+            tr!(lab, level_error.valve_leaks, needed = percent(needed), least = percent(min))
+        }
+        LevelError::ValveOutOfReach { needed, .. } => {
+            tr!(lab, level_error.valve_too_small, needed = style.significant(100.0 * needed, 3))
+        }
+        LevelError::OutputOutOfReach { needed, min, max } => {
+            let number = |value: f64| style.fixed(value, 2);
+            tr!(lab, level_error.output_out_of_reach, needed = number(needed), min = number(min), max = number(max))
+        }
+        LevelError::ActuatorCurve { index } => tr!(lab, level_error.actuator_curve, point = index + 1),
+        LevelError::OutOfRange { field, value, min, max } => {
+            let number = |value: f64| style.significant(value, 4);
+            tr!(lab, refused.range, field = field, value = number(value), min = number(min), max = number(max))
+        }
+    }
+}
+
+/// Why a loop has no run.
+pub fn of_run(lab: Lab, error: &LevelRunError) -> String {
+    let style = lab.number_style();
+    match error {
+        LevelRunError::Plant(error) => of_plant(lab, error),
+        LevelRunError::OutOfRange { field, value } => {
+            tr!(lab, level_error.out_of_range, field = *field, value = style.significant(*value, 4))
+        }
+        LevelRunError::EmptyLog { duration_s, log_step_s } => {
+            let (duration, step) = (style.significant(*duration_s, 3), style.significant(*log_step_s, 3));
+            tr!(lab, level_error.empty_log, duration = duration, step = step)
+        }
+        LevelRunError::NotFinite { time_s } => {
+            tr!(lab, level_error.not_finite, time = style.significant(*time_s, 3))
+        }
+        LevelRunError::TooMuchWork { .. } => tr!(lab, level_error.too_much_work),
+    }
+}
+
+/// The same with the part of the setup that allows no run.
+pub fn of_loop(lab: Lab, fault: &LevelLoopFault) -> String {
+    of_run(lab, &fault.fault)
+}
+
+/// Why a step test has no record.
+pub fn of_test(lab: Lab, fault: &StepTestFault) -> String {
+    match fault {
+        StepTestFault::Run(error) => of_run(lab, error),
+        StepTestFault::OutsideTest { value, .. } => {
+            tr!(lab, level_error.outside_test, time = lab.number_style().significant(*value, 4))
+        }
+    }
+}
+
+/// Why a record has no model.
+pub fn of_reaction(lab: Lab, error: &ReactionError) -> String {
+    match error {
+        ReactionError::NoStep { .. } => tr!(lab, level_error.no_step),
+        ReactionError::EmptyRecord { .. } => tr!(lab, level_error.empty_record),
+        ReactionError::NoResponse { .. } => tr!(lab, level_error.no_response),
+        ReactionError::NotSettled { share } => {
+            tr!(lab, level_error.not_settled, share = lab.number_style().significant(100.0 * share, 2))
+        }
+    }
+}
+
+/// Why a rule has no settings.
+pub fn of_rule(lab: Lab, error: TuningError) -> String {
+    match error {
+        TuningError::OutOfRange { field: "dead_time_s", .. } => tr!(lab, level_error.needs_dead_time),
+        TuningError::OutOfRange { field, value } => {
+            tr!(lab, level_error.out_of_range, field = field, value = lab.number_style().significant(value, 4))
+        }
+        other => other.to_string(),
+    }
+}
+
+/// Why there is no index.
+pub fn of_index(lab: Lab, error: IndexError) -> String {
+    match error {
+        IndexError::ZeroVariance => tr!(lab, level_error.zero_variance),
+        IndexError::NoVariance { .. } => error.to_string(),
+    }
+}
+
+/// Why there is no index of Harris.
+pub fn of_harris(lab: Lab, error: &HarrisError) -> String {
+    match *error {
+        HarrisError::Index(error) => of_index(lab, error),
+        HarrisError::TooFewSamples { samples, order } => {
+            tr!(lab, level_error.too_few_samples, samples = samples, order = order)
+        }
+        HarrisError::NotDetermined { order } => tr!(lab, level_error.not_determined, order = order),
+        HarrisError::OutOfRange { .. } | HarrisError::TooMuchWork { .. } => error.to_string(),
+    }
+}

@@ -1,0 +1,197 @@
+//! The published tables: every printed number beside the computed one, and a click to the loop behind it.
+
+use leptos::prelude::*;
+use quadtank::literature::LevelPresetId;
+use quadtank::literature::andreis::{AndreisRemark, PublishedDisturbance, PublishedModel};
+use quadtank::literature::level_slides;
+use quadtank::sim::level::LevelController;
+use quadtank::study::level_loop::{
+    COMPARED_TABLES, Compared, ComparedQuantity, ComparedTable, LevelLoopSetup, compare_table, published_setup,
+};
+
+use super::flags::locks;
+use super::pictures::method_name;
+use super::sentences::variance;
+use super::session::{load, use_session};
+use crate::lab::Lab;
+use crate::texts::{say, tr};
+use crate::widgets::{Card, Choice, Select};
+
+/// The tables and the loop of the lecture slides.
+#[component]
+pub fn PublishedCard() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let table = RwSignal::new(COMPARED_TABLES[0]);
+    // No published case is refused.
+    let found = Memo::new(move |_| compare_table(table.get()).ok());
+    let choices = Signal::derive(move || {
+        COMPARED_TABLES.map(|table| Choice::new(table, table.to_string(), table_name(lab, table))).to_vec()
+    });
+    let content = move || found.get().map(|found| view! { <Numbers found /> });
+    let remarks = move || {
+        let remarks = found.with(|found| found.as_ref().map_or(&[][..], |found| found.remarks));
+        remarks.iter().map(|remark| view! { <li>{remark_text(lab, *remark)}</li> }).collect_view()
+    };
+    view! {
+        <Card name="tables" title=say!(lab, level.published)>
+            <Select
+                id="published-table"
+                name=say!(lab, level.published)
+                choices
+                chosen=table
+                on_choose=move |chosen| table.set(chosen)
+                disabled=false
+            />
+            <div class="scroll" tabindex="0" role="region" aria-label=say!(lab, level.published)>
+                <table class="plain" data-testid="published-numbers">{content}</table>
+            </div>
+            <ul class="remarks">{remarks}</ul>
+            <Slides />
+        </Card>
+    }
+}
+
+#[component]
+fn Numbers(found: ComparedTable) -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let headings = [
+        tr!(lab, level.column_disturbance),
+        tr!(lab, level.column_method),
+        tr!(lab, level.column_model),
+        "Kp · Ti (s)".to_owned(),
+        tr!(lab, level.column_printed),
+        tr!(lab, level.column_computed),
+        tr!(lab, level.column_deviation),
+        String::new(),
+    ];
+    let table = found.table;
+    let rows = found.numbers.iter().map(|row| {
+        let (row, quantity, setup) = (*row, found.quantity, found.setup_of(row));
+        view! { <NumberRow row quantity setup /> }
+    });
+    let rows = rows.collect_view();
+    let headings = headings.map(|text| view! { <th scope="col">{text}</th> }).to_vec();
+    view! {
+        <caption class="visually-hidden">{table_name(lab, table)}</caption>
+        <thead><tr>{headings}</tr></thead>
+        <tbody>{rows}</tbody>
+    }
+}
+
+#[component]
+fn NumberRow(row: Compared, quantity: ComparedQuantity, setup: LevelLoopSetup) -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let style = lab.number_style();
+    let number = |value: f64| match quantity {
+        ComparedQuantity::Index => style.fixed(value, 4),
+        ComparedQuantity::LevelVariance | ComparedQuantity::OutflowVariance => variance(lab, value),
+    };
+    let disturbance = disturbance_name(row.disturbance);
+    let model = match row.model {
+        PublishedModel::Nominal => tr!(lab, level.nominal),
+        PublishedModel::Uncertain => tr!(lab, level.uncertain),
+    };
+    let tuning =
+        format!("{} · {}", style.significant(row.tuning.gain, 3), style.significant(row.tuning.integral_time_s, 5));
+    let show = move |_| {
+        load(session, setup.clone());
+        // The table stands below what it shows.
+        if let Ok(Some(course)) = document().query_selector(".bench.level .course") {
+            course.scroll_into_view();
+        }
+    };
+    view! {
+        <tr>
+            <th scope="row">{disturbance}</th>
+            <td>{method_name(lab, row.method)}</td>
+            <td>{model}</td>
+            <td>{tuning}</td>
+            <td>{number(row.printed)}</td>
+            <td>{number(row.computed)}</td>
+            <td>{format!("{} %", style.fixed(100.0 * row.deviation(), 3))}</td>
+            <td>
+                <button type="button" class="button small" disabled=lab.locks(locks::GAINS) on:click=show>
+                    {say!(lab, free.show)}
+                </button>
+            </td>
+        </tr>
+    }
+}
+
+const fn disturbance_name(disturbance: PublishedDisturbance) -> &'static str {
+    match disturbance {
+        PublishedDisturbance::SineL => "Sine L",
+        PublishedDisturbance::SineH => "Sine H",
+        PublishedDisturbance::Random => "Random",
+    }
+}
+
+fn table_name(lab: Lab, table: u32) -> String {
+    let what = match table {
+        1 | 3 | 5 => tr!(lab, level.table_tight),
+        2 | 4 | 6 => tr!(lab, level.table_averaging),
+        9 | 10 => tr!(lab, level.table_index_tight),
+        12 | 13 => tr!(lab, level.table_index_averaging),
+        _ => tr!(lab, level.table_wrong_index),
+    };
+    format!("Andreis (2017), {} 5.{table}: {what}", tr!(lab, level.table))
+}
+
+fn remark_text(lab: Lab, remark: AndreisRemark) -> String {
+    match remark {
+        AndreisRemark::OperatingPoint => tr!(lab, level.remark_operating_point),
+        AndreisRemark::UnitOfLevelVariance => tr!(lab, level.remark_unit),
+        AndreisRemark::CutToBox => tr!(lab, level.remark_cut),
+        AndreisRemark::RandomSequence => tr!(lab, level.remark_random),
+        AndreisRemark::FlatIntegralTime => tr!(lab, level.remark_flat),
+        AndreisRemark::LimitOfStability => tr!(lab, level.remark_stability),
+        AndreisRemark::NoLevelConstraint => tr!(lab, level.remark_no_constraint),
+        AndreisRemark::SkogestadIsBetterOnce => tr!(lab, level.remark_skogestad),
+        AndreisRemark::WrongRanking => tr!(lab, level.remark_ranking),
+        AndreisRemark::LevelVariancesInPlace => tr!(lab, level.remark_level_variances),
+        AndreisRemark::GradientValuesInPlace => tr!(lab, level.remark_gradient_values),
+        AndreisRemark::WrongLabel => tr!(lab, level.remark_label),
+        AndreisRemark::LostDensity => tr!(lab, level.remark_density),
+        AndreisRemark::DoubleGain => tr!(lab, level.remark_double_gain),
+        AndreisRemark::SimcCondition => tr!(lab, level.remark_simc),
+        AndreisRemark::LambdaWithoutBound => tr!(lab, level.remark_lambda),
+    }
+}
+
+/// The four settings of the lecture slides, each a click away.
+#[component]
+fn Slides() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let buttons = level_slides::settings().into_iter().enumerate().map(move |(k, pid)| {
+        let show = move |_| load(session, slides_setup(k));
+        let text = format!("({}, {}, {})", pid.proportional, 60.0 * pid.integral, pid.derivative / 60.0);
+        view! {
+            <button
+                type="button"
+                class="button small"
+                data-testid=format!("slides-{}", k + 1)
+                disabled=lab.locks(locks::GAINS)
+                on:click=show
+            >
+                {text}
+            </button>
+        }
+    });
+    view! {
+        <h3>{say!(lab, level.slides)}</h3>
+        <p class="remark">{say!(lab, level.slides_remark)}</p>
+        <div class="toolbar">{buttons.collect_view()}</div>
+    }
+}
+
+/// The loop of the lecture slides with one of its settings (index).
+fn slides_setup(index: usize) -> LevelLoopSetup {
+    let mut setup = published_setup(LevelPresetId::LectureSlides, PublishedDisturbance::SineL);
+    let pid = level_slides::settings()[index];
+    setup.controller = LevelController::pid(pid, level_slides::DERIVATIVE_FILTER_S);
+    setup
+}

@@ -1,0 +1,136 @@
+//! What the bench says of a run, in the language of the reader. What is said is decided by the core.
+
+use leptos::prelude::*;
+use quadtank::assess::IndexVerdict;
+use quadtank::linear::LoopStability;
+use quadtank::study::level_loop::{Finding, LevelLoopAnswer, Objective};
+use quadtank::tuning::{Regulation, RegulationReason};
+
+use super::errors;
+use super::session::Session;
+use crate::lab::Lab;
+use crate::texts::tr;
+
+/// A variance of levels (m²) or flows ((m³/s)²) in the unit of the source.
+pub fn variance(lab: Lab, value: f64) -> String {
+    // As the source prints it: five digits and a power of ten.
+    let text = format!("{value:.4e}").replace('-', "−");
+    text.replace('.', &lab.number_style().decimal.to_string())
+}
+
+/// What the run shows, and whether all is well.
+pub fn of_run(session: Session) -> (bool, String) {
+    let lab = session.lab;
+    let answer = session.throttled.answer.get();
+    let answer = match answer.as_ref() {
+        Ok(answer) => answer,
+        Err(fault) => return (false, tr!(lab, level.no_run, reason = errors::of_loop(lab, fault))),
+    };
+    let objective = session.throttled.setup.with(|setup| setup.objective);
+    let style = lab.number_style();
+    let (level, outflow) = (answer.figures.level, answer.figures.outflow);
+    let cm = |metres: f64| style.fixed(100.0 * metres, 2);
+    let litres = |flow: f64| style.fixed(1000.0 * flow, 2);
+    let (low, high) = (cm(level.minimum), cm(level.maximum));
+    let (least, most) = (litres(outflow.minimum), litres(outflow.maximum));
+    let main = match objective {
+        Objective::Tight => tr!(lab, level.tight_run, low = low, high = high, least = least, most = most),
+        Objective::Averaging { .. } => {
+            tr!(lab, level.averaging_run, low = low, high = high, least = least, most = most)
+        }
+    };
+    let findings: Vec<String> = answer.findings.iter().map(|finding| of_finding(lab, finding)).collect();
+    (findings.is_empty(), std::iter::once(main).chain(findings).collect::<Vec<_>>().join(" "))
+}
+
+fn of_finding(lab: Lab, finding: &Finding) -> String {
+    let style = lab.number_style();
+    let cm = |metres: f64| style.fixed(100.0 * metres, 1);
+    let seconds = |time: f64| style.fixed(time, 0);
+    match *finding {
+        Finding::SetPointOutOfReach { level, reason } => {
+            tr!(lab, level.out_of_reach, level = cm(level), reason = errors::of_plant(lab, &reason))
+        }
+        Finding::TankFull { time_s } => tr!(lab, level.tank_full, time = seconds(time_s)),
+        Finding::TankEmpty { time_s } => tr!(lab, level.tank_empty, time = seconds(time_s)),
+        Finding::OutputAtLimit { share } => {
+            tr!(lab, level.output_at_limit, share = style.significant(100.0 * share, 2))
+        }
+        Finding::InflowCut { lowest } => {
+            tr!(lab, level.inflow_cut, flow = style.significant(1000.0 * lowest, 3))
+        }
+        Finding::NoGain => tr!(lab, level.no_gain),
+        Finding::Unstable => tr!(lab, level.unstable),
+        Finding::LeavesBand { levels } => tr!(lab, level.leaves_band, low = cm(levels[0]), high = cm(levels[1])),
+        Finding::NothingMoves => tr!(lab, level.nothing_moves),
+    }
+}
+
+/// What the index of the objective advises, and whether it is the one of that objective that is asked.
+pub fn of_index(session: Session) -> (bool, String) {
+    let lab = session.lab;
+    let objective = session.throttled.setup.with(|setup| setup.objective);
+    let of = |answer: &LevelLoopAnswer| {
+        if let Err(error) = answer.reference {
+            return (false, tr!(lab, level.no_reference, reason = errors::of_run(lab, &error)));
+        }
+        if let Some(Err(error)) = answer.indices {
+            return (false, errors::of_index(lab, error));
+        }
+        let Some(index) = answer.index_for(objective) else { return (false, String::new()) };
+        let value = lab.number_style().fixed(index.quality(), 3);
+        let is_tight = objective == Objective::Tight;
+        let which = if is_tight { tr!(lab, level.index_level) } else { tr!(lab, level.index_outflow) };
+        match index.verdict() {
+            IndexVerdict::Keep => (true, tr!(lab, level.verdict_keep, which = which, value = value)),
+            IndexVerdict::Fair => (true, tr!(lab, level.verdict_fair, which = which, value = value)),
+            IndexVerdict::Retune => (false, tr!(lab, level.verdict_retune, which = which, value = value)),
+            IndexVerdict::WrongIndex => (false, tr!(lab, level.verdict_wrong, which = which, value = value)),
+        }
+    };
+    session.throttled.with_answer(of).unwrap_or_default()
+}
+
+/// Margins of the linear loop in one sentence, and whether it is robust.
+pub fn of_quality(session: Session) -> (bool, String) {
+    let lab = session.lab;
+    let style = lab.number_style();
+    let of = |answer: &LevelLoopAnswer| {
+        let quality = match &answer.quality {
+            Err(error) => return (false, error.to_string()),
+            Ok(None) => return (true, tr!(lab, level.no_loop)),
+            Ok(Some(quality)) => quality,
+        };
+        if matches!(quality.stability, LoopStability::Unstable { .. }) {
+            return (false, tr!(lab, level.unstable));
+        }
+        let (Some(margins), Some(peak)) = (quality.margins, quality.sensitivity_peak()) else {
+            return (false, tr!(lab, level.marginal));
+        };
+        let gain = margins.gain_up.map_or_else(|| "∞".to_owned(), |gain| style.fixed(gain, 2));
+        let phase = margins.phase.map_or_else(|| "–".to_owned(), |phase| style.fixed(phase.to_degrees(), 0));
+        let peak_text = style.significant(peak, 3);
+        let text = tr!(lab, level.margins, gain = gain, phase = phase, peak = peak_text);
+        if quality.is_fragile() { (false, format!("{text} {}", tr!(lab, level.fragile))) } else { (true, text) }
+    };
+    session.throttled.with_answer(of).unwrap_or_default()
+}
+
+/// What kind of process a test shows, with the reason; nothing for a test without a step back.
+pub fn of_regulation(lab: Lab, regulation: Regulation) -> String {
+    let percent = |share: f64| lab.number_style().significant(100.0 * share, 2);
+    let reason = |reason: RegulationReason| match reason {
+        RegulationReason::ReturnsToStart { .. } => tr!(lab, level.returns_to_start),
+        RegulationReason::StaysAway { share } => tr!(lab, level.stays_away, share = percent(share)),
+        RegulationReason::RampsOn { .. } => tr!(lab, level.ramps_on),
+        RegulationReason::OffsetFollows { share } => tr!(lab, level.offset_follows, share = percent(share)),
+        RegulationReason::NoOffset { .. } => tr!(lab, level.no_offset),
+        RegulationReason::StillMoves { share } => tr!(lab, level.still_moves, share = percent(share)),
+        RegulationReason::DoesNotMove => tr!(lab, level.does_not_move),
+    };
+    match regulation {
+        Regulation::SelfRegulating(why) => tr!(lab, level.self_regulating, reason = reason(why)),
+        Regulation::Integrating(why) => tr!(lab, level.integrating, reason = reason(why)),
+        Regulation::Undecided(why) => tr!(lab, level.undecided, reason = reason(why)),
+    }
+}

@@ -1,0 +1,102 @@
+//! The trade-off: the variance of the level against that of the outflow, with every known tuning a click away.
+
+use leptos::prelude::*;
+use quadtank::study::level_loop::{PiTuning, TradeOff, trade_off};
+use quadtank_figure::Frame;
+
+use super::flags::locks;
+use super::pictures::{self, TradeOffEntry, method_name};
+use super::sentences::variance;
+use super::session::{Session, use_session};
+use super::tuning::suggested;
+use crate::texts::{say, terms, tr};
+use crate::widgets::{Card, ChartCanvas, ChartMenu, PointButton, Text};
+
+/// The words of the card that explain themselves.
+const TERMS: &[Text] = &[terms::variance, terms::tight, terms::averaging];
+
+/// The trade-off.
+#[component]
+pub fn TradeOffCard() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let frames = RwSignal::new(Vec::<Frame>::new());
+    let names = Memo::new(move |_| tunings(session));
+    let found = Memo::new(move |_| {
+        let setup = session.throttled.setup.get();
+        let tunings: Vec<PiTuning> = names.with(|names| names.iter().map(|(_, tuning)| *tuning).collect());
+        trade_off(&setup, &tunings)
+    });
+    let entries = Memo::new(move |_| entries(&found.get(), &names.get()));
+    let picture = pictures::trade_off(session, found);
+    let for_menu = picture.clone();
+    let title = say!(lab, level.trade_off);
+    let summary = Signal::derive(move || present(session));
+    view! {
+        <Card name="trade-off" title terms=TERMS beside=move || view! { <ChartMenu picture=for_menu file="trade-off" title /> }>
+            <div class="chart">
+                <ChartCanvas picture frames summary name="trade-off-chart" />
+                <svg class="over">
+                    <For each=move || entries.get() key=|entry| (entry.name.clone(), entry.at.0.to_bits(), entry.at.1.to_bits()) let(entry)>
+                        <Point entry frames />
+                    </For>
+                </svg>
+            </div>
+            <p class="sentence" data-testid="trade-off-sentence">{summary}</p>
+        </Card>
+    }
+}
+
+#[component]
+fn Point(entry: TradeOffEntry, frames: RwSignal<Vec<Frame>>) -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let TradeOffEntry { name, tuning, at } = entry;
+    let full_name = name.clone();
+    let label = Signal::derive(move || {
+        let style = lab.number_style();
+        let (gain, time) = (style.significant(tuning.gain, 3), style.significant(tuning.integral_time_s, 4));
+        tr!(lab, level.take_point, name = full_name, gain = gain, time = time)
+    });
+    let choose = move |()| {
+        if !lab.locks(locks::GAINS) {
+            session.edit(|s| s.set_pi_tuning(tuning));
+        }
+    };
+    let id = format!("trade-{}", name.to_lowercase().replace(' ', "-"));
+    view! { <PointButton id label text=name offset=(8.0, -6.0) at=Signal::stored(at) on_choose=choose frames /> }
+}
+
+/// The reference, the published tunings and those of the rules, each tuning once.
+fn tunings(session: Session) -> Vec<(String, PiTuning)> {
+    let lab = session.lab;
+    let setup = session.throttled.setup.get();
+    let published = setup.published_tunings().into_iter().map(|one| (method_name(lab, one.method), one.tuning));
+    let rules = suggested(session).into_iter().map(|(name, tuning)| (name.to_owned(), tuning));
+    let reference = std::iter::once((tr!(lab, level.reference_point), setup.reference));
+    published.chain(rules).chain(reference).fold(Vec::new(), |mut known: Vec<(String, PiTuning)>, next| {
+        if known.iter().all(|(_, tuning)| *tuning != next.1) {
+            known.push(next);
+        }
+        known
+    })
+}
+
+fn entries(found: &TradeOff, names: &[(String, PiTuning)]) -> Vec<TradeOffEntry> {
+    let of = |((name, tuning), point): (&(String, PiTuning), &Option<_>)| {
+        let point: quadtank::study::level_loop::TradeOffPoint = (*point)?;
+        let at = (point.outflow, point.level);
+        (at.0 > 0.0 && at.1 > 0.0).then(|| TradeOffEntry { name: name.clone(), tuning: *tuning, at })
+    };
+    names.iter().zip(&found.points).filter_map(of).collect()
+}
+
+/// Where the present tuning stands.
+fn present(session: Session) -> String {
+    let lab = session.lab;
+    let text = session.throttled.with_answer(|answer| {
+        let (level, outflow) = (answer.figures.level.variance, answer.figures.outflow.variance);
+        tr!(lab, level.present_point, level = variance(lab, level), outflow = variance(lab, outflow))
+    });
+    text.unwrap_or_default()
+}

@@ -1,0 +1,441 @@
+//! Steps 3 and 4: what the loop is for, and how it is tuned for that.
+
+use leptos::prelude::*;
+use quadtank::control::{AntiWindup, LoopMode, PiSettings};
+use quadtank::sim::level::LevelController;
+use quadtank::study::level_loop::{LevelLoopSetup, Objective, PiTuning, SuggestedRule, Suggestion};
+use quadtank::tuning::{ModelRule, TuningRule};
+use quadtank_scenario::Limits;
+
+use super::errors;
+use super::flags::locks;
+use super::process::CENTIMETRES;
+use super::session::{Session, use_session};
+use crate::controls::{ParamControl, ParamRow, Switch};
+use crate::shown::ShownUnit;
+use crate::texts::{say, terms, tr};
+use crate::widgets::{Card, Scale, Text, Tick};
+
+const GAIN: ParamControl<LevelLoopSetup> = ParamControl {
+    ids: [("level-gain", "level-gain-number"); 2],
+    label: |_, _| "Kp".to_owned(),
+    name: |lab, _| tr!(lab, level.gain),
+    path: |s, _| match s.controller {
+        LevelController::Sampled { .. } => "controller.sampled.settings.gain",
+        _ => "controller.pi.gain",
+    },
+    read: |s, _| tuning(s).map_or(f64::NAN, |(gain, _)| gain),
+    write: |s, _, gain| set_tuning(s, |(_, time)| (gain, time)),
+    within: |_, _| Limits::NONE,
+    travel: Some(|_| (0.05, 200.0)),
+    scale: Some(Scale::Logarithmic),
+    shown_unit: Some(|_| ShownUnit::called("")),
+    ..ParamControl::locked_by(locks::GAINS)
+};
+const TIME: ParamControl<LevelLoopSetup> = ParamControl {
+    ids: [("level-time", "level-time-number"); 2],
+    label: |_, _| "Ti".to_owned(),
+    name: |lab, _| tr!(lab, level.integral_time),
+    path: |s, _| match s.controller {
+        LevelController::Sampled { .. } => "controller.sampled.settings.integral_time_s",
+        _ => "controller.pi.integral_time_s",
+    },
+    read: |s, _| tuning(s).map_or(f64::NAN, |(_, time)| time),
+    write: |s, _, time| set_tuning(s, |(gain, _)| (gain, time)),
+    travel: Some(|_| (0.6, 6000.0)),
+    shown_unit: Some(|_| ShownUnit::called("s")),
+    ..GAIN
+};
+/// P of a parallel PID; I and D follow as a pair.
+const PROPORTIONAL: ParamControl<LevelLoopSetup> = ParamControl {
+    ids: [("level-p", "level-p-number"); 2],
+    label: |_, _| "P".to_owned(),
+    name: |lab, _| tr!(lab, level.proportional),
+    path: |_, _| "controller.pid.proportional",
+    read: |s, _| pid(s)[0],
+    write: |s, _, value| set_pid(s, 0, value),
+    travel: Some(|_| (0.0, 50.0)),
+    scale: Some(Scale::Linear(0.1)),
+    digits: Some(2),
+    ..GAIN
+};
+const ACTION: ParamControl<LevelLoopSetup> = ParamControl {
+    ids: [("level-i", "level-i-number"), ("level-d", "level-d-number")],
+    label: |_, k| ["I", "D"][k].to_owned(),
+    name: |lab, k| if k == 0 { tr!(lab, level.integral) } else { tr!(lab, level.derivative) },
+    path: |_, k| ["controller.pid.integral", "controller.pid.derivative"][k],
+    read: |s, k| pid(s)[k + 1],
+    write: |s, k, value| set_pid(s, k + 1, value),
+    ..PROPORTIONAL
+};
+const INTEGRAL: ParamControl<LevelLoopSetup> =
+    ParamControl { shown_unit: Some(|_| ShownUnit { name: "1/min", per_unit: 60.0 }), ..ACTION };
+const DERIVATIVE: ParamControl<LevelLoopSetup> = ParamControl {
+    shown_unit: Some(|_| ShownUnit { name: "min", per_unit: 1.0 / 60.0 }),
+    travel: Some(|_| (0.0, 10.0)),
+    ..ACTION
+};
+const SAMPLING: ParamControl<LevelLoopSetup> = ParamControl {
+    ids: [("", "level-sampling"); 2],
+    label: |_, _| "Ts".to_owned(),
+    name: |lab, _| tr!(lab, level.sampling_time),
+    path: |_, _| "controller.sampled.sampling_time_s",
+    read: |s, _| match s.controller {
+        LevelController::Sampled { sampling_time_s, .. } => sampling_time_s,
+        _ => f64::NAN,
+    },
+    write: |s, _, time| {
+        if let LevelController::Sampled { sampling_time_s, .. } = &mut s.controller {
+            *sampling_time_s = time;
+        }
+    },
+    travel: None,
+    ..TIME
+};
+/// The closed-loop time constant that is asked of the rules.
+const WISH: ParamControl<LevelLoopSetup> = ParamControl {
+    ids: [("level-wish", "level-wish-number"); 2],
+    label: |_, _| "τc".to_owned(),
+    name: |lab, _| tr!(lab, level.closed_loop_time),
+    path: |_, _| "closed_loop_time_s",
+    read: |s, _| s.closed_loop_time_s,
+    write: |s, _, time| s.closed_loop_time_s = time,
+    travel: Some(|_| (1.0, 5000.0)),
+    ..TIME
+};
+/// Ends of the band of averaging control.
+const BAND: ParamControl<LevelLoopSetup> = ParamControl {
+    ids: [("", "level-band-low"), ("", "level-band-high")],
+    label: |lab, k| if k == 0 { tr!(lab, level.band_low) } else { tr!(lab, level.band_high) },
+    name: |lab, k| if k == 0 { tr!(lab, level.band_low_name) } else { tr!(lab, level.band_high_name) },
+    path: |_, _| "objective.averaging.band[]",
+    read: |s, k| band(s).map_or(f64::NAN, |band| band[k]),
+    write: |s, k, level| {
+        if let Objective::Averaging { band } = &mut s.objective {
+            band[k] = level;
+        }
+    },
+    within: |s, k| {
+        let [low, high] = band(s).unwrap_or_default();
+        if k == 0 { Limits::new(0.0, high - NARROWEST) } else { Limits::new(low + NARROWEST, s.plant().tank.height) }
+    },
+    digits: Some(1),
+    scale: Some(Scale::Linear(0.5)),
+    travel: None,
+    shown_unit: Some(|_| CENTIMETRES),
+    matters: Some(|s| band(s).is_some()),
+    ..ParamControl::locked_by(locks::OBJECTIVE)
+};
+
+/// Narrowest band (m).
+const NARROWEST: f64 = 0.01;
+
+/// The words of the card that explain themselves.
+const TERMS: &[Text] = &[
+    terms::tight,
+    terms::averaging,
+    terms::gain_of_signals,
+    terms::integral_time,
+    terms::windup,
+    terms::simc,
+    terms::lambda,
+];
+
+/// Objective and tuning.
+#[component]
+pub fn TuningCard() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    view! {
+        <Card name="tuning" title=say!(lab, level.tuning_title) terms=TERMS>
+            <ObjectiveSwitch />
+            <KindSwitch />
+            <Dials />
+            <h3>{say!(lab, level.rules)}</h3>
+            <ParamRow session control=&WISH />
+            <Rules />
+        </Card>
+    }
+}
+
+fn band(setup: &LevelLoopSetup) -> Option<[f64; 2]> {
+    match setup.objective {
+        Objective::Averaging { band } => Some(band),
+        Objective::Tight => None,
+    }
+}
+
+/// Tight or averaging, with the band of the latter.
+#[component]
+fn ObjectiveSwitch() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let is_tight = session.part(|s| s.objective == Objective::Tight);
+    view! {
+        <Switch
+            session
+            label=say!(lab, level.objective)
+            choices=vec![
+                (true, "objective-tight", say!(lab, level.tight)),
+                (false, "objective-averaging", say!(lab, level.averaging)),
+            ]
+            read=|s| s.objective == Objective::Tight
+            write=|s, tight| {
+                let objective = if tight { Objective::Tight } else { Objective::Averaging { band: s.usual_band() } };
+                s.set_objective(objective);
+            }
+            lock=locks::OBJECTIVE
+        />
+        <p class="remark">
+            {move || if is_tight.get() { tr!(lab, level.tight_remark) } else { tr!(lab, level.averaging_remark) }}
+        </p>
+        <div class="pairs" hidden=move || is_tight.get()>
+            <ParamRow session control=&BAND index=0 />
+            <ParamRow session control=&BAND index=1 />
+        </div>
+    }
+}
+
+/// A kind of controller, by its name alone.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    Pi,
+    Sampled,
+    Pid,
+    Off,
+}
+
+impl Kind {
+    const fn of(setup: &LevelLoopSetup) -> Self {
+        match setup.controller {
+            LevelController::Pi { .. } => Self::Pi,
+            LevelController::Sampled { .. } => Self::Sampled,
+            LevelController::Pid { .. } => Self::Pid,
+            LevelController::Manual { .. } => Self::Off,
+        }
+    }
+}
+
+/// Gain and integral time (s) with which a kind of controller begins where the one before it had none.
+const USUAL: (f64, f64) = (2.0, 120.0);
+
+/// Changes the kind of the controller; its tuning stays as far as the new kind has it.
+fn set_kind(setup: &mut LevelLoopSetup, kind: Kind) {
+    let before = tuning(setup).or_else(|| {
+        let [gain, integral, _] = pid(setup);
+        (integral > 0.0).then(|| (gain, gain / integral))
+    });
+    let (gain, integral_time_s) = before.unwrap_or(USUAL);
+    let anti_windup = setup.anti_windup();
+    setup.controller = match kind {
+        Kind::Pi => LevelController::Pi { gain, integral_time_s, anti_windup },
+        Kind::Sampled => LevelController::Sampled {
+            settings: PiSettings {
+                gain,
+                integral_time_s,
+                set_point_weight: 1.0,
+                anti_windup,
+                mode: LoopMode::Automatic,
+            },
+            sampling_time_s: 1.0,
+        },
+        Kind::Pid => {
+            let integral = gain / integral_time_s;
+            LevelController::Pid { proportional: gain, integral, derivative: 0.0, filter_time_s: FILTER_S }
+        }
+        Kind::Off => LevelController::off(),
+    };
+}
+
+/// Time constant of the derivative filter (s): that of the lecture slides.
+const FILTER_S: f64 = quadtank::literature::level_slides::DERIVATIVE_FILTER_S;
+
+#[component]
+fn KindSwitch() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    view! {
+        <Switch
+            session
+            label=say!(lab, level.controller)
+            choices=vec![
+                (Kind::Pi, "kind-pi", say!(lab, level.kind_pi)),
+                (Kind::Sampled, "kind-sampled", say!(lab, level.kind_sampled)),
+                (Kind::Pid, "kind-pid", say!(lab, level.kind_pid)),
+                (Kind::Off, "kind-off", say!(lab, level.kind_off)),
+            ]
+            read=Kind::of
+            write=set_kind
+            lock=locks::GAINS
+        />
+    }
+}
+
+/// The dials of the controller.
+#[component]
+fn Dials() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let kind = session.part(Kind::of);
+    let dials = move || match kind.get() {
+        Kind::Pi => view! {
+            <ParamRow session control=&GAIN />
+            <ParamRow session control=&TIME />
+            <WindupTick />
+        }
+        .into_any(),
+        Kind::Sampled => view! {
+            <ParamRow session control=&GAIN />
+            <ParamRow session control=&TIME />
+            <ParamRow session control=&SAMPLING />
+            <WindupTick />
+        }
+        .into_any(),
+        Kind::Pid => view! {
+            <ParamRow session control=&PROPORTIONAL />
+            <ParamRow session control=&INTEGRAL index=0 />
+            <ParamRow session control=&DERIVATIVE index=1 />
+        }
+        .into_any(),
+        Kind::Off => view! { <p class="remark">{say!(lab, level.off_remark)}</p> }.into_any(),
+    };
+    view! { <div class="dials">{dials}</div> }
+}
+
+#[component]
+fn WindupTick() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let set = move |on: bool| {
+        let anti_windup = if on { AntiWindup::BackCalculation { tracking_ratio: 0.5 } } else { AntiWindup::Off };
+        session.edit(|s| match &mut s.controller {
+            LevelController::Pi { anti_windup: of_pi, .. } => *of_pi = anti_windup,
+            LevelController::Sampled { settings, .. } => settings.anti_windup = anti_windup,
+            LevelController::Manual { .. } | LevelController::Pid { .. } => {}
+        });
+    };
+    view! {
+        <Tick
+            id="level-windup"
+            text=say!(lab, level.anti_windup)
+            ticked=lab.throttled(session.part(|s| s.anti_windup() != AntiWindup::Off))
+            disabled=lab.locks(locks::GAINS)
+            on_tick=set
+        />
+    }
+}
+
+/// Gain and integral time (s) of a PI controller.
+fn tuning(setup: &LevelLoopSetup) -> Option<(f64, f64)> {
+    match &setup.controller {
+        LevelController::Pi { gain, integral_time_s, .. } => Some((*gain, *integral_time_s)),
+        LevelController::Sampled { settings, .. } => Some((settings.gain, settings.integral_time_s)),
+        LevelController::Manual { .. } | LevelController::Pid { .. } => None,
+    }
+}
+
+fn set_tuning(setup: &mut LevelLoopSetup, change: impl FnOnce((f64, f64)) -> (f64, f64)) {
+    match &mut setup.controller {
+        LevelController::Pi { gain, integral_time_s, .. } => {
+            (*gain, *integral_time_s) = change((*gain, *integral_time_s));
+        }
+        LevelController::Sampled { settings, .. } => {
+            (settings.gain, settings.integral_time_s) = change((settings.gain, settings.integral_time_s));
+        }
+        LevelController::Manual { .. } | LevelController::Pid { .. } => {}
+    }
+}
+
+/// P, I and D of a parallel PID controller; 0 for any other.
+const fn pid(setup: &LevelLoopSetup) -> [f64; 3] {
+    match setup.controller {
+        LevelController::Pid { proportional, integral, derivative, .. } => [proportional, integral, derivative],
+        _ => [0.0; 3],
+    }
+}
+
+fn set_pid(setup: &mut LevelLoopSetup, which: usize, value: f64) {
+    if let LevelController::Pid { proportional, integral, derivative, .. } = &mut setup.controller {
+        *[proportional, integral, derivative][which] = value;
+    }
+}
+
+/// What the rules suggest, each a click away.
+#[component]
+fn Rules() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let rows = move || {
+        let setup = session.throttled.setup.get();
+        let suggestions = session.throttled.suggestions.get();
+        suggestions
+            .iter()
+            .map(|suggestion| view! { <Rule suggestion=*suggestion setup=(*setup).clone() /> })
+            .collect_view()
+    };
+    let is_empty = move || session.throttled.suggestions.with(|suggestions| suggestions.is_empty());
+    view! {
+        <ul class="rules" data-testid="level-rules">{rows}</ul>
+        <p class="remark" hidden=move || !is_empty()>{say!(lab, level.no_rules)}</p>
+    }
+}
+
+#[component]
+fn Rule(suggestion: Suggestion, setup: LevelLoopSetup) -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let style = lab.number_style();
+    let number = |value: f64| style.significant(value, 3);
+    let (name, id) = rule_name(suggestion.rule);
+    let clipped = suggestion.clipped(&setup);
+    let text = match (suggestion.settings, clipped) {
+        (Ok(settings), Some((tuning, cut))) => {
+            let (gain, time) = (number(tuning.gain), number(tuning.integral_time_s));
+            let text = format!("Kp {gain} · Ti {time} s");
+            if cut { format!("{text} ({})", tr!(lab, level.cut, gain = number(settings.gain))) } else { text }
+        }
+        (Err(error), _) => errors::of_rule(lab, error),
+        (Ok(_), None) => String::new(),
+    };
+    let choose = move |_| {
+        if let Some((tuning, _)) = clipped {
+            session.edit(|s| s.set_pi_tuning(tuning));
+        }
+    };
+    view! {
+        <li>
+            <b>{name}</b>
+            <span>{text}</span>
+            <button
+                type="button"
+                class="button small"
+                data-testid=format!("rule-{id}")
+                disabled=clipped.is_none() || lab.locks(locks::GAINS)
+                on:click=choose
+            >
+                {say!(lab, level.take)}
+                <span class="visually-hidden">" " {name}</span>
+            </button>
+        </li>
+    }
+}
+
+/// The name of a rule, and the one for tests.
+pub const fn rule_name(rule: SuggestedRule) -> (&'static str, &'static str) {
+    match rule {
+        SuggestedRule::Model(ModelRule::Simc { .. }) => ("SIMC", "simc"),
+        SuggestedRule::Model(ModelRule::Lambda { .. }) => ("Lambda", "lambda"),
+        SuggestedRule::Model(ModelRule::Amigo) => ("AMIGO", "amigo"),
+        SuggestedRule::Ultimate(TuningRule::TyreusLuybenPi | TuningRule::TyreusLuybenPid) => ("Tyreus–Luyben", "tl"),
+        SuggestedRule::Ultimate(_) => ("Ziegler–Nichols", "zn"),
+    }
+}
+
+/// The suggestions as tunings that can be taken up, with their names.
+pub fn suggested(session: Session) -> Vec<(&'static str, PiTuning)> {
+    let setup = session.throttled.setup.get();
+    session.throttled.suggestions.with(|suggestions| {
+        let of = |suggestion: &Suggestion| Some((rule_name(suggestion.rule).0, suggestion.clipped(&setup)?.0));
+        suggestions.iter().filter_map(of).collect()
+    })
+}

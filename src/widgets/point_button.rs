@@ -1,0 +1,58 @@
+use leptos::ev::KeyboardEvent;
+use leptos::prelude::*;
+
+use super::first_frame;
+use quadtank_figure::Frame;
+
+/// A point of a chart that can be taken up by a click or a key. It stands inside an `svg` over the chart.
+#[component]
+pub fn PointButton(
+    /// Name for tests.
+    #[prop(into)]
+    id: String,
+    /// What taking it up does, for screen readers and the pointer.
+    #[prop(into)]
+    label: Signal<String>,
+    /// What stands beside it.
+    #[prop(into)]
+    text: String,
+    /// Where the text stands, from the point on (px).
+    #[prop(default = (13.0, 18.0))]
+    offset: (f64, f64),
+    /// Where it is, in the units of the axes.
+    #[prop(into)]
+    at: Signal<(f64, f64)>,
+    /// Called when it is taken up.
+    #[prop(into)]
+    on_choose: Callback<()>,
+    /// Where the chart stands.
+    frames: RwSignal<Vec<Frame>>,
+) -> impl IntoView {
+    let place = move || {
+        let (x, y) = first_frame(frames).to_px(at.get());
+        format!("translate({x} {y})")
+    };
+    let on_key = move |event: KeyboardEvent| {
+        if matches!(event.key().as_str(), "Enter" | " ") {
+            event.prevent_default();
+            on_choose.run(());
+        }
+    };
+    view! {
+        <g
+            class="published"
+            role="button"
+            tabindex="0"
+            aria-label=label
+            data-testid=id
+            transform=place
+            on:click=move |_| on_choose.run(())
+            on:keydown=on_key
+        >
+            <title>{label}</title>
+            <circle class="hit" r="14" />
+            <circle class="mark" r="4.5" />
+            <text x=offset.0 y=offset.1>{text}</text>
+        </g>
+    }
+}
