@@ -5,7 +5,7 @@ use quadtank_figure::{Frame, Rect};
 
 const NO_PLACE: Rect = Rect { left: 0.0, top: 0.0, width: 1.0, height: 1.0 };
 /// The frame before the picture has been painted for the first time.
-const NOWHERE: Frame = Frame { outer: NO_PLACE, plot: NO_PLACE, x: (0.0, 1.0), y: (0.0, 1.0) };
+const NOWHERE: Frame = Frame::linear(NO_PLACE, NO_PLACE, (0.0, 1.0), (0.0, 1.0));
 
 /// The frame of the first chart of a picture.
 pub fn first_frame(frames: RwSignal<Vec<Frame>>) -> Frame {

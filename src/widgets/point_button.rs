@@ -13,12 +13,9 @@ pub fn PointButton(
     /// What taking it up does, for screen readers and the pointer.
     #[prop(into)]
     label: Signal<String>,
-    /// What stands beside it.
-    #[prop(into)]
+    /// What stands beside it, where the chart does not name it.
+    #[prop(optional, into)]
     text: String,
-    /// Where the text stands, from the point on (px).
-    #[prop(default = (13.0, 18.0))]
-    offset: (f64, f64),
     /// Where it is, in the units of the axes.
     #[prop(into)]
     at: Signal<(f64, f64)>,
@@ -52,7 +49,7 @@ pub fn PointButton(
             <title>{label}</title>
             <circle class="hit" r="14" />
             <circle class="mark" r="4.5" />
-            <text x=offset.0 y=offset.1>{text}</text>
+            <text x="13" y="18">{text}</text>
         </g>
     }
 }

@@ -6,7 +6,7 @@ use quadtank_scenario::Limits;
 
 use super::errors;
 use super::flags::locks;
-use super::sentences::{self, variance};
+use super::sentences::{self, short_variance};
 use super::session::{Session, use_session};
 use crate::controls::{ParamControl, ParamRow};
 use crate::texts::{say, terms, tr};
@@ -121,8 +121,8 @@ fn indices(session: Session) -> impl IntoView {
         }
         let harris = match &answer.harris {
             Ok(harris) => vec![
-                Figure::Shown(variance(lab, harris.index.reference)),
-                Figure::Shown(variance(lab, harris.index.actual)),
+                Figure::Shown(short_variance(lab, harris.index.reference)),
+                Figure::Shown(short_variance(lab, harris.index.actual)),
                 Figure::Shown(style.fixed(harris.index.quality(), 3)),
             ],
             Err(error) => vec![Figure::None(errors::of_harris(lab, error)); 3],
@@ -139,8 +139,8 @@ fn both_row(session: Session, answer: &LevelLoopAnswer, which: usize) -> Vec<Fig
         (_, Some(Ok(both))) => {
             let index = [both.level, both.outflow][which];
             vec![
-                Figure::Shown(variance(lab, index.reference)),
-                Figure::Shown(variance(lab, index.actual)),
+                Figure::Shown(short_variance(lab, index.reference)),
+                Figure::Shown(short_variance(lab, index.actual)),
                 Figure::Shown(lab.number_style().fixed(index.quality(), 4)),
             ]
         }

@@ -10,15 +10,15 @@ use crate::lab::Lab;
 use crate::texts::tr;
 
 /// Left, top, width and height of the tank.
-const TANK: (f64, f64, f64, f64) = (60.0, 70.0, 100.0, 146.0);
+const TANK: (f64, f64, f64, f64) = (56.0, 64.0, 112.0, 190.0);
 /// Width of a stream of the largest flow of the open valve at the brim.
 const WIDEST_STREAM: f64 = 9.0;
 /// Abscissa of the valve.
 const VALVE_X: f64 = 236.0;
 /// Ordinates of a valve in the inlet and in the outlet.
-const VALVE_Y: [f64; 2] = [46.0, 208.0];
+const VALVE_Y: [f64; 2] = [46.0, 246.0];
 /// Ordinate of the line from transmitter to controller and converter.
-const LINE_Y: f64 = 128.0;
+const LINE_Y: f64 = 134.0;
 /// Share of the height from which on a tank counts as full.
 const BRIM: f64 = 1.0 - 1e-9;
 
@@ -39,7 +39,7 @@ pub fn LoopDrawing() -> impl IntoView {
     view! {
         <svg
             class="rig loop"
-            viewBox="0 0 440 252"
+            viewBox="0 0 440 296"
             role="group"
             aria-label=move || summary().unwrap_or_default()
             data-testid="level-rig"
@@ -120,12 +120,12 @@ fn drawing(
     view! {
         <path class="pipe" d="M12 46 H84 V64" />
         <path class="pipe" d=valve_pipe />
-        {(!in_outlet).then(|| view! { <path class="pipe" d=format!("M{right} 208 H330") /> })}
+        {(!in_outlet).then(|| view! { <path class="pipe" d=format!("M{right} 246 H330") /> })}
         <path class="flow drain" d=format!("M84 66 V{surface}") stroke-width=stream(fed) />
         {(!in_outlet).then(|| {
             view! { <path class="flow drain" d=format!("M138 66 V{surface}") stroke-width=stream(signals.valve_flow) /> }
         })}
-        <path class="flow drain" d="M330 208 V240" stroke-width=stream(signals.outflow) />
+        <path class="flow drain" d="M330 246 V284" stroke-width=stream(signals.outflow) />
         <rect class="water1" x=left y=surface width=width height=bottom - surface stroke-width="0" />
         {band}
         <path class="wall" d=format!("M{left} {top} V{bottom} H{right} V{top}") />
@@ -135,7 +135,7 @@ fn drawing(
         </text>
         <text class="alarm" x=left + width / 2.0 y=top + 22.0 text-anchor="middle">{alarm}</text>
         <text class="value" x="12" y="36">{format!("q_in {}", flow(signals.inflow))}</text>
-        <text class="value" x="340" y="226">{format!("q_out {}", flow(signals.outflow))}</text>
+        <text class="value" x="342" y="270">{format!("q_out {}", flow(signals.outflow))}</text>
         {(!in_outlet).then(|| view! { <text class="value" x="340" y="50">{flow(signals.valve_flow)}</text> })}
         {signal_lines(plant, valve_y)}
         {instruments(lab, plant, signals, valve_y)}
@@ -147,7 +147,7 @@ fn signal_lines(plant: &LevelPlant, valve_y: f64) -> impl IntoView + use<> {
     let to_actuator = if plant.converter.is_some() { 384.0 } else { 300.0 };
     let dome = valve_y - 28.0;
     view! {
-        <path class="signal" d=format!("M160 {LINE_Y} H194") />
+        <path class="signal" d=format!("M168 {LINE_Y} H194") />
         <path class="signal" d=format!("M222 {LINE_Y} H{}", to_actuator - 16.0) />
         <path class="signal" d=format!("M{to_actuator} {LINE_Y} V{dome} H{}", VALVE_X + 16.0) />
         <path class="signal" d=format!("M{VALVE_X} {} V{}", dome + 8.0, valve_y) />
@@ -263,8 +263,8 @@ fn shape(element: Element, plant: &LevelPlant, valve_y: f64) -> Option<AnyView> 
             view! { <path class="instrument" d=d /> }.into_any()
         }
         Element::Outlet => view! {
-            <circle class="instrument" cx="330" cy="208" r="9" />
-            <text class="tag" x="330" y="212" text-anchor="middle">"q"</text>
+            <circle class="instrument" cx="330" cy="246" r="9" />
+            <text class="tag" x="330" y="250" text-anchor="middle">"q"</text>
         }
         .into_any(),
     })

@@ -10,14 +10,14 @@ pub mod panels {
     pub const TEST: Panel = Panel("test");
     /// The run.
     pub const RESPONSES: Panel = Panel("responses");
+    /// The variance of the level against that of the outflow.
+    pub const TRADE_OFF: Panel = Panel("trade-off");
     /// What is done to the loop.
     pub const EXPERIMENT: Panel = Panel("experiment");
     /// Objective and tuning.
     pub const CONTROLLER: Panel = Panel("controller");
     /// Indices and margins.
     pub const ASSESSMENT: Panel = Panel("assessment");
-    /// The variance of the level against that of the outflow.
-    pub const TRADE_OFF: Panel = Panel("trade-off");
     /// The cost over gain and integral time, and the searches in it.
     pub const MAP: Panel = Panel("map");
     /// Published tables.
@@ -29,7 +29,7 @@ pub mod panels {
 
     /// All of them.
     pub const ALL: &[Panel] =
-        &[PROCESS, TEST, RESPONSES, EXPERIMENT, CONTROLLER, ASSESSMENT, TRADE_OFF, MAP, PUBLISHED, FORMS, HEATED];
+        &[PROCESS, TEST, RESPONSES, TRADE_OFF, EXPERIMENT, CONTROLLER, ASSESSMENT, MAP, PUBLISHED, FORMS, HEATED];
 }
 
 /// Groups of controls that can be disabled.

@@ -3,6 +3,7 @@
 mod assess;
 mod course;
 mod drawing;
+mod element;
 mod errors;
 mod experiment;
 mod exploration;
@@ -44,11 +45,11 @@ fn all_cards(session: Session) -> impl IntoView {
         <div class="side middle">
             {lab.shows(panels::RESPONSES).then(|| view! { <course::CourseCard /> })}
             {lab.shows(panels::TRADE_OFF).then(|| view! { <trade_off::TradeOffCard /> })}
+            {lab.shows(panels::EXPERIMENT).then(|| view! { <experiment::ExperimentCard /> })}
         </div>
         <div class="side right">
             {lab.shows(panels::CONTROLLER).then(|| view! { <tuning::TuningCard /> })}
             {lab.shows(panels::ASSESSMENT).then(|| view! { <assess::AssessCard /> })}
-            {lab.shows(panels::EXPERIMENT).then(|| view! { <experiment::ExperimentCard /> })}
         </div>
         <div class="side below">
             {lab.shows(panels::MAP).then(|| view! { <map::MapCard /> })}

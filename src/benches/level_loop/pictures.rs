@@ -113,8 +113,8 @@ pub fn test(session: Session) -> Picture {
             texts: StepTestTexts {
                 axes: [
                     &tr!(lab, chart.time),
-                    &tr!(lab, level.axis_measured, unit = units[0]),
-                    &tr!(lab, level.axis_output, unit = units[1]),
+                    &tr!(lab, level.axis_signal, unit = units[0]),
+                    &format!("m ({})", units[1]),
                 ],
                 measured: &tr!(lab, level.measured),
                 fitted: &tr!(lab, level.fitted),
@@ -136,8 +136,8 @@ pub struct TradeOffEntry {
     pub at: (f64, f64),
 }
 
-/// The variance of the level against that of the outflow.
-pub fn trade_off(session: Session, found: Memo<TradeOff>) -> Picture {
+/// The variance of the level against that of the outflow, with the known tunings.
+pub fn trade_off(session: Session, found: Memo<TradeOff>, entries: Memo<Vec<TradeOffEntry>>) -> Picture {
     let lab = session.lab;
     let build = move |show: &mut dyn FnMut(&[Chart])| {
         found.with(|found| {
@@ -145,9 +145,16 @@ pub fn trade_off(session: Session, found: Memo<TradeOff>) -> Picture {
                 found.curve.iter().map(|point| (point.outflow, point.level)).unzip();
             let present =
                 session.charts.with_answer(|answer| (answer.figures.outflow.variance, answer.figures.level.variance));
+            let entries = entries.get();
+            let points = entries.iter().map(|entry| NamedPoint {
+                name: &entry.name,
+                at: entry.at,
+                role: Role::Neutral,
+                shape: Shape::Point,
+            });
             show(&[quadtank_figure::trade_off(&TradeOffChart {
                 curve: (&outflow, &level),
-                points: Vec::new(),
+                points: points.collect(),
                 present,
                 axes: [&tr!(lab, level.axis_variance_outflow), &tr!(lab, level.axis_variance_level)],
             })]);

@@ -4,21 +4,18 @@ use leptos::prelude::*;
 use quadtank::literature::LevelPresetId;
 use quadtank::literature::andreis::PublishedDisturbance;
 use quadtank::study::level_loop::{LevelLoopSetup, LevelPlantSpec, published_setup};
-use quadtank_figure::Frame;
 use quadtank_scenario::Limits;
 
-use super::drawing::{LoopDrawing, name as element_name};
+use super::drawing::LoopDrawing;
+use super::element::ElementPanel;
 use super::errors;
 use super::flags::locks;
-use super::pictures;
 use super::session::{Session, load, set_cursor, use_session};
 use crate::controls::{ParamControl, ParamRow};
 use crate::lab::Lab;
 use crate::shown::ShownUnit;
 use crate::texts::{say, terms, tr};
-use crate::widgets::{
-    Card, ChartCanvas, ChartMenu, Choice, Playback, Scale, Select, Sentence, Text, TimeBar, shown_times,
-};
+use crate::widgets::{Card, Choice, Playback, Scale, Select, Sentence, Text, TimeBar, shown_times};
 
 /// Litres per second.
 pub const LITRES: ShownUnit = ShownUnit { name: "L/s", per_unit: 1e3 };
@@ -83,7 +80,7 @@ pub fn ProcessCard(
         <Card name="process" title=say!(lab, level.loop_title) terms=TERMS beside=|| view! { <PresetSelect /> }>
             <LoopDrawing />
             <TimeBar playback id="level-play" lab />
-            <ElementCurve />
+            <ElementPanel />
             {with_start.then(|| view! { <Start /> })}
         </Card>
     }
@@ -131,44 +128,6 @@ fn point(session: Session) -> (bool, String) {
             (true, text)
         }
     })
-}
-
-/// The static curve of the chosen element.
-#[component]
-fn ElementCurve() -> impl IntoView {
-    let session = use_session();
-    let lab = session.lab;
-    let chosen = session.own.element;
-    let title = Signal::derive(move || chosen.get().map(|element| element_name(lab, element)).unwrap_or_default());
-    let content = move || {
-        let picture = pictures::element(session);
-        let for_menu = picture.clone();
-        let frames = RwSignal::new(Vec::<Frame>::new());
-        view! {
-            <div class="element-curve">
-                <header>
-                    <h3>{title}</h3>
-                    <ChartMenu picture=for_menu file="element" title />
-                    <button
-                        type="button"
-                        class="button small"
-                        aria-label=say!(lab, app.close)
-                        on:click=move |_| chosen.set(None)
-                    >
-                        "×"
-                    </button>
-                </header>
-                <div class="chart">
-                    <ChartCanvas picture frames summary=title name="element-curve" />
-                </div>
-            </div>
-        }
-    };
-    let is_open = Memo::new(move |_| chosen.get().is_some());
-    view! {
-        {move || is_open.get().then(content)}
-        <p class="remark" hidden=move || is_open.get()>{say!(lab, level.press_element)}</p>
-    }
 }
 
 /// The published loops, and one's own.

@@ -6,7 +6,8 @@ use quadtank::literature::andreis::{AndreisRemark, PublishedDisturbance, Publish
 use quadtank::literature::level_slides;
 use quadtank::sim::level::LevelController;
 use quadtank::study::level_loop::{
-    COMPARED_TABLES, Compared, ComparedQuantity, ComparedTable, LevelLoopSetup, compare_table, published_setup,
+    COMPARED_TABLES, Compared, ComparedFeatures, ComparedQuantity, ComparedTable, LevelLoopSetup, compare_features,
+    compare_table, published_setup,
 };
 
 use super::flags::locks;
@@ -15,7 +16,7 @@ use super::sentences::variance;
 use super::session::{load, use_session};
 use crate::lab::Lab;
 use crate::texts::{say, tr};
-use crate::widgets::{Card, Choice, Select};
+use crate::widgets::{Card, Choice, Row, Select, TableContent};
 
 /// The tables and the loop of the lecture slides.
 #[component]
@@ -47,6 +48,7 @@ pub fn PublishedCard() -> impl IntoView {
                 <table class="plain" data-testid="published-numbers">{content}</table>
             </div>
             <ul class="remarks">{remarks}</ul>
+            <Features />
             <Slides />
         </Card>
     }
@@ -72,7 +74,7 @@ fn Numbers(found: ComparedTable) -> impl IntoView {
         view! { <NumberRow row quantity setup /> }
     });
     let rows = rows.collect_view();
-    let headings = headings.map(|text| view! { <th scope="col">{text}</th> }).to_vec();
+    let headings = headings.map(|text| view! { <th scope="col">{text}</th> });
     view! {
         <caption class="visually-hidden">{table_name(lab, table)}</caption>
         <thead><tr>{headings}</tr></thead>
@@ -159,6 +161,78 @@ fn remark_text(lab: Lab, remark: AndreisRemark) -> String {
         AndreisRemark::SimcCondition => tr!(lab, level.remark_simc),
         AndreisRemark::LambdaWithoutBound => tr!(lab, level.remark_lambda),
     }
+}
+
+/// Tables 5.19 and 5.20: what a tight tuning does to the outflow, and an averaging one to the level.
+#[component]
+fn Features() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    // No published case is refused.
+    let found = compare_features().ok();
+    let buttons = found.iter().flatten().enumerate().map(|(k, features)| {
+        let setup = features.setup();
+        let text = if k == 0 { say!(lab, level.show_tight) } else { say!(lab, level.show_averaging) };
+        view! {
+            <button
+                type="button"
+                class="button small"
+                data-testid=format!("features-{}", k + 1)
+                disabled=lab.locks(locks::GAINS)
+                on:click=move |_| load(session, setup.clone())
+            >
+                {text}
+            </button>
+        }
+    });
+    let buttons = buttons.collect_view();
+    view! {
+        <h3>{say!(lab, level.features)}</h3>
+        <div class="scroll" tabindex="0" role="region" aria-label=say!(lab, level.features)>
+            <table class="plain" data-testid="published-features">{move || found.map(|found| features(lab, &found))}</table>
+        </div>
+        <div class="toolbar">{buttons}</div>
+    }
+}
+
+/// A row for each feature: level and outflow under either tuning, printed and computed.
+fn features(lab: Lab, found: &[ComparedFeatures; 2]) -> impl IntoView + use<> {
+    let style = lab.number_style();
+    let names = [
+        tr!(lab, level.column_least),
+        tr!(lab, level.column_most),
+        tr!(lab, level.feature_range),
+        tr!(lab, level.feature_variance),
+        tr!(lab, level.column_mean),
+        tr!(lab, level.feature_deviation),
+    ];
+    let [tight, averaging] = found;
+    let columns = [
+        (tight.printed.level, tight.level),
+        (averaging.printed.level, averaging.level),
+        (tight.printed.outflow, tight.outflow),
+        (averaging.printed.outflow, averaging.outflow),
+    ];
+    let number = |value: f64| style.significant(value, 5);
+    let rows: Vec<AnyView> = names
+        .into_iter()
+        .enumerate()
+        .map(|(k, name)| {
+            let figures: Vec<String> =
+                columns.iter().flat_map(|(printed, computed)| [number(printed[k]), number(computed[k])]).collect();
+            view! { <Row name figures /> }.into_any()
+        })
+        .collect();
+    let (printed, computed) = (tr!(lab, level.column_printed), tr!(lab, level.column_computed));
+    let of = [
+        tr!(lab, level.features_level_tight),
+        tr!(lab, level.features_level_averaging),
+        tr!(lab, level.features_outflow_tight),
+        tr!(lab, level.features_outflow_averaging),
+    ];
+    let headings = of.into_iter().flat_map(|of| [format!("{of}, {printed}"), computed.clone()]);
+    let columns = std::iter::once(tr!(lab, level.feature)).chain(headings).collect();
+    view! { <TableContent caption=tr!(lab, level.features) columns rows /> }
 }
 
 /// The four settings of the lecture slides, each a click away.

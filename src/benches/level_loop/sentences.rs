@@ -11,10 +11,18 @@ use super::session::Session;
 use crate::lab::Lab;
 use crate::texts::tr;
 
-/// A variance of levels (m²) or flows ((m³/s)²) in the unit of the source.
+/// A variance of levels (m²) or flows ((m³/s)²) as the source prints it: five digits and a power of ten.
 pub fn variance(lab: Lab, value: f64) -> String {
-    // As the source prints it: five digits and a power of ten.
-    let text = format!("{value:.4e}").replace('-', "−");
+    powered(lab, value, 4)
+}
+
+/// The same with three digits, where there is little room.
+pub fn short_variance(lab: Lab, value: f64) -> String {
+    powered(lab, value, 2)
+}
+
+fn powered(lab: Lab, value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$e}").replace('-', "−");
     text.replace('.', &lab.number_style().decimal.to_string())
 }
 
@@ -40,7 +48,8 @@ pub fn of_run(session: Session) -> (bool, String) {
         }
     };
     let findings: Vec<String> = answer.findings.iter().map(|finding| of_finding(lab, finding)).collect();
-    (findings.is_empty(), std::iter::once(main).chain(findings).collect::<Vec<_>>().join(" "))
+    let works = !answer.findings.iter().any(Finding::is_failure);
+    (works, std::iter::once(main).chain(findings).collect::<Vec<_>>().join(" "))
 }
 
 fn of_finding(lab: Lab, finding: &Finding) -> String {

@@ -2,7 +2,7 @@
 
 use leptos::prelude::*;
 use quadtank::literature::andreis;
-use quadtank::study::level_loop::{LevelLoopSetup, ModelMatch, ModelSource};
+use quadtank::study::level_loop::{LevelLoopSetup, ModelMatch, ModelSource, run_proportional_test};
 use quadtank::tuning::ReactionMethod;
 use quadtank_figure::Frame;
 use quadtank_scenario::Limits;
@@ -16,7 +16,7 @@ use super::session::{Session, use_session};
 use crate::controls::{ParamControl, ParamRow, Switch};
 use crate::shown::ShownUnit;
 use crate::texts::{say, terms, tr};
-use crate::widgets::{Card, ChartCanvas, ChartMenu, Scale, Sentence, Text, Tick};
+use crate::widgets::{Card, ChartCanvas, ChartMenu, Scale, Sentence, Text, Tick, marked};
 
 const START: ParamControl<LevelLoopSetup> = ParamControl {
     ids: [("", "test-inflow"), ("", "test-level")],
@@ -105,6 +105,7 @@ pub fn TestCard() -> impl IntoView {
                 warm=Signal::derive(move || !found.get().0)
                 text=Signal::derive(move || found.get().1)
             />
+            <ProportionalTest />
             <SourceSwitch />
         </Card>
     }
@@ -193,6 +194,33 @@ fn MethodSwitch() -> impl IntoView {
         />
     }
 }
+
+/// The test with proportional control alone, which needs no open loop.
+#[component]
+fn ProportionalTest() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let open = RwSignal::new(false);
+    let text = move || {
+        let setup = session.throttled.setup.get();
+        let gain = setup.pi_tuning().map_or(USUAL_GAIN, |tuning| tuning.gain);
+        let verdict = match run_proportional_test(&setup, gain) {
+            Ok(Ok(regulation)) => sentences::of_regulation(lab, regulation),
+            Ok(Err(_)) => tr!(lab, level.too_few_rows),
+            Err(error) => tr!(lab, level.no_test, reason = errors::of_run(lab, &error)),
+        };
+        tr!(lab, level.proportional_test, gain = lab.number_style().significant(gain, 3), verdict = verdict)
+    };
+    view! {
+        <details class="more" on:toggle=move |_| open.set(true)>
+            <summary data-testid="p-only">{say!(lab, level.p_only)}</summary>
+            <p class="sentence" data-testid="p-only-verdict">{move || open.get().then(|| marked(&text()))}</p>
+        </details>
+    }
+}
+
+/// Gain of that test where the controller has none.
+const USUAL_GAIN: f64 = 5.0;
 
 /// Which model the rules take.
 #[component]

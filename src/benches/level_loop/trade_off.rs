@@ -28,7 +28,7 @@ pub fn TradeOffCard() -> impl IntoView {
         trade_off(&setup, &tunings)
     });
     let entries = Memo::new(move |_| entries(&found.get(), &names.get()));
-    let picture = pictures::trade_off(session, found);
+    let picture = pictures::trade_off(session, found, entries);
     let for_menu = picture.clone();
     let title = say!(lab, level.trade_off);
     let summary = Signal::derive(move || present(session));
@@ -56,7 +56,7 @@ fn Point(entry: TradeOffEntry, frames: RwSignal<Vec<Frame>>) -> impl IntoView {
     let label = Signal::derive(move || {
         let style = lab.number_style();
         let (gain, time) = (style.significant(tuning.gain, 3), style.significant(tuning.integral_time_s, 4));
-        tr!(lab, level.take_point, name = full_name, gain = gain, time = time)
+        tr!(lab, level.take_point, name = &full_name, gain = gain, time = time)
     });
     let choose = move |()| {
         if !lab.locks(locks::GAINS) {
@@ -64,7 +64,7 @@ fn Point(entry: TradeOffEntry, frames: RwSignal<Vec<Frame>>) -> impl IntoView {
         }
     };
     let id = format!("trade-{}", name.to_lowercase().replace(' ', "-"));
-    view! { <PointButton id label text=name offset=(8.0, -6.0) at=Signal::stored(at) on_choose=choose frames /> }
+    view! { <PointButton id label at=Signal::stored(at) on_choose=choose frames /> }
 }
 
 /// The reference, the published tunings and those of the rules, each tuning once.

@@ -3,12 +3,14 @@
 
 mod commercial;
 mod disturbances;
+mod features;
 mod indices;
 mod rig;
 mod tables;
 
 pub use commercial::{COMMERCIAL_CONTROLLERS, CommercialController};
 pub use disturbances::PublishedDisturbance;
+pub use features::{FEATURES, FEATURES_WINDOW_S, PublishedFeatures};
 pub use indices::{
     AndreisRemark, HUNDREDTHS, INDICES, PublishedIndex, PublishedWrongIndex, WRONG_INDICES, remarks_on_equation,
     remarks_on_table,

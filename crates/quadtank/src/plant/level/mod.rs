@@ -18,5 +18,5 @@ pub use error::LevelError;
 pub use gains::LevelGains;
 pub use heated::HeatedTank;
 pub use signal::{Converter, OutputStage, SignalRange, SignalUnit, Transmitter};
-pub use tank::{LevelTank, Outflow, TankModel};
+pub use tank::{LevelTank, Outflow, OutflowLaw, TankModel};
 pub use valve::{Characteristic, ControlValve, ValvePlace};

@@ -25,7 +25,38 @@ pub enum Outflow {
     },
 }
 
+/// A law of outflow without its parameter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OutflowLaw {
+    /// [`Outflow::Linear`].
+    Linear,
+    /// [`Outflow::SquareRoot`].
+    SquareRoot,
+    /// [`Outflow::Pumped`].
+    Pumped,
+}
+
+impl OutflowLaw {
+    /// The outflow of this law that carries a flow (m³/s) at a level (m), both above 0.
+    pub fn through(self, level: f64, flow: f64) -> Outflow {
+        match self {
+            Self::Linear => Outflow::Linear { resistance: level / flow },
+            Self::SquareRoot => Outflow::SquareRoot { coefficient: flow / level.sqrt() },
+            Self::Pumped => Outflow::Pumped { flow },
+        }
+    }
+}
+
 impl Outflow {
+    /// Its law.
+    pub const fn law(&self) -> OutflowLaw {
+        match self {
+            Self::Linear { .. } => OutflowLaw::Linear,
+            Self::SquareRoot { .. } => OutflowLaw::SquareRoot,
+            Self::Pumped { .. } => OutflowLaw::Pumped,
+        }
+    }
+
     /// Outflow at a level (m³/s); nothing leaves an empty tank.
     #[inline]
     pub fn flow(&self, level: f64) -> f64 {
@@ -146,6 +177,15 @@ mod tests {
         Outflow::SquareRoot { coefficient: 0.03 },
         Outflow::Pumped { flow: 0.01 },
     ];
+
+    #[test]
+    fn another_law_carries_the_same_flow_at_its_level() {
+        for law in [OutflowLaw::Linear, OutflowLaw::SquareRoot, OutflowLaw::Pumped] {
+            let outflow = law.through(0.8, 0.02);
+            assert_eq!(outflow.law(), law);
+            assert_relative_eq!(outflow.flow(0.8), 0.02, max_relative = 1e-15);
+        }
+    }
 
     #[test]
     fn resistance_is_the_slope_of_level_over_flow() {

@@ -3,6 +3,7 @@ use crate::literature::andreis::{
     CURRENT_TUNING, PublishedDisturbance, PublishedMethod, PublishedModel, PublishedObjective, PublishedVariance,
     Tuning,
 };
+use crate::plant::level::{LevelPlant, OutflowLaw};
 use crate::sim::level::{LevelController, LevelExperiment};
 use crate::tuning::CostMeasure;
 
@@ -102,6 +103,25 @@ impl LevelLoopSetup {
         self.set_objective(self.objective);
     }
 
+    /// Changes the plant. One that is as a published plant is that, by its name.
+    pub fn edit_plant(&mut self, change: impl FnOnce(&mut LevelPlant)) {
+        let mut plant = self.plant();
+        change(&mut plant);
+        let known = LevelPresetId::ALL.into_iter().find(|id| id.plant() == plant);
+        self.plant = known.map_or(LevelPlantSpec::Parameters(plant), LevelPlantSpec::Preset);
+    }
+
+    /// Gives the tank another law of outflow, with the flow that the present one has at the level of the experiment.
+    pub fn set_outflow_law(&mut self, law: OutflowLaw) {
+        let level = self.experiment.level.max(f64::MIN_POSITIVE);
+        self.edit_plant(|plant| {
+            let flow = plant.tank.outflow.flow(level);
+            if plant.tank.outflow.law() != law {
+                plant.tank.outflow = law.through(level, flow);
+            }
+        });
+    }
+
     /// Whether a map of the cost and a search of another setup are those of this one, whatever the controller is now.
     pub fn has_same_problem(&self, other: &Self) -> bool {
         (&self.plant, &self.experiment, self.cost(), self.search)
@@ -154,6 +174,25 @@ mod tests {
         assert!(setup.has_same_problem(&other));
         other.set_objective(Objective::Averaging { band: other.usual_band() });
         assert!(!setup.has_same_problem(&other));
+    }
+
+    #[test]
+    fn a_plant_that_is_changed_and_changed_back_keeps_its_name() {
+        let mut setup = LevelLoopSetup::default();
+        setup.edit_plant(|plant| plant.transmitter.lag_s = 0.0);
+        assert!(matches!(setup.plant, LevelPlantSpec::Parameters(_)) && setup.published_tunings().is_empty());
+        setup.edit_plant(|plant| plant.transmitter.lag_s = 0.5);
+        assert_eq!(setup, LevelLoopSetup::default());
+    }
+
+    #[test]
+    fn another_law_of_outflow_leaves_the_loop_at_rest() {
+        let mut setup = LevelLoopSetup::default();
+        for law in [OutflowLaw::Pumped, OutflowLaw::Linear, OutflowLaw::SquareRoot] {
+            setup.set_outflow_law(law);
+            let rest = setup.plant().rest(setup.experiment.level, setup.experiment.inflow).unwrap();
+            assert!((rest.output - 7.353_98).abs() < 1e-5, "{law:?}: {rest:?}");
+        }
     }
 
     #[test]

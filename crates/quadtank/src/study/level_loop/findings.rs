@@ -48,6 +48,21 @@ pub enum Finding {
     NothingMoves,
 }
 
+impl Finding {
+    /// Whether the loop fails at what it is for, rather than that something is to be known.
+    pub const fn is_failure(&self) -> bool {
+        match self {
+            Self::OutputAtLimit { .. } | Self::InflowCut { .. } | Self::NothingMoves => false,
+            Self::SetPointOutOfReach { .. }
+            | Self::TankFull { .. }
+            | Self::TankEmpty { .. }
+            | Self::NoGain
+            | Self::Unstable
+            | Self::LeavesBand { .. } => true,
+        }
+    }
+}
+
 /// Share of a range within which an output is at its end.
 const AT_END: f64 = 1e-9;
 

@@ -6,6 +6,7 @@ mod contour;
 mod element;
 mod findings;
 mod heated;
+mod proportional_test;
 mod published;
 mod results;
 mod search;
@@ -20,7 +21,11 @@ pub use contour::{ContourMap, ContourSettings};
 pub use element::{Element, ElementCurve};
 pub use findings::Finding;
 pub use heated::{HEATED_STEPS_S, HeatedAnswer, heated_tank};
-pub use published::{COMPARED_TABLES, Compared, ComparedQuantity, ComparedTable, compare_table, published_setup};
+pub use proportional_test::run_proportional_test;
+pub use published::{
+    COMPARED_TABLES, Compared, ComparedFeatures, ComparedQuantity, ComparedTable, compare_features, compare_table,
+    published_setup,
+};
 pub use results::{LevelLoopStudy, PlantAnswer, Results};
 pub use search::{LevelSearch, SearchMethod};
 pub use setup::{

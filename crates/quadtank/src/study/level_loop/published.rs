@@ -1,11 +1,13 @@
 use crate::literature::andreis::{
-    self, AndreisRemark, CURRENT_TUNING, INDICES, PublishedDisturbance, PublishedIndex, PublishedMethod,
-    PublishedModel, PublishedObjective, PublishedVariance, Tuning, VARIANCES, WRONG_INDICES, remarks_on_table,
+    self, AndreisRemark, CURRENT_TUNING, INDICES, PublishedDisturbance, PublishedFeatures, PublishedIndex,
+    PublishedMethod, PublishedModel, PublishedObjective, PublishedVariance, Tuning, VARIANCES, WRONG_INDICES,
+    remarks_on_table,
 };
 use crate::literature::{LevelPresetId, level_slides};
 use crate::plant::level::LevelPlant;
 use crate::sim::level::{
-    InflowDisturbance, LevelController, LevelExperiment, LevelRunError, LevelSimulation, SetPointScale, SignalStep,
+    InflowDisturbance, LevelController, LevelExperiment, LevelRunError, LevelSimulation, SampleStatistics,
+    SetPointScale, SignalStep,
 };
 use crate::tuning::{CostMeasure, ReactionMethod};
 
@@ -169,6 +171,49 @@ fn compare_index(row: &PublishedIndex, model: usize) -> Result<Compared, LevelRu
     compare(row.disturbance, row.objective, row.method, models[model], row.printed[model], number)
 }
 
+/// Features of a run that are printed, beside the computed ones.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ComparedFeatures {
+    /// As printed.
+    pub printed: PublishedFeatures,
+    /// The same of the level, computed.
+    pub level: [f64; 6],
+    /// The same of the outflow, computed.
+    pub outflow: [f64; 6],
+}
+
+impl ComparedFeatures {
+    /// The loop behind them.
+    pub fn setup(&self) -> LevelLoopSetup {
+        let mut setup = published_setup(LevelPresetId::Andreis, PublishedDisturbance::SineL);
+        setup.set_pi_tuning(self.printed.tuning.into());
+        setup
+    }
+}
+
+/// Computes Tables 5.19 and 5.20 of Andreis (2017) anew: a tight and an averaging tuning, each with what the other is for.
+///
+/// # Errors
+/// [`LevelRunError`], which no published case has.
+pub fn compare_features() -> Result<[ComparedFeatures; 2], LevelRunError> {
+    let of = |printed: PublishedFeatures| -> Result<ComparedFeatures, LevelRunError> {
+        let experiment = PublishedDisturbance::SineL.experiment();
+        let controller = LevelController::pi(printed.tuning.gain, printed.tuning.integral_time_s);
+        let log = LevelSimulation::new(&andreis::plant(), &experiment)?.run(&controller)?;
+        let [from, until] = andreis::FEATURES_WINDOW_S;
+        let empty = LevelRunError::EmptyLog { duration_s: until - from, log_step_s: experiment.log_step_s };
+        let [level, outflow] = log.statistics(log.rows(from, until)).ok_or(empty)?;
+        Ok(ComparedFeatures { printed, level: features(&level), outflow: features(&outflow) })
+    };
+    let [tight, averaging] = andreis::FEATURES.map(of);
+    Ok([tight?, averaging?])
+}
+
+/// In the order of the tables.
+fn features(of: &SampleStatistics) -> [f64; 6] {
+    [of.minimum, of.maximum, of.range(), of.variance, of.mean, of.standard_deviation()]
+}
+
 /// The setup that shows a published loop: the plant of Andreis (2017) or its model with errors under a disturbance of the source with
 /// the current controller; the loop of the lecture slides with its third setting and a step of the set-point.
 pub fn published_setup(id: LevelPresetId, disturbance: PublishedDisturbance) -> LevelLoopSetup {
@@ -254,6 +299,18 @@ fn of_slides() -> LevelLoopSetup {
 mod tests {
     use super::*;
     use crate::study::level_loop::run_level_loop;
+
+    /// To four digits as printed; the tests of the published tables look at each digit.
+    #[test]
+    fn printed_features_are_beside_the_same_features() {
+        for found in compare_features().unwrap() {
+            for (printed, computed) in [(found.printed.level, found.level), (found.printed.outflow, found.outflow)] {
+                for (printed, computed) in printed.into_iter().zip(computed) {
+                    assert!((printed - computed).abs() < 1e-4, "{printed} {computed}");
+                }
+            }
+        }
+    }
 
     #[test]
     fn the_loop_behind_a_variance_has_that_variance() {
