@@ -16,12 +16,14 @@
 
 mod axis;
 mod chart;
+mod dashes;
 mod ends;
 mod field;
 mod flag;
 mod frame;
 mod legend;
 mod levels;
+mod marks;
 mod measure;
 mod model_free;
 mod number;
