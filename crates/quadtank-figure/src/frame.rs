@@ -67,6 +67,11 @@ pub struct Frame {
 }
 
 impl Frame {
+    /// A frame whose axes are linear.
+    pub const fn linear(outer: Rect, plot: Rect, x: (f64, f64), y: (f64, f64)) -> Self {
+        Self { outer, plot, x, y }
+    }
+
     /// Pixel (CSS px, from the left edge of the figure) of a value on the x axis.
     pub fn x_px(&self, x: f64) -> f64 {
         self.plot.left + (x - self.x.0) / (self.x.1 - self.x.0) * self.plot.width
