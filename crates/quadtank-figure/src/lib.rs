@@ -32,6 +32,7 @@ mod palette;
 mod paper;
 mod pole_zero;
 mod responses;
+mod scale;
 mod svg;
 mod table;
 mod trace;
@@ -50,6 +51,7 @@ pub use palette::{Palette, Rgb};
 pub use paper::PaintError;
 pub use pole_zero::{PoleZero, PoleZeroTexts, pole_zero};
 pub use responses::{ResponseTexts, Responses, RunColumns, responses};
+pub use scale::Scale;
 pub use svg::{escape, to_svg};
 pub use table::{Summary, Table, table};
 pub use tuning::{

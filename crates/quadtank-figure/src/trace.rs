@@ -1,6 +1,6 @@
 //! From a series to what the eye can tell of it: polylines in CSS px inside the plot, with as few corners as will do.
 
-use super::{Course, Frame, Rect, Series};
+use super::{Course, Frame, Rect, Scale, Series};
 
 /// A point of the figure in CSS px.
 pub(super) type Px = (f64, f64);
@@ -78,21 +78,52 @@ fn visible<'a>(x: &'a [f64], y: &'a [f64], (min, max): (f64, f64)) -> (&'a [f64]
 
 /// From data to pixels as [`Frame::to_px`] does, without a division for each point.
 struct Pixels {
-    origin: Px,
-    slope: Px,
+    x: Ruler,
+    y: Ruler,
 }
 
 impl Pixels {
     fn of(frame: &Frame, y_scale: f64) -> Self {
-        let slope = |length: f64, (from, to): (f64, f64)| length / (to - from);
-        let (right, up) = (slope(frame.plot.width, frame.x), slope(frame.plot.height, frame.y));
-        let origin = (frame.plot.left - frame.x.0 * right, frame.plot.bottom() + frame.y.0 * up);
-        Self { origin, slope: (right, -up * y_scale) }
+        let (left, right, bottom, top) = (frame.plot.left, frame.plot.right(), frame.plot.bottom(), frame.plot.top);
+        Self {
+            x: Ruler::new(frame.x_scale, frame.x, (left, right), 1.0),
+            y: Ruler::new(frame.y_scale, frame.y, (bottom, top), y_scale),
+        }
     }
 
     fn at(&self, x: f64, y: f64) -> Option<Px> {
-        let (x, y) = (self.origin.0 + x * self.slope.0, self.origin.1 + y * self.slope.1);
+        let (x, y) = (self.x.px(x), self.y.px(y));
         (x.is_finite() && y.is_finite()).then(|| (x.clamp(-FAR, FAR), y.clamp(-FAR, FAR)))
+    }
+}
+
+/// The same along one axis: a straight line over the values times a factor, or over their logarithms.
+struct Ruler {
+    scale: Scale,
+    factor: f64,
+    origin: f64,
+    slope: f64,
+}
+
+impl Ruler {
+    fn new(scale: Scale, (from, to): (f64, f64), (first, last): (f64, f64), factor: f64) -> Self {
+        match scale {
+            Scale::Linear => {
+                let slope = (last - first) / (to - from);
+                Self { scale, factor, origin: first - from * slope, slope: slope * factor }
+            }
+            Scale::Logarithmic => {
+                let slope = (last - first) / (to / from).ln();
+                Self { scale, factor, origin: first - from.ln() * slope, slope }
+            }
+        }
+    }
+
+    fn px(&self, value: f64) -> f64 {
+        match self.scale {
+            Scale::Linear => self.origin + value * self.slope,
+            Scale::Logarithmic => self.origin + (value * self.factor).ln() * self.slope,
+        }
     }
 }
 
@@ -325,6 +356,20 @@ mod tests {
         let step = frame.x_px(1000.0);
         assert_same(&run[1..3], &[(step, frame.y_px(1.0)), (step, frame.y_px(2.0))]);
         assert_eq!(run.len(), 4);
+    }
+
+    #[test]
+    fn a_power_is_straight_on_logarithmic_axes() {
+        let chart = Chart::new(Axis::logarithmic("", (1e-2, 1e2)), Axis::logarithmic("", (1.0, 1e8)));
+        let frame = layout(&[chart], Size { width: 400.0, height: 300.0 })[0];
+        let x: Vec<f64> = (-20..=20).map(|k| 10f64.powf(f64::from(k) / 10.0)).collect();
+        let y = x.iter().map(|x| x * x).collect();
+        let square = Series { y_scale: 1e4, ..series(x, y, Course::Straight) };
+        let runs = polylines(&square, &frame);
+        assert_eq!(runs.len(), 1);
+        assert_same(&runs[0], &[(1e-2, 1.0), (1e2, 1e8)].map(|point| frame.to_px(point)));
+        let zero = series(vec![0.1, 1.0, 10.0], vec![10.0, 0.0, 10.0], Course::Straight);
+        assert!(polylines(&zero, &frame).is_empty(), "zero interrupts");
     }
 
     #[test]

@@ -1,8 +1,8 @@
 use nalgebra::Complex;
 use proptest::prelude::*;
 use quadtank_figure::{
-    Axis, Chart, Course, Layer, Palette, Pen, Responses, Role, RunColumns, Series, Size, Style, layout, responses,
-    table, to_svg,
+    Axis, Chart, Course, Layer, Palette, Pen, Responses, Role, RunColumns, Scale, Series, Size, Style, layout,
+    responses, table, to_svg,
 };
 use roxmltree::Document;
 
@@ -59,7 +59,7 @@ proptest! {
 
     #[test]
     fn any_axis_has_few_rising_ticks_inside(from in number(), to in number(), most in 0..20_usize) {
-        for axis in [Axis::new("", (from, to)), Axis::rounded("", (from, to), most)] {
+        for axis in [Axis::new("", (from, to)), Axis::rounded("", (from, to), most), Axis::logarithmic("", (from, to))] {
             let (min, max) = axis.span();
             prop_assert!(min.is_finite() && max.is_finite() && min < max);
             let ticks = axis.ticks(most);
@@ -96,7 +96,9 @@ proptest! {
         chart.layers.push(Layer::Region { x: y_range, y: x_range, role: Role::Loop2 });
         chart.layers.push(Layer::Upright { x: at.0, role: Role::Muted, pen: Pen::Hair });
         chart.layers.push(Layer::Level { y: at.1, role: Role::Muted, pen: Pen::Dotted });
-        check(&[chart.clone(), chart], size, scale)?;
+        let mut logarithmic = chart.clone();
+        (logarithmic.x.scale, logarithmic.y.scale) = (Scale::Logarithmic, Scale::Logarithmic);
+        check(&[chart, logarithmic], size, scale)?;
     }
 
     #[test]
