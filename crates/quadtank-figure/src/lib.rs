@@ -15,6 +15,7 @@
 //! it draws every point of a series.
 
 mod axis;
+mod cells;
 mod chart;
 mod dashes;
 mod ends;
@@ -40,7 +41,9 @@ mod tuning;
 mod valve_plane;
 
 pub use axis::{Axis, Tick};
-pub use chart::{Anchor, Chart, Course, Entry, Field, Label, Layer, Marker, Pen, Role, Sample, Series, Shape};
+pub use chart::{
+    Anchor, Cell, Cells, Chart, Course, Entry, Field, Label, Layer, Marker, Pen, Role, Sample, Series, Shape,
+};
 pub use flag::Flag;
 pub use frame::{Frame, Rect, Size, layout};
 pub use levels::{Levels, levels};

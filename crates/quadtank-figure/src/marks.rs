@@ -4,6 +4,22 @@ use super::paint::Brush;
 use super::trace::Px;
 use super::{Marker, Rgb, Shape};
 
+/// How far the disc under a mark reaches beyond it (CSS px).
+const HALO: f64 = 1.3;
+
+/// How far a mark reaches (CSS px).
+fn radius(shape: Shape) -> f64 {
+    match shape {
+        Shape::Ring => 6.0,
+        Shape::Cross => 5.0,
+        Shape::Diamond => 4.5,
+        Shape::Point => 4.4,
+        Shape::Dot => 2.0,
+        // They are large, or at the edge.
+        Shape::Handle | Shape::Arrow => 0.0,
+    }
+}
+
 impl Brush<'_> {
     pub(super) fn marker(&self, marker: &Marker) {
         let color = self.style.palette.color(marker.role);
@@ -22,6 +38,9 @@ impl Brush<'_> {
 
     pub(super) fn mark(&self, shape: Shape, (x, y): Px, color: Rgb) {
         let background = self.style.palette.background;
+        if self.has_cells {
+            self.disc((x, y), radius(shape) + HALO, background);
+        }
         match shape {
             Shape::Cross => {
                 let arm = 4.0;
@@ -38,6 +57,7 @@ impl Brush<'_> {
                 self.circle((x, y), 3.6, color, 1.5);
             }
             Shape::Arrow => self.arrow((x + 4.5, y), (x + 9.0, y), color),
+            Shape::Dot => self.disc((x, y), 2.0, color),
             Shape::Handle => {
                 self.disc((x, y), 8.0, background);
                 self.disc((x, y), 6.0, color);

@@ -9,7 +9,7 @@ use super::legend::{self, SAMPLE};
 use super::measure::{CHARACTER, FONT, LINE, TICK_GAP};
 use super::paper::{Fine, PaintError, Paper, Surface};
 use super::trace::{self, Px};
-use super::{Anchor, Axis, Chart, Frame, Label, Layer, Palette, Pen, Rect, Rgb, Sample, Size, field, layout};
+use super::{Anchor, Axis, Chart, Frame, Label, Layer, Palette, Pen, Rect, Rgb, Sample, Size, cells, field, layout};
 
 /// Fonts of the charts, as a CSS family list: those of the page, nothing to load.
 pub const FONT_FAMILY: &str = "system-ui, -apple-system, Segoe UI, Roboto, DejaVu Sans, sans-serif";
@@ -83,7 +83,8 @@ pub(super) fn paint_parts<DB: DrawingBackend>(
 ) -> Result<(), PaintError<DB>> {
     let surface = Surface::of(area);
     for (chart, frame) in charts.iter().zip(layout(charts, size)) {
-        Brush { paper: &surface, style, frame }.chart(chart, sheet, announce);
+        let has_cells = chart.layers.iter().any(|layer| matches!(layer, Layer::Cells(_)));
+        Brush { paper: &surface, style, frame, has_cells }.chart(chart, sheet, announce);
     }
     surface.outcome()
 }
@@ -110,6 +111,8 @@ pub(super) struct Brush<'a> {
     pub(super) paper: &'a dyn Paper,
     pub(super) style: &'a Style,
     pub(super) frame: Frame,
+    /// Whether marks stand on discs of background, since they may lie on any shade.
+    pub(super) has_cells: bool,
 }
 
 impl Brush<'_> {
@@ -141,6 +144,14 @@ impl Brush<'_> {
                 for patch in field::patches(field) {
                     let outline: Vec<Px> = patch.outline.iter().map(|&point| self.inside(point)).collect();
                     self.polygon(&outline, palette.shade(patch.shade));
+                }
+            }
+            Layer::Cells(cells) => {
+                for cells::Block { cell, from, to } in cells::blocks(cells, &self.frame) {
+                    self.paper.block([self.fine(from), self.fine(to)], opaque(palette.cell(cell)));
+                }
+                for line in cells::hatching(cells, &self.frame) {
+                    self.path(&line, palette.hatching(), FINE_WIDTH);
                 }
             }
             &Layer::Region { x, y, role } => {

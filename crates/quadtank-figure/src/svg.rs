@@ -262,6 +262,7 @@ type Look = Option<(Option<Role>, Option<Pen>)>;
 fn class(layer: &Layer) -> (&'static str, Look) {
     match layer {
         Layer::Field(_) => ("field", None),
+        Layer::Cells(_) => ("cells", None),
         Layer::Region { role, .. } => ("region", Some((Some(*role), None))),
         Layer::Line(series) => ("line", Some((Some(series.role), Some(series.pen)))),
         Layer::Upright { role, pen, .. } | Layer::Level { role, pen, .. } => ("rule", Some((Some(*role), Some(*pen)))),

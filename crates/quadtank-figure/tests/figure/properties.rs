@@ -1,8 +1,8 @@
 use nalgebra::Complex;
 use proptest::prelude::*;
 use quadtank_figure::{
-    Axis, Chart, Course, Layer, Palette, Pen, Responses, Role, RunColumns, Scale, Series, Size, Style, layout,
-    responses, table, to_svg,
+    Axis, Cell, Cells, Chart, Course, Layer, Palette, Pen, Responses, Role, RunColumns, Scale, Series, Size, Style,
+    layout, responses, table, to_svg,
 };
 use roxmltree::Document;
 
@@ -39,6 +39,7 @@ fn check(charts: &[Chart], size: Size, scale: u32) -> Result<(), TestCaseError> 
     for drawn in record(charts, size, &style) {
         let points = match drawn {
             Drawn::Path { points, .. } | Drawn::Polygon { points, .. } => points,
+            Drawn::Block { corners, .. } => corners.to_vec(),
             Drawn::Circle { center, .. } => vec![center],
             Drawn::Text { at, .. } => vec![at],
         };
@@ -96,6 +97,8 @@ proptest! {
         chart.layers.push(Layer::Region { x: y_range, y: x_range, role: Role::Loop2 });
         chart.layers.push(Layer::Upright { x: at.0, role: Role::Muted, pen: Pen::Hair });
         chart.layers.push(Layer::Level { y: at.1, role: Role::Muted, pen: Pen::Dotted });
+        let cells = x.iter().map(|&x| if x < 0.0 { Cell::Hatched } else { Cell::Shade(x) }).collect();
+        chart.layers.push(Layer::Cells(Cells { x: x_range, y: y_range, columns: y.len() / 4, cells }));
         let mut logarithmic = chart.clone();
         (logarithmic.x.scale, logarithmic.y.scale) = (Scale::Logarithmic, Scale::Logarithmic);
         check(&[chart, logarithmic], size, scale)?;
