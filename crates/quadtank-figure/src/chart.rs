@@ -91,6 +91,8 @@ pub enum Layer<'a> {
     Marker(Marker),
     /// A word at a point.
     Label(Label),
+    /// Words beside points, out of each other's way.
+    Names(Names),
 }
 
 impl Layer<'_> {
@@ -310,6 +312,26 @@ pub struct Label {
     pub role: Role,
     /// Whether it is bold.
     pub bold: bool,
+}
+
+/// Words beside points. Each stands where it covers the least of the words before it, of their points, and of other points.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Names {
+    /// The words.
+    pub names: Vec<Name>,
+    /// Other points that they keep off where they can.
+    pub around: Vec<(f64, f64)>,
+}
+
+/// A word beside a point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Name {
+    /// The point.
+    pub at: (f64, f64),
+    /// The text.
+    pub text: String,
+    /// Its colour.
+    pub role: Role,
 }
 
 /// Which part of a text stands at its point.

@@ -27,6 +27,7 @@ mod levels;
 mod marks;
 mod measure;
 mod model_free;
+mod names;
 mod number;
 mod paint;
 mod palette;
@@ -42,7 +43,8 @@ mod valve_plane;
 
 pub use axis::{Axis, Tick};
 pub use chart::{
-    Anchor, Cell, Cells, Chart, Course, Entry, Field, Label, Layer, Marker, Pen, Role, Sample, Series, Shape,
+    Anchor, Cell, Cells, Chart, Course, Entry, Field, Label, Layer, Marker, Name, Names, Pen, Role, Sample, Series,
+    Shape,
 };
 pub use flag::Flag;
 pub use frame::{Frame, Rect, Size, layout};

@@ -9,7 +9,9 @@ use super::legend::{self, SAMPLE};
 use super::measure::{CHARACTER, FONT, LINE, TICK_GAP};
 use super::paper::{Fine, PaintError, Paper, Surface};
 use super::trace::{self, Px};
-use super::{Anchor, Axis, Chart, Frame, Label, Layer, Palette, Pen, Rect, Rgb, Sample, Size, cells, field, layout};
+use super::{
+    Anchor, Axis, Chart, Frame, Label, Layer, Names, Palette, Pen, Rect, Rgb, Sample, Size, cells, field, layout, names,
+};
 
 /// Fonts of the charts, as a CSS family list: those of the page, nothing to load.
 pub const FONT_FAMILY: &str = "system-ui, -apple-system, Segoe UI, Roboto, DejaVu Sans, sans-serif";
@@ -174,6 +176,7 @@ impl Brush<'_> {
             }
             Layer::Marker(marker) => self.marker(marker),
             Layer::Label(label) => self.label(label),
+            Layer::Names(names) => self.names(names),
         }
     }
 
@@ -219,6 +222,20 @@ impl Brush<'_> {
         let font = if label.bold { FontStyle::Bold } else { FontStyle::Normal };
         let text = Text { words: &label.text, color: self.style.palette.color(label.role), font, h_pos, turned: false };
         self.text(&text, (x, y + label.offset.1));
+    }
+
+    fn names(&self, names: &Names) {
+        let placed = names::placed(names, &self.frame);
+        let name = |index: usize| (&names.names[index].text, self.style.palette.color(names.names[index].role));
+        for (color, leader) in placed.iter().filter_map(|p| Some((name(p.index).1, p.leader?))) {
+            self.path(&leader, color, width(Pen::Hair));
+        }
+        for names::Placed { index, place, .. } in placed {
+            let (words, color) = name(index);
+            let (font, h_pos) = (FontStyle::Normal, HPos::Center);
+            let at = (place.left + place.width / 2.0, place.top + place.height / 2.0);
+            self.text(&Text { words, color, font, h_pos, turned: false }, at);
+        }
     }
 
     fn axes(&self, chart: &Chart) {

@@ -267,6 +267,7 @@ fn class(layer: &Layer) -> (&'static str, Look) {
         Layer::Line(series) => ("line", Some((Some(series.role), Some(series.pen)))),
         Layer::Upright { role, pen, .. } | Layer::Level { role, pen, .. } => ("rule", Some((Some(*role), Some(*pen)))),
         Layer::Marker(marker) => ("marker", Some((Some(marker.role), None))),
+        Layer::Names(_) => ("names", None),
         Layer::Label(label) => ("label", Some((Some(label.role), None))),
     }
 }

@@ -1,8 +1,8 @@
 use nalgebra::Complex;
 use proptest::prelude::*;
 use quadtank_figure::{
-    Axis, Cell, Cells, Chart, Course, Layer, Palette, Pen, Responses, Role, RunColumns, Scale, Series, Size, Style,
-    layout, responses, table, to_svg,
+    Axis, Cell, Cells, Chart, Course, Layer, Name, Names, Palette, Pen, Responses, Role, RunColumns, Scale, Series,
+    Size, Style, layout, responses, table, to_svg,
 };
 use roxmltree::Document;
 
@@ -99,6 +99,9 @@ proptest! {
         chart.layers.push(Layer::Level { y: at.1, role: Role::Muted, pen: Pen::Dotted });
         let cells = x.iter().map(|&x| if x < 0.0 { Cell::Hatched } else { Cell::Shade(x) }).collect();
         chart.layers.push(Layer::Cells(Cells { x: x_range, y: y_range, columns: y.len() / 4, cells }));
+        let name = |(&x, &y)| Name { at: (x, y), text: "name".to_owned(), role: Role::Neutral };
+        let names = x.iter().zip(&y).map(name).collect();
+        chart.layers.push(Layer::Names(Names { names, around: vec![at] }));
         let mut logarithmic = chart.clone();
         (logarithmic.x.scale, logarithmic.y.scale) = (Scale::Logarithmic, Scale::Logarithmic);
         check(&[chart, logarithmic], size, scale)?;
