@@ -33,6 +33,7 @@ mod paint;
 mod palette;
 mod paper;
 mod pole_zero;
+mod range;
 mod responses;
 mod scale;
 mod svg;
