@@ -332,6 +332,8 @@ pub struct Name {
     pub text: String,
     /// Its colour.
     pub role: Role,
+    /// Whether it is bold.
+    pub bold: bool,
 }
 
 /// Which part of a text stands at its point.

@@ -1,6 +1,6 @@
 //! Where words stand beside their points: on the side where they cover the least.
 
-use super::measure::{CHARACTER, LINE};
+use super::measure::{BOLD, CHARACTER, LINE};
 use super::trace::Px;
 use super::{Frame, Names, Rect};
 
@@ -46,7 +46,7 @@ pub(super) fn placed(names: &Names, frame: &Frame) -> Vec<Placed> {
     let mut taken: Vec<Placed> = Vec::new();
     for (index, name) in names.names.iter().enumerate() {
         let Some(point) = px(name.at).filter(|_| !name.text.is_empty()) else { continue };
-        let length = name.text.chars().count() as f64 * CHARACTER;
+        let length = name.text.chars().count() as f64 * if name.bold { BOLD } else { CHARACTER };
         let weight = |place: &Rect| {
             let on_words = taken.iter().map(|other| common(place, &other.place)).sum::<f64>();
             let on_points = marks.iter().map(|mark| common(place, mark)).sum::<f64>();
@@ -120,7 +120,7 @@ mod tests {
     }
 
     fn names(points: &[(f64, f64)], around: &[(f64, f64)]) -> Names {
-        let name = |&at| Name { at, text: "a published rule".to_owned(), role: Role::Neutral };
+        let name = |&at| Name { at, text: "a published rule".to_owned(), role: Role::Neutral, bold: false };
         Names { names: points.iter().map(name).collect(), around: around.to_vec() }
     }
 

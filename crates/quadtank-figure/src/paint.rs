@@ -6,7 +6,7 @@ use plotters::style::{FontDesc, FontFamily, FontStyle, FontTransform, RGBAColor,
 use super::dashes::dashes;
 use super::frame::tick_counts;
 use super::legend::{self, SAMPLE};
-use super::measure::{CHARACTER, FONT, LINE, TICK_GAP};
+use super::measure::{BOLD, CHARACTER, FONT, LINE, TICK_GAP};
 use super::paper::{Fine, PaintError, Paper, Surface};
 use super::trace::{self, Px};
 use super::{
@@ -211,7 +211,7 @@ impl Brush<'_> {
 
     fn label(&self, label: &Label) {
         let (x, y) = self.inside(label.at);
-        let length = label.text.chars().count() as f64 * if label.bold { CHARACTER * 1.25 } else { CHARACTER };
+        let length = label.text.chars().count() as f64 * if label.bold { BOLD } else { CHARACTER };
         let (h_pos, behind, ahead) = match label.anchor {
             Anchor::Left => (HPos::Left, 0.0, length),
             Anchor::Middle => (HPos::Center, length / 2.0, length / 2.0),
@@ -226,13 +226,14 @@ impl Brush<'_> {
 
     fn names(&self, names: &Names) {
         let placed = names::placed(names, &self.frame);
-        let name = |index: usize| (&names.names[index].text, self.style.palette.color(names.names[index].role));
-        for (color, leader) in placed.iter().filter_map(|p| Some((name(p.index).1, p.leader?))) {
-            self.path(&leader, color, width(Pen::Hair));
+        let color = |index: usize| self.style.palette.color(names.names[index].role);
+        for (index, leader) in placed.iter().filter_map(|placed| Some((placed.index, placed.leader?))) {
+            self.path(&leader, color(index), width(Pen::Hair));
         }
         for names::Placed { index, place, .. } in placed {
-            let (words, color) = name(index);
-            let (font, h_pos) = (FontStyle::Normal, HPos::Center);
+            let name = &names.names[index];
+            let (words, color, h_pos) = (&name.text, color(index), HPos::Center);
+            let font = if name.bold { FontStyle::Bold } else { FontStyle::Normal };
             let at = (place.left + place.width / 2.0, place.top + place.height / 2.0);
             self.text(&Text { words, color, font, h_pos, turned: false }, at);
         }

@@ -99,7 +99,7 @@ proptest! {
         chart.layers.push(Layer::Level { y: at.1, role: Role::Muted, pen: Pen::Dotted });
         let cells = x.iter().map(|&x| if x < 0.0 { Cell::Hatched } else { Cell::Shade(x) }).collect();
         chart.layers.push(Layer::Cells(Cells { x: x_range, y: y_range, columns: y.len() / 4, cells }));
-        let name = |(&x, &y)| Name { at: (x, y), text: "name".to_owned(), role: Role::Neutral };
+        let name = |(&x, &y)| Name { at: (x, y), text: "name".to_owned(), role: Role::Neutral, bold: true };
         let names = x.iter().zip(&y).map(name).collect();
         chart.layers.push(Layer::Names(Names { names, around: vec![at] }));
         let mut logarithmic = chart.clone();
