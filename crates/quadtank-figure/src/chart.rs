@@ -93,6 +93,8 @@ pub enum Layer<'a> {
     Label(Label),
     /// Words beside points, out of each other's way.
     Names(Names),
+    /// Words of a letter or two in the margin to the right, each at the height of its point and apart from the others.
+    Ends(Vec<Name>),
 }
 
 impl Layer<'_> {

@@ -1,15 +1,19 @@
 //! Where words stand beside their points: on the side where they cover the least.
 
+use plotters::style::text_anchor::HPos;
+
 use super::measure::{BOLD, CHARACTER, LINE};
 use super::trace::Px;
-use super::{Frame, Names, Rect};
+use super::{Frame, Name, Names, Rect};
 
 /// Height of a word (CSS px).
 const HEIGHT: f64 = LINE - 2.0;
 /// Half of the square around a point that words keep off (CSS px).
 const MARK: f64 = 6.0;
-/// Gap between a point and its word (CSS px).
-const BESIDE: f64 = 9.0;
+/// The same for the arrow of a point beyond the edge.
+const ARROW: f64 = 10.0;
+/// Gap between these and the word (CSS px).
+const GAP: f64 = 3.0;
 /// The sides of a point, best first.
 const SIDES: [Px; 8] =
     [(1.0, 0.0), (-1.0, 0.0), (0.0, -1.0), (0.0, 1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, -1.0), (-1.0, 1.0)];
@@ -23,12 +27,13 @@ const PREFERENCE: f64 = 4.0;
 const FAR: f64 = 60.0;
 
 /// A word with its place.
-#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Placed {
     /// Which of the names.
     pub index: usize,
     /// Its box (CSS px).
     pub place: Rect,
+    /// Which part of it is next to the point: there it begins or ends exactly.
+    pub h_pos: HPos,
     /// From the point to the word, if that is far away.
     pub leader: Option<[Px; 2]>,
 }
@@ -36,51 +41,66 @@ pub(super) struct Placed {
 /// Places for all names whose points can be shown, in their order.
 pub(super) fn placed(names: &Names, frame: &Frame) -> Vec<Placed> {
     let plot = frame.plot;
-    let px = |at: (f64, f64)| {
+    // A point beyond the edge has an arrow there, which is larger than a mark.
+    let spot = |at: (f64, f64)| {
         let (x, y) = frame.to_px(at);
         let is_shown = !x.is_nan() && !y.is_nan();
-        is_shown.then(|| (x.clamp(plot.left, plot.right()), y.clamp(plot.top, plot.bottom())))
+        let radius = if plot.contains((x, y)) { MARK } else { ARROW };
+        is_shown.then(|| ((x.clamp(plot.left, plot.right()), y.clamp(plot.top, plot.bottom())), radius))
     };
-    let marks: Vec<Rect> =
-        names.names.iter().map(|name| name.at).chain(names.around.iter().copied()).filter_map(px).map(mark).collect();
+    let points = names.names.iter().map(|name| name.at).chain(names.around.iter().copied());
+    let marks: Vec<Rect> = points.filter_map(spot).map(mark).collect();
     let mut taken: Vec<Placed> = Vec::new();
     for (index, name) in names.names.iter().enumerate() {
-        let Some(point) = px(name.at).filter(|_| !name.text.is_empty()) else { continue };
-        let length = name.text.chars().count() as f64 * if name.bold { BOLD } else { CHARACTER };
+        let Some((point, radius)) = spot(name.at).filter(|_| !name.text.is_empty()) else { continue };
         let weight = |place: &Rect| {
             let on_words = taken.iter().map(|other| common(place, &other.place)).sum::<f64>();
             let on_points = marks.iter().map(|mark| common(place, mark)).sum::<f64>();
             ON_WORD * on_words + ON_POINT * on_points
         };
-        let places = places(point, length).enumerate().map(|(rank, (place, is_far))| {
+        let places = places(point, radius + GAP, length(name)).enumerate().map(|(rank, (place, h_pos, is_far))| {
             let place = moved_into(&plot, place);
             let far = if is_far { FAR } else { 0.0 };
-            (weight(&place) + PREFERENCE * rank as f64 + far, is_far, place)
+            (weight(&place) + PREFERENCE * rank as f64 + far, h_pos, is_far, place)
         });
-        if let Some((_, is_far, place)) = places.min_by(|a, b| a.0.total_cmp(&b.0)) {
+        if let Some((_, h_pos, is_far, place)) = places.min_by(|a, b| a.0.total_cmp(&b.0)) {
             let leader = is_far.then(|| [point, nearest(&place, point)]);
-            taken.push(Placed { index, place, leader });
+            taken.push(Placed { index, place, h_pos, leader });
         }
     }
     taken
 }
 
-fn mark((x, y): Px) -> Rect {
-    Rect { left: x - MARK, top: y - MARK, width: 2.0 * MARK, height: 2.0 * MARK }
+fn mark(((x, y), radius): (Px, f64)) -> Rect {
+    Rect { left: x - radius, top: y - radius, width: 2.0 * radius, height: 2.0 * radius }
 }
 
-/// Boxes for a word, best first, and whether they are so far out that a line has to lead there.
-fn places(point: Px, length: f64) -> impl Iterator<Item = (Rect, bool)> {
+/// Width of a word, on the wide side.
+fn length(name: &Name) -> f64 {
+    let width = |letter: char| if name.bold || letter.is_uppercase() { BOLD } else { CHARACTER };
+    name.text.chars().map(width).sum()
+}
+
+/// Boxes for a word, best first, each with the part that is next to the point, and whether it is so far out that a line has to lead
+/// there.
+fn places(point: Px, gap: f64, length: f64) -> impl Iterator<Item = (Rect, HPos, bool)> {
     // Diagonally the gap is that of both directions together.
-    let gap =
-        |(right, down): Px| if right != 0.0 && down != 0.0 { (0.8 * BESIDE, 0.4 * BESIDE) } else { (BESIDE, BESIDE) };
-    let near = SIDES.into_iter().map(move |side| (beside(point, side, gap(side), length), false));
+    let gaps = move |(right, down): Px| if right != 0.0 && down != 0.0 { (0.8 * gap, 0.4 * gap) } else { (gap, gap) };
+    let near = SIDES.into_iter().map(move |side| (beside(point, side, gaps(side), length), next_to(side), false));
     let rows = (2..=ROWS).flat_map(|row| [(1.0, -1.0), (1.0, 1.0), (-1.0, -1.0), (-1.0, 1.0)].map(|side| (row, side)));
     let far = rows.map(move |(row, side)| {
-        let down = (row as f64 - 1.0) * HEIGHT + 0.4 * BESIDE;
-        (beside(point, side, (1.5 * BESIDE, down), length), true)
+        let down = (row as f64 - 1.0) * HEIGHT + 0.4 * gap;
+        (beside(point, side, (1.5 * gap, down), length), next_to(side), true)
     });
     near.chain(far)
+}
+
+fn next_to((right, _): Px) -> HPos {
+    match right {
+        right if right > 0.0 => HPos::Left,
+        right if right < 0.0 => HPos::Right,
+        _ => HPos::Center,
+    }
 }
 
 /// The box of a word on one side of a point.
@@ -129,9 +149,9 @@ mod tests {
         let frame = frame();
         let point = frame.to_px((0.3, 0.5));
         let place = placed(&names(&[(0.3, 0.5)], &[]), &frame)[0].place;
-        assert!((place.left - point.0 - BESIDE).abs() < 1e-9 && (place.top + HEIGHT / 2.0 - point.1).abs() < 1e-9);
+        assert!((place.left - point.0 - MARK - GAP).abs() < 1e-9 && (place.top + HEIGHT / 2.0 - point.1).abs() < 1e-9);
         let place = placed(&names(&[(0.98, 0.5)], &[]), &frame)[0].place;
-        assert!((place.right() - frame.to_px((0.98, 0.5)).0 + BESIDE).abs() < 1e-9, "to the left at the edge");
+        assert!((place.right() - frame.to_px((0.98, 0.5)).0 + MARK + GAP).abs() < 1e-9, "to the left at the edge");
         let place = placed(&names(&[(0.3, 0.5)], &[(0.4, 0.5), (0.2, 0.5)]), &frame)[0].place;
         assert!(place.bottom() < point.1, "above between two marks");
     }

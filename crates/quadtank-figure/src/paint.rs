@@ -10,7 +10,8 @@ use super::measure::{BOLD, CHARACTER, FONT, LINE, TICK_GAP};
 use super::paper::{Fine, PaintError, Paper, Surface};
 use super::trace::{self, Px};
 use super::{
-    Anchor, Axis, Chart, Frame, Label, Layer, Names, Palette, Pen, Rect, Rgb, Sample, Size, cells, field, layout, names,
+    Anchor, Axis, Chart, Frame, Label, Layer, Name, Names, Palette, Pen, Rect, Rgb, Sample, Size, cells, ends, field,
+    layout, names,
 };
 
 /// Fonts of the charts, as a CSS family list: those of the page, nothing to load.
@@ -177,6 +178,7 @@ impl Brush<'_> {
             Layer::Marker(marker) => self.marker(marker),
             Layer::Label(label) => self.label(label),
             Layer::Names(names) => self.names(names),
+            Layer::Ends(names) => self.ends(names),
         }
     }
 
@@ -230,13 +232,28 @@ impl Brush<'_> {
         for (index, leader) in placed.iter().filter_map(|placed| Some((placed.index, placed.leader?))) {
             self.path(&leader, color(index), width(Pen::Hair));
         }
-        for names::Placed { index, place, .. } in placed {
-            let name = &names.names[index];
-            let (words, color, h_pos) = (&name.text, color(index), HPos::Center);
-            let font = if name.bold { FontStyle::Bold } else { FontStyle::Normal };
-            let at = (place.left + place.width / 2.0, place.top + place.height / 2.0);
-            self.text(&Text { words, color, font, h_pos, turned: false }, at);
+        for names::Placed { index, place, h_pos, .. } in placed {
+            let x = match h_pos {
+                HPos::Left => place.left,
+                HPos::Center => place.left + place.width / 2.0,
+                HPos::Right => place.right(),
+            };
+            self.name(&names.names[index], h_pos, (x, place.top + place.height / 2.0));
         }
+    }
+
+    fn ends(&self, names: &[Name]) {
+        let plot = &self.frame.plot;
+        let heights: Vec<f64> = names.iter().map(|name| self.inside(name.at).1).collect();
+        for (name, height) in names.iter().zip(ends::apart(&heights, (plot.top, plot.bottom()))) {
+            self.name(name, HPos::Left, (plot.right() + TICK_GAP - 2.0, height));
+        }
+    }
+
+    fn name(&self, name: &Name, h_pos: HPos, at: Px) {
+        let font = if name.bold { FontStyle::Bold } else { FontStyle::Normal };
+        let color = self.style.palette.color(name.role);
+        self.text(&Text { words: &name.text, color, font, h_pos, turned: false }, at);
     }
 
     fn axes(&self, chart: &Chart) {

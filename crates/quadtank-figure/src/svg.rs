@@ -280,6 +280,7 @@ fn class(layer: &Layer) -> (&'static str, Look) {
         Layer::Upright { role, pen, .. } | Layer::Level { role, pen, .. } => ("rule", Some((Some(*role), Some(*pen)))),
         Layer::Marker(marker) => ("marker", Some((Some(marker.role), None))),
         Layer::Names(_) => ("names", None),
+        Layer::Ends(_) => ("ends", None),
         Layer::Label(label) => ("label", Some((Some(label.role), None))),
     }
 }

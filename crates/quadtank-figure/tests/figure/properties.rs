@@ -10,7 +10,7 @@ use crate::fixture::{Run, plane, response_spec, s_plane};
 use crate::recorder::{Drawn, record};
 
 /// Any number, with the awkward ones more often than chance has them.
-fn number() -> impl Strategy<Value = f64> {
+pub fn number() -> impl Strategy<Value = f64> {
     prop_oneof![
         4 => -20.0..20.0,
         1 => any::<f64>(),
@@ -21,13 +21,13 @@ fn number() -> impl Strategy<Value = f64> {
     ]
 }
 
-fn size() -> impl Strategy<Value = Size> {
+pub fn size() -> impl Strategy<Value = Size> {
     let side = prop_oneof![3 => 0.0..1500.0, 1 => number()];
     (side.clone(), side).prop_map(|(width, height)| Size { width, height })
 }
 
 /// Paints and checks what reached the backend.
-fn check(charts: &[Chart], size: Size, scale: u32) -> Result<(), TestCaseError> {
+pub fn check(charts: &[Chart], size: Size, scale: u32) -> Result<(), TestCaseError> {
     let style = Style { palette: Palette::DARK, decimal: ',', scale };
     let frames = layout(charts, size);
     prop_assert_eq!(frames.len(), charts.len());
@@ -100,7 +100,8 @@ proptest! {
         let cells = x.iter().map(|&x| if x < 0.0 { Cell::Hatched } else { Cell::Shade(x) }).collect();
         chart.layers.push(Layer::Cells(Cells { x: x_range, y: y_range, columns: y.len() / 4, cells }));
         let name = |(&x, &y)| Name { at: (x, y), text: "name".to_owned(), role: Role::Neutral, bold: true };
-        let names = x.iter().zip(&y).map(name).collect();
+        let names: Vec<Name> = x.iter().zip(&y).map(name).collect();
+        chart.layers.push(Layer::Ends(names.clone()));
         chart.layers.push(Layer::Names(Names { names, around: vec![at] }));
         let mut logarithmic = chart.clone();
         (logarithmic.x.scale, logarithmic.y.scale) = (Scale::Logarithmic, Scale::Logarithmic);
