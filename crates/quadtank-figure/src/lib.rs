@@ -23,6 +23,7 @@ mod field;
 mod flag;
 mod frame;
 mod legend;
+mod level_loop;
 mod levels;
 mod marks;
 mod measure;
@@ -49,6 +50,10 @@ pub use chart::{
 };
 pub use flag::Flag;
 pub use frame::{Frame, Rect, Size, layout};
+pub use level_loop::{
+    CostCell, CostMapChart, LevelLoopCharts, LevelLoopTexts, LevelRunColumns, NamedPoint, StaticCurve, StepTestCharts,
+    StepTestTexts, TradeOffChart, cost_map, level_loop, static_curve, step_test, trade_off,
+};
 pub use levels::{Levels, levels};
 pub use model_free::{ModelFreeCourse, ModelFreeTexts, model_free_course};
 pub use number::signed;
