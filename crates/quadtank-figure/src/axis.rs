@@ -1,9 +1,11 @@
 use std::iter;
 
+use super::scale::{self, Scale};
+
 /// Largest magnitude an axis shows; keeps every later product finite.
-const LARGEST: f64 = 1e100;
+pub(super) const LARGEST: f64 = 1e100;
 /// Smallest span of an axis relative to its values; below it, neighbouring ticks would not differ as `f64`.
-const SMALLEST_RELATIVE_SPAN: f64 = 1e-9;
+pub(super) const SMALLEST_RELATIVE_SPAN: f64 = 1e-9;
 /// Whole numbers with more digits than this, and fractions with more decimals, are written with a power of ten.
 const MOST_DIGITS: i32 = 6;
 
@@ -16,12 +18,19 @@ pub struct Axis {
     pub range: (f64, f64),
     /// Whether the ticks carry numbers; off where the chart below shows the same axis.
     pub numbered: bool,
+    /// How values are spread between its ends.
+    pub scale: Scale,
 }
 
 impl Axis {
     /// An axis with exactly this range.
     pub fn new(label: impl Into<String>, range: (f64, f64)) -> Self {
-        Self { label: label.into(), range, numbered: true }
+        Self { label: label.into(), range, numbered: true, scale: Scale::Linear }
+    }
+
+    /// A logarithmic axis with exactly this range.
+    pub fn logarithmic(label: impl Into<String>, range: (f64, f64)) -> Self {
+        Self { scale: Scale::Logarithmic, ..Self::new(label, range) }
     }
 
     /// An axis whose range is widened to whole ticks, about `ticks` of them.
@@ -31,29 +40,41 @@ impl Axis {
         Self::new(label, (step.value(step.floor(min)), step.value(step.ceil(max))))
     }
 
-    /// The range, made usable: rising, finite, and wide enough to tell values apart.
+    /// The range, made usable: rising, finite, wide enough to tell values apart, and positive on a logarithmic axis.
     pub fn span(&self) -> (f64, f64) {
-        sane(self.range)
+        match self.scale {
+            Scale::Linear => sane(self.range),
+            Scale::Logarithmic => scale::sane(self.range),
+        }
     }
 
-    /// At most `most` + 1 ticks at 1, 2 or 5 times a power of ten, inside the range.
+    /// At most `most` + 1 ticks inside the range: at equal distances of 1, 2 or 5 times a power of ten, or on a logarithmic axis at 1, 2 and 5
+    /// times powers of ten.
     pub fn ticks(&self, most: usize) -> Vec<Tick> {
-        let (min, max) = self.span();
-        let step = Step::for_span(max - min, most);
-        let (first, last) = (step.ceil(min), step.floor(max));
-        let mut count = first;
-        iter::from_fn(|| {
-            let tick = (count <= last).then(|| Tick {
-                value: step.value(count),
-                digits: count * step.mantissa,
-                exponent: step.exponent,
-            });
-            count += 1;
-            tick
-        })
-        .take(most + 1)
-        .collect()
+        match self.scale {
+            Scale::Linear => linear_ticks(self.span(), most),
+            Scale::Logarithmic => scale::ticks(self.span(), most),
+        }
     }
+}
+
+/// The ticks of a linear axis with a usable range.
+pub(super) fn linear_ticks((min, max): (f64, f64), most: usize) -> Vec<Tick> {
+    let step = Step::for_span(max - min, most);
+    let (first, last) = (step.ceil(min), step.floor(max));
+    let mut count = first;
+    iter::from_fn(|| {
+        let tick = (count <= last).then(|| Tick {
+            value: step.value(count),
+            digits: count * step.mantissa,
+            exponent: step.exponent,
+            most_digits: MOST_DIGITS,
+        });
+        count += 1;
+        tick
+    })
+    .take(most + 1)
+    .collect()
 }
 
 /// A tick: its value, and the same as `digits × 10^exponent`, so that it is written without rounding.
@@ -63,9 +84,15 @@ pub struct Tick {
     pub value: f64,
     digits: i64,
     exponent: i32,
+    most_digits: i32,
 }
 
 impl Tick {
+    /// The tick at `mantissa × 10^exponent`, written with a power of ten if it has more digits or decimals than `most_digits`.
+    pub(super) fn new(mantissa: i64, exponent: i32, most_digits: i32) -> Self {
+        Self { value: Step { mantissa, exponent }.value(1), digits: mantissa, exponent, most_digits }
+    }
+
     /// The number as shown, with the decimal separator of the reader's language and a true minus sign.
     pub fn text(&self, decimal: char) -> String {
         let sign = if self.digits < 0 { "−" } else { "" };
@@ -73,7 +100,7 @@ impl Tick {
         let whole_digits = i32::try_from(magnitude.len()).unwrap_or(i32::MAX).saturating_add(self.exponent);
         let body = if self.digits == 0 {
             magnitude
-        } else if self.exponent < -MOST_DIGITS || whole_digits > MOST_DIGITS {
+        } else if self.exponent < -self.most_digits || whole_digits > self.most_digits {
             powered(&magnitude, whole_digits - 1, decimal)
         } else if let Ok(zeros) = usize::try_from(self.exponent) {
             magnitude + &"0".repeat(zeros)

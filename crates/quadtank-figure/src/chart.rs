@@ -56,6 +56,8 @@ impl<'a> Chart<'a> {
 pub enum Layer<'a> {
     /// Smooth shading of the whole plane.
     Field(Field),
+    /// Shading cell by cell.
+    Cells(Cells),
     /// A rectangle in a pale shade of its role; bounds may be infinite, so half-planes and bands are regions too.
     Region {
         /// Left and right bound.
@@ -89,12 +91,16 @@ pub enum Layer<'a> {
     Marker(Marker),
     /// A word at a point.
     Label(Label),
+    /// Words beside points, out of each other's way.
+    Names(Names),
+    /// Words of a letter or two in the margin to the right, each at the height of its point and apart from the others.
+    Ends(Vec<Name>),
 }
 
 impl Layer<'_> {
     /// Whether it is a shade, which lies under the grid.
     pub(super) fn is_shade(&self) -> bool {
-        matches!(self, Self::Field(_) | Self::Region { .. })
+        matches!(self, Self::Field(_) | Self::Cells(_) | Self::Region { .. })
     }
 
     /// Whether it stays while other things move: shades, and what was.
@@ -106,6 +112,7 @@ impl Layer<'_> {
     fn ground(&self) -> Option<Layer<'static>> {
         match self {
             Self::Field(field) => Some(Layer::Field(field.clone())),
+            Self::Cells(cells) => Some(Layer::Cells(cells.clone())),
             &Self::Region { x, y, role } => Some(Layer::Region { x, y, role }),
             Self::Line(series) if self.is_ground() => Some(Layer::Line(series.detached())),
             _ => None,
@@ -236,6 +243,30 @@ pub struct Field {
     pub shades: Vec<f64>,
 }
 
+/// A grid of shaded cells around nodes. These are evenly spaced as the axes are drawn: in the logarithm, if an axis is logarithmic.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cells {
+    /// First and last node of a row.
+    pub x: (f64, f64),
+    /// First and last node of a column.
+    pub y: (f64, f64),
+    /// Cells in a row.
+    pub columns: usize,
+    /// The cells, row by row from below.
+    pub cells: Vec<Cell>,
+}
+
+/// How a cell is filled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cell {
+    /// Not at all.
+    Empty,
+    /// By a shade between 0, pale, and 1, deep.
+    Shade(f64),
+    /// By the pale warm colour, hatched: what is ruled out.
+    Hatched,
+}
+
 /// A mark at a point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Marker {
@@ -260,6 +291,8 @@ pub enum Shape {
     Diamond,
     /// A small ring with the background inside (published points).
     Point,
+    /// A small disc (one of many).
+    Dot,
     /// A large disc that can be dragged.
     Handle,
     /// ▸ (something outside the plot).
@@ -275,6 +308,28 @@ pub struct Label {
     pub offset: (f64, f64),
     /// Which side of the text is there.
     pub anchor: Anchor,
+    /// The text.
+    pub text: String,
+    /// Its colour.
+    pub role: Role,
+    /// Whether it is bold.
+    pub bold: bool,
+}
+
+/// Words beside points. Each stands where it covers the least of the words before it, of their points, and of other points.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Names {
+    /// The words.
+    pub names: Vec<Name>,
+    /// Other points that they keep off where they can.
+    pub around: Vec<(f64, f64)>,
+}
+
+/// A word beside a point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Name {
+    /// The point.
+    pub at: (f64, f64),
     /// The text.
     pub text: String,
     /// Its colour.

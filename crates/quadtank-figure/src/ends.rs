@@ -40,3 +40,37 @@ pub fn names<'a>(ends: &Ends) -> impl Iterator<Item = Layer<'a>> {
     };
     [label(0), label(1)].into_iter().flatten()
 }
+
+/// Least distance of words above each other in the margin (CSS px).
+const APART: f64 = 11.0;
+
+/// Heights for words in the margin at these heights (CSS px): as near as they can be, apart from each other and between `top` and
+/// `bottom` where they fit.
+pub fn apart(heights: &[f64], (top, bottom): (f64, f64)) -> Vec<f64> {
+    let mut order: Vec<usize> = (0..heights.len()).collect();
+    order.sort_by(|&a, &b| heights[a].total_cmp(&heights[b]));
+    let mut placed = heights.to_vec();
+    let mut least = f64::NEG_INFINITY;
+    for &index in &order {
+        placed[index] = placed[index].max(least).max(top);
+        least = placed[index] + APART;
+    }
+    let mut most = bottom;
+    for &index in order.iter().rev() {
+        placed[index] = placed[index].min(most);
+        most = placed[index] - APART;
+    }
+    placed
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_in_the_margin_stay_apart_and_inside() {
+        assert_eq!(apart(&[50.0, 20.0], (0.0, 100.0)), [50.0, 20.0]);
+        assert_eq!(apart(&[50.0, 48.0, 49.0], (0.0, 100.0)), [70.0, 48.0, 59.0]);
+        assert_eq!(apart(&[99.0, 100.0, 100.0], (0.0, 100.0)), [78.0, 89.0, 100.0]);
+    }
+}

@@ -1,5 +1,5 @@
 use super::measure::{DIGIT, LEAST_CHARACTERS, LINE, MOST_TICKS, NUMBER_GAP, RIGHT, TICK_DISTANCE, TICK_GAP, TOP};
-use super::{Axis, Chart, legend};
+use super::{Axis, Chart, Scale, legend};
 
 /// Longest side that is painted (CSS px); keeps finely divided pixels inside `i32`.
 const LONGEST_SIDE: f64 = 20_000.0;
@@ -64,17 +64,26 @@ pub struct Frame {
     pub x: (f64, f64),
     /// Values at the lower and upper edge of the plot.
     pub y: (f64, f64),
+    /// How values are spread between the left and the right edge.
+    pub x_scale: Scale,
+    /// The same between the lower and the upper edge.
+    pub y_scale: Scale,
 }
 
 impl Frame {
+    /// A frame whose axes are linear.
+    pub const fn linear(outer: Rect, plot: Rect, x: (f64, f64), y: (f64, f64)) -> Self {
+        Self { outer, plot, x, y, x_scale: Scale::Linear, y_scale: Scale::Linear }
+    }
+
     /// Pixel (CSS px, from the left edge of the figure) of a value on the x axis.
     pub fn x_px(&self, x: f64) -> f64 {
-        self.plot.left + (x - self.x.0) / (self.x.1 - self.x.0) * self.plot.width
+        self.plot.left + self.x_scale.share(self.x, x) * self.plot.width
     }
 
     /// Pixel (CSS px, from the upper edge of the figure) of a value on the y axis.
     pub fn y_px(&self, y: f64) -> f64 {
-        self.plot.bottom() - (y - self.y.0) / (self.y.1 - self.y.0) * self.plot.height
+        self.plot.bottom() - self.y_scale.share(self.y, y) * self.plot.height
     }
 
     /// Pixel of a point of the data.
@@ -85,8 +94,8 @@ impl Frame {
     /// The point of the data under a pixel; outside the plot it goes on.
     pub fn to_data(&self, (x, y): (f64, f64)) -> (f64, f64) {
         (
-            self.x.0 + (x - self.plot.left) / self.plot.width * (self.x.1 - self.x.0),
-            self.y.0 + (self.plot.bottom() - y) / self.plot.height * (self.y.1 - self.y.0),
+            self.x_scale.value(self.x, (x - self.plot.left) / self.plot.width),
+            self.y_scale.value(self.y, (self.plot.bottom() - y) / self.plot.height),
         )
     }
 }
@@ -157,5 +166,6 @@ fn frame(chart: &Chart, outer: Rect, left: f64) -> Frame {
         height: height.floor().max(1.0),
     };
     let outer = Rect { left: outer.left + indent, width: outer.width - indent, ..outer };
-    Frame { outer, plot, x: chart.x.span(), y: chart.y.span() }
+    let (x_scale, y_scale) = (chart.x.scale, chart.y.scale);
+    Frame { outer, plot, x: chart.x.span(), y: chart.y.span(), x_scale, y_scale }
 }

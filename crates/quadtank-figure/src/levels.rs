@@ -2,7 +2,8 @@ use super::axis::Axis;
 use super::chart::{Chart, Course, Layer, Pen, Role, Series};
 use super::ends::{Ends, names};
 use super::flag::{Flag, flags};
-use super::responses::{RunColumns, extent, join};
+use super::range::{extent, join};
+use super::responses::RunColumns;
 
 /// Room above and below the curves, as a share of their range: enough for the words at them.
 const ROOM: f64 = 0.08;

@@ -15,21 +15,28 @@
 //! it draws every point of a series.
 
 mod axis;
+mod cells;
 mod chart;
+mod dashes;
 mod ends;
 mod field;
 mod flag;
 mod frame;
 mod legend;
+mod level_loop;
 mod levels;
+mod marks;
 mod measure;
 mod model_free;
+mod names;
 mod number;
 mod paint;
 mod palette;
 mod paper;
 mod pole_zero;
+mod range;
 mod responses;
+mod scale;
 mod svg;
 mod table;
 mod trace;
@@ -37,9 +44,16 @@ mod tuning;
 mod valve_plane;
 
 pub use axis::{Axis, Tick};
-pub use chart::{Anchor, Chart, Course, Entry, Field, Label, Layer, Marker, Pen, Role, Sample, Series, Shape};
+pub use chart::{
+    Anchor, Cell, Cells, Chart, Course, Entry, Field, Label, Layer, Marker, Name, Names, Pen, Role, Sample, Series,
+    Shape,
+};
 pub use flag::Flag;
 pub use frame::{Frame, Rect, Size, layout};
+pub use level_loop::{
+    CostCell, CostMapChart, LevelLoopCharts, LevelLoopTexts, LevelRunColumns, NamedPoint, StaticCurve, StepTestCharts,
+    StepTestTexts, TradeOffChart, cost_map, level_loop, static_curve, step_test, trade_off,
+};
 pub use levels::{Levels, levels};
 pub use model_free::{ModelFreeCourse, ModelFreeTexts, model_free_course};
 pub use number::signed;
@@ -48,6 +62,7 @@ pub use palette::{Palette, Rgb};
 pub use paper::PaintError;
 pub use pole_zero::{PoleZero, PoleZeroTexts, pole_zero};
 pub use responses::{ResponseTexts, Responses, RunColumns, responses};
+pub use scale::Scale;
 pub use svg::{escape, to_svg};
 pub use table::{Summary, Table, table};
 pub use tuning::{

@@ -6,6 +6,8 @@ pub const FONT: f64 = 11.0;
 pub const DIGIT: f64 = 6.4;
 /// Width of a character of running text at that size, on the wide side.
 pub const CHARACTER: f64 = 6.0;
+/// The same in bold.
+pub const BOLD: f64 = 7.5;
 /// Space between the plot and its tick numbers.
 pub const TICK_GAP: f64 = 6.0;
 /// Room for a line of text.

@@ -3,13 +3,15 @@ use plotters::prelude::{DrawingArea, DrawingBackend};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{FontDesc, FontFamily, FontStyle, FontTransform, RGBAColor, ShapeStyle, TextStyle};
 
+use super::dashes::dashes;
 use super::frame::tick_counts;
 use super::legend::{self, SAMPLE};
-use super::measure::{CHARACTER, FONT, LINE, TICK_GAP};
+use super::measure::{BOLD, CHARACTER, FONT, LINE, TICK_GAP};
 use super::paper::{Fine, PaintError, Paper, Surface};
 use super::trace::{self, Px};
 use super::{
-    Anchor, Axis, Chart, Frame, Label, Layer, Marker, Palette, Pen, Rect, Rgb, Sample, Shape, Size, field, layout,
+    Anchor, Axis, Chart, Frame, Label, Layer, Name, Names, Palette, Pen, Rect, Rgb, Sample, Size, cells, ends, field,
+    layout, names,
 };
 
 /// Fonts of the charts, as a CSS family list: those of the page, nothing to load.
@@ -84,7 +86,8 @@ pub(super) fn paint_parts<DB: DrawingBackend>(
 ) -> Result<(), PaintError<DB>> {
     let surface = Surface::of(area);
     for (chart, frame) in charts.iter().zip(layout(charts, size)) {
-        Brush { paper: &surface, style, frame }.chart(chart, sheet, announce);
+        let has_cells = chart.layers.iter().any(|layer| matches!(layer, Layer::Cells(_)));
+        Brush { paper: &surface, style, frame, has_cells }.chart(chart, sheet, announce);
     }
     surface.outcome()
 }
@@ -107,10 +110,12 @@ const FINE_WIDTH: f64 = 1.0;
 const DENSE: f64 = 0.8;
 
 /// Paints the things of one chart, given in CSS px.
-struct Brush<'a> {
-    paper: &'a dyn Paper,
-    style: &'a Style,
-    frame: Frame,
+pub(super) struct Brush<'a> {
+    pub(super) paper: &'a dyn Paper,
+    pub(super) style: &'a Style,
+    pub(super) frame: Frame,
+    /// Whether marks stand on discs of background, since they may lie on any shade.
+    pub(super) has_cells: bool,
 }
 
 impl Brush<'_> {
@@ -144,6 +149,14 @@ impl Brush<'_> {
                     self.polygon(&outline, palette.shade(patch.shade));
                 }
             }
+            Layer::Cells(cells) => {
+                for cells::Block { cell, from, to } in cells::blocks(cells, &self.frame) {
+                    self.paper.block([self.fine(from), self.fine(to)], opaque(palette.cell(cell)));
+                }
+                for line in cells::hatching(cells, &self.frame) {
+                    self.path(&line, palette.hatching(), FINE_WIDTH);
+                }
+            }
             &Layer::Region { x, y, role } => {
                 let ((left, bottom), (right, top)) = (self.inside((x.0, y.0)), self.inside((x.1, y.1)));
                 let corners = [(left, top), (right, top), (right, bottom), (left, bottom)];
@@ -164,6 +177,8 @@ impl Brush<'_> {
             }
             Layer::Marker(marker) => self.marker(marker),
             Layer::Label(label) => self.label(label),
+            Layer::Names(names) => self.names(names),
+            Layer::Ends(names) => self.ends(names),
         }
     }
 
@@ -181,7 +196,7 @@ impl Brush<'_> {
         match pen.dash() {
             None => self.path(run, color, width),
             Some((on, off)) => {
-                for dash in trace::dashes(run, on, off) {
+                for dash in dashes(run, on, off) {
                     self.path(&dash, color, width);
                 }
             }
@@ -189,64 +204,16 @@ impl Brush<'_> {
     }
 
     /// Pixel of a point of the data, or of the nearest point of the plot.
-    fn inside(&self, point: (f64, f64)) -> Px {
+    pub(super) fn inside(&self, point: (f64, f64)) -> Px {
         let (x, y) = self.frame.to_px(point);
         let plot = &self.frame.plot;
         let within = |v: f64, low: f64, high: f64| if v.is_nan() { low } else { v.clamp(low, high) };
         (within(x, plot.left, plot.right()), within(y, plot.top, plot.bottom()))
     }
 
-    fn marker(&self, marker: &Marker) {
-        let color = self.style.palette.color(marker.role);
-        let point = self.frame.to_px(marker.at);
-        if point.0.is_nan() || point.1.is_nan() {
-            return;
-        }
-        let edge = self.inside(marker.at);
-        // Half a pixel of rounding is not outside.
-        if (point.0 - edge.0).abs().max((point.1 - edge.1).abs()) < 0.5 {
-            self.mark(marker.shape, edge, color);
-        } else if marker.points_beyond {
-            self.arrow(edge, point, color);
-        }
-    }
-
-    fn mark(&self, shape: Shape, (x, y): Px, color: Rgb) {
-        let background = self.style.palette.background;
-        match shape {
-            Shape::Cross => {
-                let arm = 4.0;
-                self.path(&[(x - arm, y - arm), (x + arm, y + arm)], color, 1.9);
-                self.path(&[(x - arm, y + arm), (x + arm, y - arm)], color, 1.9);
-            }
-            Shape::Ring => {
-                self.disc((x, y), 5.0, background);
-                self.circle((x, y), 5.0, color, 2.0);
-            }
-            Shape::Diamond => self.polygon(&[(x - 4.5, y), (x, y - 4.5), (x + 4.5, y), (x, y + 4.5)], color),
-            Shape::Point => {
-                self.disc((x, y), 3.6, background);
-                self.circle((x, y), 3.6, color, 1.5);
-            }
-            Shape::Arrow => self.arrow((x + 4.5, y), (x + 9.0, y), color),
-            Shape::Handle => {
-                self.disc((x, y), 8.0, background);
-                self.disc((x, y), 6.0, color);
-            }
-        }
-    }
-
-    /// A small arrow at the edge of the plot towards a point outside.
-    fn arrow(&self, (x, y): Px, target: Px, color: Rgb) {
-        let (dx, dy) = (target.0 - x, target.1 - y);
-        let (u, v) = if dx.abs() >= dy.abs() { (dx.signum(), 0.0) } else { (0.0, dy.signum()) };
-        let back = |along: f64, across: f64| (x - u * along - v * across, y - v * along + u * across);
-        self.polygon(&[back(1.0, 0.0), back(9.0, 5.0), back(9.0, -5.0)], color);
-    }
-
     fn label(&self, label: &Label) {
         let (x, y) = self.inside(label.at);
-        let length = label.text.chars().count() as f64 * if label.bold { CHARACTER * 1.25 } else { CHARACTER };
+        let length = label.text.chars().count() as f64 * if label.bold { BOLD } else { CHARACTER };
         let (h_pos, behind, ahead) = match label.anchor {
             Anchor::Left => (HPos::Left, 0.0, length),
             Anchor::Middle => (HPos::Center, length / 2.0, length / 2.0),
@@ -257,6 +224,36 @@ impl Brush<'_> {
         let font = if label.bold { FontStyle::Bold } else { FontStyle::Normal };
         let text = Text { words: &label.text, color: self.style.palette.color(label.role), font, h_pos, turned: false };
         self.text(&text, (x, y + label.offset.1));
+    }
+
+    fn names(&self, names: &Names) {
+        let placed = names::placed(names, &self.frame);
+        let color = |index: usize| self.style.palette.color(names.names[index].role);
+        for (index, leader) in placed.iter().filter_map(|placed| Some((placed.index, placed.leader?))) {
+            self.path(&leader, color(index), width(Pen::Hair));
+        }
+        for names::Placed { index, place, h_pos, .. } in placed {
+            let x = match h_pos {
+                HPos::Left => place.left,
+                HPos::Center => place.left + place.width / 2.0,
+                HPos::Right => place.right(),
+            };
+            self.name(&names.names[index], h_pos, (x, place.top + place.height / 2.0));
+        }
+    }
+
+    fn ends(&self, names: &[Name]) {
+        let plot = &self.frame.plot;
+        let heights: Vec<f64> = names.iter().map(|name| self.inside(name.at).1).collect();
+        for (name, height) in names.iter().zip(ends::apart(&heights, (plot.top, plot.bottom()))) {
+            self.name(name, HPos::Left, (plot.right() + TICK_GAP - 2.0, height));
+        }
+    }
+
+    fn name(&self, name: &Name, h_pos: HPos, at: Px) {
+        let font = if name.bold { FontStyle::Bold } else { FontStyle::Normal };
+        let color = self.style.palette.color(name.role);
+        self.text(&Text { words: &name.text, color, font, h_pos, turned: false }, at);
     }
 
     fn axes(&self, chart: &Chart) {
@@ -336,21 +333,21 @@ impl Brush<'_> {
         self.paper.text(text.words, &style, self.fine(at));
     }
 
-    fn path(&self, points: &[Px], color: Rgb, width: f64) {
+    pub(super) fn path(&self, points: &[Px], color: Rgb, width: f64) {
         let points: Vec<_> = points.iter().map(|&point| self.fine(point)).collect();
         self.paper.path(points, self.stroke(color, width));
     }
 
-    fn polygon(&self, points: &[Px], color: Rgb) {
+    pub(super) fn polygon(&self, points: &[Px], color: Rgb) {
         let points: Vec<_> = points.iter().map(|&point| self.fine(point)).collect();
         self.paper.polygon(points, opaque(color));
     }
 
-    fn circle(&self, center: Px, radius: f64, color: Rgb, width: f64) {
+    pub(super) fn circle(&self, center: Px, radius: f64, color: Rgb, width: f64) {
         self.paper.circle(self.fine(center), self.length(radius), self.stroke(color, width));
     }
 
-    fn disc(&self, center: Px, radius: f64, color: Rgb) {
+    pub(super) fn disc(&self, center: Px, radius: f64, color: Rgb) {
         let filled = ShapeStyle::from(opaque(color)).filled();
         self.paper.circle(self.fine(center), self.length(radius), filled);
     }

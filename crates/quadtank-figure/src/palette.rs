@@ -1,4 +1,4 @@
-use super::{Pen, Role};
+use super::{Cell, Pen, Role};
 
 /// A colour in sRGB.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -58,6 +58,8 @@ pub struct Palette {
     pub minimum_phase_shade: Rgb,
     /// Deepest shade of a field on the side of the right half-plane.
     pub right_half_plane_shade: Rgb,
+    /// Deepest shade of a cell. Deeper than those of fields: steps of a twelfth have to be told apart.
+    pub cell_shade: Rgb,
 }
 
 impl Palette {
@@ -75,6 +77,7 @@ impl Palette {
         closed_loop: Rgb(0x4f, 0x55, 0xc8),
         minimum_phase_shade: Rgb(0x8c, 0xcd, 0xb8),
         right_half_plane_shade: Rgb(0xf0, 0xa5, 0x8a),
+        cell_shade: Rgb(0x3f, 0xa9, 0x8a),
     };
 
     /// On a dark card.
@@ -91,6 +94,7 @@ impl Palette {
         closed_loop: Rgb(0xa5, 0xa8, 0xff),
         minimum_phase_shade: Rgb(0x11, 0x60, 0x50),
         right_half_plane_shade: Rgb(0x80, 0x33, 0x20),
+        cell_shade: Rgb(0x18, 0x75, 0x62),
     };
 
     /// The colour of a role, for lines and marks.
@@ -125,6 +129,22 @@ impl Palette {
         let deepest = if value < 0.0 { self.minimum_phase_shade } else { self.right_half_plane_shade };
         deepest.over(self.background, value.abs())
     }
+
+    /// What a cell is filled with. The palest differs from the background.
+    pub fn cell(&self, cell: Cell) -> Rgb {
+        match cell {
+            Cell::Empty => self.background,
+            Cell::Shade(depth) => {
+                self.cell_shade.over(self.background, PALEST + (1.0 - PALEST) * depth.clamp(0.0, 1.0))
+            }
+            Cell::Hatched => self.shade(RULED_OUT),
+        }
+    }
+
+    /// The lines of a hatched cell.
+    pub fn hatching(&self) -> Rgb {
+        self.shade(1.0)
+    }
 }
 
 /// How much of its colour a faded line keeps.
@@ -133,6 +153,10 @@ const FADED: f64 = 0.73;
 const TRAIL: f64 = 0.35;
 /// How much of its colour a region has.
 const REGION: f64 = 0.09;
+/// How much of the deepest shade the palest cell has.
+const PALEST: f64 = 0.1;
+/// Shade of what is ruled out.
+const RULED_OUT: f64 = 0.35;
 
 #[cfg(test)]
 mod tests {
@@ -169,6 +193,11 @@ mod tests {
                 let contrast = palette.text.contrast(palette.region(role));
                 assert!(contrast >= 4.5, "text on the region {role:?}: {contrast}");
             }
+            for cell in (0..=10).map(|k| Cell::Shade(f64::from(k) / 10.0)).chain([Cell::Hatched]) {
+                let contrast = palette.text.contrast(palette.cell(cell));
+                assert!(contrast >= 4.5, "text on {cell:?}: {contrast}");
+            }
+            assert!(palette.text.contrast(palette.hatching()) >= 4.5);
             for shade in [-1.0, -0.5, 0.5, 1.0] {
                 let contrast = palette.text.contrast(palette.shade(shade));
                 assert!(contrast >= 4.5, "text on shade {shade}: {contrast}");

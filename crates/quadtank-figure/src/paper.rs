@@ -4,7 +4,7 @@ use std::cell::RefCell;
 
 use plotters::coord::Shift;
 use plotters::drawing::DrawingAreaErrorKind;
-use plotters::element::{Circle, PathElement, Polygon};
+use plotters::element::{Circle, PathElement, Polygon, Rectangle};
 use plotters::prelude::{DrawingArea, DrawingBackend};
 use plotters::style::{RGBAColor, ShapeStyle, TextStyle};
 
@@ -15,6 +15,7 @@ pub type PaintError<DB> = DrawingAreaErrorKind<<DB as DrawingBackend>::ErrorType
 pub(super) trait Paper {
     fn path(&self, points: Vec<Fine>, style: ShapeStyle);
     fn polygon(&self, points: Vec<Fine>, color: RGBAColor);
+    fn block(&self, corners: [Fine; 2], color: RGBAColor);
     fn circle(&self, center: Fine, radius: u32, style: ShapeStyle);
     fn text(&self, words: &str, style: &TextStyle, at: Fine);
 }
@@ -52,6 +53,10 @@ impl<DB: DrawingBackend> Paper for Surface<'_, DB> {
 
     fn polygon(&self, points: Vec<Fine>, color: RGBAColor) {
         self.keep(self.area.draw(&Polygon::new(points, color)));
+    }
+
+    fn block(&self, corners: [Fine; 2], color: RGBAColor) {
+        self.keep(self.area.draw(&Rectangle::new(corners, ShapeStyle::from(color).filled())));
     }
 
     fn circle(&self, center: Fine, radius: u32, style: ShapeStyle) {

@@ -51,8 +51,8 @@ struct Svg {
     scale: u32,
     body: String,
     in_group: bool,
-    /// Colour and width of the path that is still open; strokes alike are joined to it.
-    pen: Option<((u8, u8, u8), u32)>,
+    /// Colour of the path that is still open, and its width if it is a stroke; what is alike is joined to it.
+    pen: Option<((u8, u8, u8), Option<u32>)>,
 }
 
 impl Svg {
@@ -88,11 +88,29 @@ impl Svg {
     }
 
     fn end_path(&mut self) {
-        if let Some((color, width)) = self.pen.take() {
-            self.body.push_str("\" stroke=\"");
-            hex(&mut self.body, color);
-            self.attribute("\" stroke-width", f64::from(width));
-            self.body.push_str("/>\n");
+        match self.pen.take() {
+            Some((color, Some(width))) => {
+                self.body.push_str("\" stroke=\"");
+                hex(&mut self.body, color);
+                self.attribute("\" stroke-width", f64::from(width));
+                self.body.push_str("/>\n");
+            }
+            Some((color, None)) => {
+                self.body.push_str("\" fill=\"");
+                hex(&mut self.body, color);
+                self.body.push_str("\"/>\n");
+            }
+            None => (),
+        }
+    }
+
+    /// What follows is a part of a path of this colour and width.
+    fn take_pen(&mut self, color: BackendColor, width: Option<u32>) {
+        let pen = (color.rgb, width);
+        if self.pen != Some(pen) {
+            self.end_path();
+            self.body.push_str("<path d=\"");
+            self.pen = Some(pen);
         }
     }
 
@@ -167,21 +185,15 @@ impl DrawingBackend for Svg {
     }
 
     fn draw_rect<S: BackendStyle>(&mut self, from: BackendCoord, to: BackendCoord, style: &S, fill: bool) -> Drawn {
-        self.end_path();
-        self.body.push_str("<path d=\"");
+        // Rectangles alike in one path: between two of their own, some readers let the background shine through.
+        self.take_pen(style.color(), (!fill).then(|| style.stroke_width()));
         self.points([from, (to.0, from.1), to, (from.0, to.1)]);
-        self.body.push_str("Z\"");
-        self.paint(style.color(), style.stroke_width(), fill);
+        self.body.push('Z');
         Ok(())
     }
 
     fn draw_path<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(&mut self, path: I, style: &S) -> Drawn {
-        let pen = (style.color().rgb, style.stroke_width());
-        if self.pen != Some(pen) {
-            self.end_path();
-            self.body.push_str("<path d=\"");
-            self.pen = Some(pen);
-        }
+        self.take_pen(style.color(), Some(style.stroke_width()));
         self.points(path);
         Ok(())
     }
@@ -262,10 +274,13 @@ type Look = Option<(Option<Role>, Option<Pen>)>;
 fn class(layer: &Layer) -> (&'static str, Look) {
     match layer {
         Layer::Field(_) => ("field", None),
+        Layer::Cells(_) => ("cells", None),
         Layer::Region { role, .. } => ("region", Some((Some(*role), None))),
         Layer::Line(series) => ("line", Some((Some(series.role), Some(series.pen)))),
         Layer::Upright { role, pen, .. } | Layer::Level { role, pen, .. } => ("rule", Some((Some(*role), Some(*pen)))),
         Layer::Marker(marker) => ("marker", Some((Some(marker.role), None))),
+        Layer::Names(_) => ("names", None),
+        Layer::Ends(_) => ("ends", None),
         Layer::Label(label) => ("label", Some((Some(label.role), None))),
     }
 }

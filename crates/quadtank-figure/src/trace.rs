@@ -1,6 +1,6 @@
 //! From a series to what the eye can tell of it: polylines in CSS px inside the plot, with as few corners as will do.
 
-use super::{Course, Frame, Rect, Series};
+use super::{Course, Frame, Rect, Scale, Series};
 
 /// A point of the figure in CSS px.
 pub(super) type Px = (f64, f64);
@@ -78,21 +78,52 @@ fn visible<'a>(x: &'a [f64], y: &'a [f64], (min, max): (f64, f64)) -> (&'a [f64]
 
 /// From data to pixels as [`Frame::to_px`] does, without a division for each point.
 struct Pixels {
-    origin: Px,
-    slope: Px,
+    x: Ruler,
+    y: Ruler,
 }
 
 impl Pixels {
     fn of(frame: &Frame, y_scale: f64) -> Self {
-        let slope = |length: f64, (from, to): (f64, f64)| length / (to - from);
-        let (right, up) = (slope(frame.plot.width, frame.x), slope(frame.plot.height, frame.y));
-        let origin = (frame.plot.left - frame.x.0 * right, frame.plot.bottom() + frame.y.0 * up);
-        Self { origin, slope: (right, -up * y_scale) }
+        let (left, right, bottom, top) = (frame.plot.left, frame.plot.right(), frame.plot.bottom(), frame.plot.top);
+        Self {
+            x: Ruler::new(frame.x_scale, frame.x, (left, right), 1.0),
+            y: Ruler::new(frame.y_scale, frame.y, (bottom, top), y_scale),
+        }
     }
 
     fn at(&self, x: f64, y: f64) -> Option<Px> {
-        let (x, y) = (self.origin.0 + x * self.slope.0, self.origin.1 + y * self.slope.1);
+        let (x, y) = (self.x.px(x), self.y.px(y));
         (x.is_finite() && y.is_finite()).then(|| (x.clamp(-FAR, FAR), y.clamp(-FAR, FAR)))
+    }
+}
+
+/// The same along one axis: a straight line over the values times a factor, or over their logarithms.
+struct Ruler {
+    scale: Scale,
+    factor: f64,
+    origin: f64,
+    slope: f64,
+}
+
+impl Ruler {
+    fn new(scale: Scale, (from, to): (f64, f64), (first, last): (f64, f64), factor: f64) -> Self {
+        match scale {
+            Scale::Linear => {
+                let slope = (last - first) / (to - from);
+                Self { scale, factor, origin: first - from * slope, slope: slope * factor }
+            }
+            Scale::Logarithmic => {
+                let slope = (last - first) / (to / from).ln();
+                Self { scale, factor, origin: first - from.ln() * slope, slope }
+            }
+        }
+    }
+
+    fn px(&self, value: f64) -> f64 {
+        match self.scale {
+            Scale::Linear => self.origin + value * self.slope,
+            Scale::Logarithmic => self.origin + (value * self.factor).ln() * self.slope,
+        }
     }
 }
 
@@ -247,51 +278,6 @@ pub(super) fn clipped(plot: &Rect, from: Px, to: Px) -> Option<(Px, Px)> {
     (enter <= leave).then_some((start, end))
 }
 
-/// Most dashes of a line. One that swings all over the plot would have tens of thousands, which nobody tells apart and which
-/// take a tenth of a second to paint: its dashes are longer.
-const MOST_DASHES: f64 = 500.0;
-
-fn length_of(pair: &[Px]) -> f64 {
-    let &[from, to] = pair else { return 0.0 };
-    let (across, down) = (to.0 - from.0, to.1 - from.1);
-    (across * across + down * down).sqrt()
-}
-
-/// The dashes of a polyline: `on` px drawn, `off` px left out, and so on round its corners; both longer in a very long line.
-pub(super) fn dashes(run: &[Px], on: f64, off: f64) -> Vec<Vec<Px>> {
-    let whole: f64 = run.windows(2).map(length_of).sum();
-    let stretch = (whole / (MOST_DASHES * (on + off))).max(1.0);
-    let (on, off) = (stretch * on, stretch * off);
-    let mut dashes = Vec::new();
-    let mut dash: Vec<Px> = run.first().copied().into_iter().collect();
-    let (mut drawing, mut left) = (true, on);
-    for pair in run.windows(2) {
-        let &[mut from, to] = pair else { continue };
-        let mut length = length_of(pair);
-        while length > left {
-            let share = left / length;
-            from = (from.0 + share * (to.0 - from.0), from.1 + share * (to.1 - from.1));
-            length -= left;
-            if drawing {
-                dash.push(from);
-                dashes.push(std::mem::take(&mut dash));
-            } else {
-                dash.push(from);
-            }
-            drawing = !drawing;
-            left = if drawing { on } else { off };
-        }
-        left -= length;
-        if drawing {
-            dash.push(to);
-        }
-    }
-    if drawing && dash.len() > 1 {
-        dashes.push(dash);
-    }
-    dashes
-}
-
 #[cfg(all(test, not(target_arch = "wasm32")))]
 mod tests {
     use super::*;
@@ -373,6 +359,20 @@ mod tests {
     }
 
     #[test]
+    fn a_power_is_straight_on_logarithmic_axes() {
+        let chart = Chart::new(Axis::logarithmic("", (1e-2, 1e2)), Axis::logarithmic("", (1.0, 1e8)));
+        let frame = layout(&[chart], Size { width: 400.0, height: 300.0 })[0];
+        let x: Vec<f64> = (-20..=20).map(|k| 10f64.powf(f64::from(k) / 10.0)).collect();
+        let y = x.iter().map(|x| x * x).collect();
+        let square = Series { y_scale: 1e4, ..series(x, y, Course::Straight) };
+        let runs = polylines(&square, &frame);
+        assert_eq!(runs.len(), 1);
+        assert_same(&runs[0], &[(1e-2, 1.0), (1e2, 1e8)].map(|point| frame.to_px(point)));
+        let zero = series(vec![0.1, 1.0, 10.0], vec![10.0, 0.0, 10.0], Course::Straight);
+        assert!(polylines(&zero, &frame).is_empty(), "zero interrupts");
+    }
+
+    #[test]
     fn a_growing_curve_is_cut_at_the_edge() {
         let frame = frame((0.0, 10.0), (0.0, 1.0));
         let x: Vec<f64> = (0..1000).map(|k| f64::from(k) * 0.01).collect();
@@ -400,23 +400,5 @@ mod tests {
         let run = polylines(&series(x.clone(), x, Course::Straight), &frame).concat();
         assert_eq!(run.first().map(|point| point.0), Some(frame.plot.left));
         assert_eq!(run.last().map(|point| point.0), Some(frame.plot.right()));
-    }
-
-    #[test]
-    fn dashes_keep_their_rhythm_round_a_corner() {
-        let dashes = dashes(&[(0.0, 0.0), (7.0, 0.0), (7.0, 10.0)], 4.0, 2.0);
-        assert_eq!(dashes[0], [(0.0, 0.0), (4.0, 0.0)]);
-        assert_eq!(dashes[1], [(6.0, 0.0), (7.0, 0.0), (7.0, 3.0)]);
-        assert_eq!(dashes[2], [(7.0, 5.0), (7.0, 9.0)]);
-        assert_eq!(dashes.len(), 3);
-    }
-
-    #[test]
-    fn a_line_that_swings_all_over_the_plot_has_no_more_dashes_than_can_be_seen() {
-        let swings: Vec<Px> = (0..5000).map(|k| (0.1 * f64::from(k), if k % 2 == 0 { 0.0 } else { 80.0 })).collect();
-        let dashes = dashes(&swings, 1.8, 2.7);
-        assert!((450..=501).contains(&dashes.len()), "{}", dashes.len());
-        let (first, last) = (dashes[0][0], dashes[dashes.len() - 1][0]);
-        assert!(first.0 < 1.0 && last.0 > 490.0, "they go all along: {first:?} {last:?}");
     }
 }

@@ -1,7 +1,7 @@
 use std::f64::consts::PI;
 
 use nalgebra::Complex;
-use quadtank_figure::{Chart, Layer, Palette, Pen, Rect, Rgb, Role, Sheet, Size, layout, responses, table};
+use quadtank_figure::{Axis, Chart, Layer, Palette, Pen, Rect, Rgb, Role, Sheet, Size, layout, responses, table};
 
 use crate::fixture::{
     Run, SIZE, STYLE, johansson_s_plane, plane, response_charts, response_spec, right_most_zero, s_plane,
@@ -48,6 +48,19 @@ fn pixels_and_data_correspond_both_ways() {
         assert!((frame.x_px(frame.x.0) - frame.plot.left).abs() < 1e-9);
         assert!((frame.y_px(frame.y.1) - frame.plot.top).abs() < 1e-9);
     }
+}
+
+#[test]
+fn pixels_and_data_correspond_on_logarithmic_axes() {
+    let chart = Chart::new(Axis::logarithmic("gain", (0.1, 100.0)), Axis::logarithmic("time", (1e-9, 1e-3)));
+    let frame = layout(&[chart], SIZE)[0];
+    for point in [(0.1, 1e-3), (1.0, 1e-6), (37.0, 2.5e-8), (1e3, 1e-12)] {
+        let back = frame.to_data(frame.to_px(point));
+        assert!((back.0 / point.0 - 1.0).abs() < 1e-9 && (back.1 / point.1 - 1.0).abs() < 1e-9, "{point:?} {back:?}");
+    }
+    let middle = (frame.plot.left + frame.plot.width / 3.0, frame.plot.top + frame.plot.height / 2.0);
+    let px = frame.to_px((1.0, 1e-6));
+    assert!((px.0 - middle.0).abs() < 1e-9 && (px.1 - middle.1).abs() < 1e-9, "{px:?} {middle:?}");
 }
 
 #[test]

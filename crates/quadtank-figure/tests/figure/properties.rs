@@ -1,8 +1,8 @@
 use nalgebra::Complex;
 use proptest::prelude::*;
 use quadtank_figure::{
-    Axis, Chart, Course, Layer, Palette, Pen, Responses, Role, RunColumns, Series, Size, Style, layout, responses,
-    table, to_svg,
+    Axis, Cell, Cells, Chart, Course, Layer, Name, Names, Palette, Pen, Responses, Role, RunColumns, Scale, Series,
+    Size, Style, layout, responses, table, to_svg,
 };
 use roxmltree::Document;
 
@@ -10,7 +10,7 @@ use crate::fixture::{Run, plane, response_spec, s_plane};
 use crate::recorder::{Drawn, record};
 
 /// Any number, with the awkward ones more often than chance has them.
-fn number() -> impl Strategy<Value = f64> {
+pub fn number() -> impl Strategy<Value = f64> {
     prop_oneof![
         4 => -20.0..20.0,
         1 => any::<f64>(),
@@ -21,13 +21,13 @@ fn number() -> impl Strategy<Value = f64> {
     ]
 }
 
-fn size() -> impl Strategy<Value = Size> {
+pub fn size() -> impl Strategy<Value = Size> {
     let side = prop_oneof![3 => 0.0..1500.0, 1 => number()];
     (side.clone(), side).prop_map(|(width, height)| Size { width, height })
 }
 
 /// Paints and checks what reached the backend.
-fn check(charts: &[Chart], size: Size, scale: u32) -> Result<(), TestCaseError> {
+pub fn check(charts: &[Chart], size: Size, scale: u32) -> Result<(), TestCaseError> {
     let style = Style { palette: Palette::DARK, decimal: ',', scale };
     let frames = layout(charts, size);
     prop_assert_eq!(frames.len(), charts.len());
@@ -39,6 +39,7 @@ fn check(charts: &[Chart], size: Size, scale: u32) -> Result<(), TestCaseError> 
     for drawn in record(charts, size, &style) {
         let points = match drawn {
             Drawn::Path { points, .. } | Drawn::Polygon { points, .. } => points,
+            Drawn::Block { corners, .. } => corners.to_vec(),
             Drawn::Circle { center, .. } => vec![center],
             Drawn::Text { at, .. } => vec![at],
         };
@@ -59,7 +60,7 @@ proptest! {
 
     #[test]
     fn any_axis_has_few_rising_ticks_inside(from in number(), to in number(), most in 0..20_usize) {
-        for axis in [Axis::new("", (from, to)), Axis::rounded("", (from, to), most)] {
+        for axis in [Axis::new("", (from, to)), Axis::rounded("", (from, to), most), Axis::logarithmic("", (from, to))] {
             let (min, max) = axis.span();
             prop_assert!(min.is_finite() && max.is_finite() && min < max);
             let ticks = axis.ticks(most);
@@ -96,7 +97,15 @@ proptest! {
         chart.layers.push(Layer::Region { x: y_range, y: x_range, role: Role::Loop2 });
         chart.layers.push(Layer::Upright { x: at.0, role: Role::Muted, pen: Pen::Hair });
         chart.layers.push(Layer::Level { y: at.1, role: Role::Muted, pen: Pen::Dotted });
-        check(&[chart.clone(), chart], size, scale)?;
+        let cells = x.iter().map(|&x| if x < 0.0 { Cell::Hatched } else { Cell::Shade(x) }).collect();
+        chart.layers.push(Layer::Cells(Cells { x: x_range, y: y_range, columns: y.len() / 4, cells }));
+        let name = |(&x, &y)| Name { at: (x, y), text: "name".to_owned(), role: Role::Neutral, bold: true };
+        let names: Vec<Name> = x.iter().zip(&y).map(name).collect();
+        chart.layers.push(Layer::Ends(names.clone()));
+        chart.layers.push(Layer::Names(Names { names, around: vec![at] }));
+        let mut logarithmic = chart.clone();
+        (logarithmic.x.scale, logarithmic.y.scale) = (Scale::Logarithmic, Scale::Logarithmic);
+        check(&[chart, logarithmic], size, scale)?;
     }
 
     #[test]

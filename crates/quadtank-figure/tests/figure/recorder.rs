@@ -14,6 +14,7 @@ use quadtank_figure::{Chart, Rgb, Sheet, Size, Style, paint};
 pub enum Drawn {
     Path { points: Vec<(f64, f64)>, color: Rgb, width: f64 },
     Polygon { points: Vec<(f64, f64)>, color: Rgb },
+    Block { corners: [(f64, f64); 2], color: Rgb },
     Circle { center: (f64, f64), color: Rgb },
     Text { text: String, at: (f64, f64) },
 }
@@ -82,6 +83,12 @@ impl DrawingBackend for Recorder {
         let points = self.all(path);
         let width = f64::from(style.stroke_width()) / f64::from(self.scale);
         self.drawn.push(Drawn::Path { points, color: rgb(style.color()), width });
+        Ok(())
+    }
+
+    fn draw_rect<S: BackendStyle>(&mut self, from: BackendCoord, to: BackendCoord, style: &S, fill: bool) -> Done {
+        assert!(fill, "nothing is framed by a rectangle");
+        self.drawn.push(Drawn::Block { corners: [self.css(from), self.css(to)], color: rgb(style.color()) });
         Ok(())
     }
 
