@@ -9,9 +9,11 @@ use clap::error::ErrorKind;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use quadtank::literature::PresetId;
 use quadtank::literature::campestrini::PublishedCase;
+use quadtank::study::level_loop::LevelLoopSetup;
 use quadtank::study::model_free::ModelFreeSetup;
 use quadtank::study::quadruple_tank::setup_of;
 use quadtank::study::relay_tuning::TuningSetup;
+use quadtank_scenario::level_loop::LevelLoopScenario;
 use quadtank_scenario::model_free::ModelFreeScenario;
 use quadtank_scenario::tuning::TuningScenario;
 use quadtank_scenario::{
@@ -22,14 +24,18 @@ use serde::Serialize;
 use serde_json::Value;
 use thiserror::Error;
 
+mod andreis;
 mod answers;
+mod level_loop;
 mod message;
 mod model_free;
 mod plot;
 mod report;
 mod tune;
 
+use andreis::TableNumber;
 use answers::{Answers, Drawing, Fault};
+use level_loop::SearchOptions;
 
 /// The quadruple-tank laboratory without a screen.
 ///
@@ -49,12 +55,16 @@ enum Command {
     /// Print what linear theory says about a scenario, as JSON
     ///
     /// Of a relay-tuning session (version 2): steady-state gain, relative gain, critical curve. The coefficients of its elements
-    /// are by rising powers of s: [1, 10] is 1 + 10 s.
+    /// are by rising powers of s: [1, 10] is 1 + 10 s. Of a level loop (version 4): signals at rest, linear model, ultimate point,
+    /// margins, step test, and what rules suggest.
     Analyse {
         #[command(flatten)]
         source: Source,
     },
     /// Run the experiment of a scenario on the nonlinear plant and on its linear model
+    ///
+    /// Of a level loop (version 4) on the plant with all its instruments: json has figures of level and outflow, the answer to a
+    /// step, valve travel, indices against the reference, the Harris index, and what is to be said about the run.
     Simulate {
         #[command(flatten)]
         source: Source,
@@ -85,31 +95,39 @@ enum Command {
         #[arg(value_parser = preset_parser())]
         name: Option<PresetId>,
     },
-    /// Run the relay test and the design of a relay-tuning session (version 2)
+    /// Run the relay test and the design of a relay-tuning session (version 2), or search for settings of a level loop (version 4)
     ///
     /// The coefficients of its elements are by rising powers of s: [1, 10] is 1 + 10 s. What it compares its response with is in
-    /// the report too.
+    /// the report too. Of a level loop the report has the best settings with their cost, the path of the search, what rules
+    /// suggest, and the trade-off between level and outflow.
     Tune {
         #[command(flatten)]
         source: Source,
-        /// json: readings, both roots, stability and margins; csv: the record of the relay test
+        #[command(flatten)]
+        search: SearchOptions,
+        /// json: readings, both roots, stability and margins, or what a search finds; csv: the record of the relay test, or the path
+        /// of the search
         #[arg(long, value_enum, default_value_t = Format::Json)]
         format: Format,
     },
-    /// List the published cases of Campestrini (2006) and of Junqueira et al., or print the scenario of one
+    /// List the published cases of Campestrini (2006), Junqueira et al., Andreis (2017) and of lecture slides on a level tank, or
+    /// print the scenario of one
     Cases {
         /// Name of a case
         #[arg(value_parser = case_of)]
         name: Option<Case>,
+        /// A table of Andreis (2017), 5.1 to 5.6, 5.9, 5.10, 5.12, 5.13, 5.17 or 5.18: every printed number beside the computed one
+        #[arg(long, value_name = "NUMBER", conflicts_with = "name", value_parser = andreis::table_of)]
+        table: Option<TableNumber>,
     },
     /// Print the JSON Schema of the scenario, or of what a command reports about it
     Schema {
-        /// Version of the document: 1 for the quadruple tank, 2 for relay tuning (all that tune knows), 3 for model-free control
+        /// Version of the document: 1 for the quadruple tank, 2 for relay tuning, 3 for model-free control, 4 for a level loop
         #[arg(
             long,
             default_value_t = Scenario::VERSION,
             default_value_if("report", "tune", "2"),
-            value_parser = clap::value_parser!(u32).range(1..=3)
+            value_parser = clap::value_parser!(u32).range(1..=4)
         )]
         version: u32,
         /// The JSON that this command prints, in place of the scenario
@@ -147,20 +165,23 @@ fn preset_parser() -> impl TypedValueParser<Value = PresetId> {
         .try_map(|name| PresetId::from_name(&name).ok_or("unknown rig"))
 }
 
-/// A published case of either kind.
+/// A published case of any kind.
 #[derive(Clone, Debug)]
 enum Case {
     Tuning(PublishedCase),
     ModelFree(Box<ModelFreeSetup>),
+    LevelLoop(Box<LevelLoopSetup>),
 }
 
 fn case_of(name: &str) -> Result<Case, &'static str> {
     let model_free = || model_free::published().find(|(known, ..)| known == name);
+    let level_loop = || level_loop::published().find(|(known, ..)| known == name);
     PublishedCase::from_name(name)
         .map(Case::Tuning)
         .or_else(|| {
             model_free().map(|(_, valves, run)| Case::ModelFree(Box::new(ModelFreeSetup::published(valves, run))))
         })
+        .or_else(|| level_loop().map(|(.., setup)| Case::LevelLoop(Box::new(setup))))
         .ok_or("unknown case; `quadtank cases` lists them")
 }
 
@@ -169,7 +190,9 @@ fn case_of(name: &str) -> Result<Case, &'static str> {
 enum Failure {
     #[error("{file}: {fault}")]
     Document { file: String, fault: Fault },
-    #[error("schema: tune reports on relay-tuning sessions alone, version 2; this is version {version}")]
+    #[error(
+        "schema: tune reports on relay-tuning sessions and level loops, versions 2 and 4; this is version {version}"
+    )]
     NoReport { version: u32 },
     #[error("{file}: {error}")]
     File { file: String, error: io::Error },
@@ -217,18 +240,22 @@ fn execute(command: Command) -> Result<(), Failure> {
     match command {
         Command::Analyse { source } => print(&answer(&source, |document| document.analyse())?),
         Command::Simulate { source, format } => print(&answer(&source, |document| document.simulate(format))?),
-        Command::Tune { source, format } => print(&answer(&source, |document| document.tune(format))?),
+        Command::Tune { source, search, format } => print(&answer(&source, |document| document.tune(format, &search))?),
         Command::Plot { source, svg, chart, picture, theme } => {
             let drawing = Drawing { chart, picture, style: theme.style() };
             let drawing = answer(&source, |document| document.plot(&drawing))?;
             if is_standard_stream(&svg) { print(&drawing) } else { write_file(&svg, &drawing) }
         }
-        Command::Cases { name: None } => print(&list_of_cases()),
-        Command::Cases { name: Some(Case::Tuning(case)) } => {
+        Command::Cases { table: Some(table), .. } => print(&told(Path::new("this table"), andreis::table(table))?),
+        Command::Cases { name: None, .. } => print(&list_of_cases()),
+        Command::Cases { name: Some(Case::Tuning(case)), .. } => {
             print_document(&case.name(), to_json(&TuningScenario::from(TuningSetup::published(case))))
         }
-        Command::Cases { name: Some(Case::ModelFree(setup)) } => {
+        Command::Cases { name: Some(Case::ModelFree(setup)), .. } => {
             print_document("this case", to_json(&ModelFreeScenario::from(*setup)))
+        }
+        Command::Cases { name: Some(Case::LevelLoop(setup)), .. } => {
+            print_document("this case", to_json(&LevelLoopScenario::from(*setup)))
         }
         Command::Presets { name: None } => print(&list_of_presets()),
         Command::Presets { name: Some(id) } => print_document(id.name(), to_json(&Scenario::from(setup_of(id)))),
@@ -328,8 +355,12 @@ fn list_of_cases() -> String {
         let _ = writeln!(list, "{:<16} Campestrini (2006), {place}", case.name());
         list
     });
-    model_free::published().fold(tuning, |mut list, (name, valves, experiment)| {
+    let both = model_free::published().fold(tuning, |mut list, (name, valves, experiment)| {
         let _ = writeln!(list, "{name:<16} Junqueira, Neves and Angelico, case {valves:?}, experiment {experiment:?}");
+        list
+    });
+    level_loop::published().fold(both, |mut list, (name, place, _)| {
+        let _ = writeln!(list, "{name:<24} {place}");
         list
     })
 }

@@ -27,20 +27,22 @@ pub enum EntryValue {
 pub fn entries<D: BenchDocument>(document: &D) -> Vec<Entry> {
     let mut found = Vec::new();
     if let Ok(value) = serde_json::to_value(document) {
-        collect(&value[D::ROOT], "", &mut found);
+        collect(D::ROOT, &value[D::ROOT], "", &mut found);
     }
     found
 }
 
-fn collect(value: &Value, path: &str, found: &mut Vec<Entry>) {
+fn collect(root: &str, value: &Value, path: &str, found: &mut Vec<Entry>) {
     let mut push = |value: EntryValue, unit| found.push(Entry { path: path.to_owned(), value, unit });
     match value {
-        Value::Object(fields) => fields.iter().for_each(|(name, value)| collect(value, &field_of(path, name), found)),
+        Value::Object(fields) => {
+            fields.iter().for_each(|(name, value)| collect(root, value, &field_of(path, name), found))
+        }
         Value::Array(items) => {
-            items.iter().enumerate().for_each(|(k, value)| collect(value, &format!("{path}[{k}]"), found));
+            items.iter().enumerate().for_each(|(k, value)| collect(root, value, &format!("{path}[{k}]"), found));
         }
         Value::Number(number) => {
-            let unit = Param::at(path).map_or("", |param| param.unit);
+            let unit = Param::at(&field_of(root, path)).map_or("", |param| param.unit);
             push(EntryValue::Number(number.as_f64().unwrap_or(f64::NAN)), unit);
         }
         Value::String(text) => push(EntryValue::Choice(text.clone()), ""),
@@ -53,6 +55,7 @@ fn collect(value: &Value, path: &str, found: &mut Vec<Entry>) {
 mod tests {
     use super::*;
     use crate::Scenario;
+    use crate::level_loop::LevelLoopScenario;
 
     #[test]
     fn numbers_have_their_units_and_choices_their_names() {
@@ -63,6 +66,9 @@ mod tests {
         assert_eq!((&gain.value, gain.unit), (&EntryValue::Number(3.0), "V/V"));
         assert_eq!(entry("experiment.duration_s").unit, "s");
         assert_eq!(entry("controller.pairing").value, EntryValue::Choice("diagonal".to_owned()));
+        let of_loop = entries(&LevelLoopScenario::default());
+        let step = of_loop.iter().find(|entry| entry.path == "test.step").unwrap();
+        assert_eq!(step.unit, "unit of the signal");
         assert!(all.iter().all(|entry| !entry.path.contains("pinned") && !entry.path.starts_with("setup")));
     }
 }

@@ -1,6 +1,7 @@
 use thiserror::Error;
 
 use quadtank::control::EstimatorError;
+use quadtank::plant::level::LevelError;
 use quadtank::study::StudyError;
 
 use super::limits::Limits;
@@ -98,6 +99,14 @@ pub enum ScenarioError {
         field: String,
         /// What is wrong.
         error: EstimatorError,
+    },
+    /// A level loop whose parts do not fit together.
+    #[error("{field}: {error}")]
+    Level {
+        /// Where in the document.
+        field: String,
+        /// What is wrong.
+        error: LevelError,
     },
     /// An element of a plant that relay tuning does not work with.
     #[error("{field}: {fault}; its coefficients are read by rising powers of s: [1, 10] is 1 + 10 s")]

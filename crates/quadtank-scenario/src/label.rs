@@ -46,7 +46,9 @@ impl Label {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{BenchDocument, Scenario, document_from_link, from_json, model_free, to_json, to_link, tuning};
+    use crate::{
+        BenchDocument, Scenario, document_from_link, from_json, level_loop, model_free, to_json, to_link, tuning,
+    };
 
     fn comes_back<D: BenchDocument + std::fmt::Debug>() {
         let mut document = D::default();
@@ -63,6 +65,7 @@ mod tests {
         comes_back::<Scenario>();
         comes_back::<tuning::TuningScenario>();
         comes_back::<model_free::ModelFreeScenario>();
+        comes_back::<level_loop::LevelLoopScenario>();
     }
 
     #[test]

@@ -151,6 +151,63 @@ pub const QUICKEST_IN_RECORD: Limits = Limits::new(0.0, 2e6);
 /// How much quicker than a dead time the quickest pole of a plant may be.
 pub const QUICKEST_IN_DEAD_TIME: Limits = Limits::new(0.0, 1e4);
 
+/// Cross-section of the tank of a level loop (m²).
+pub const LEVEL_TANK_AREA: Limits = Limits::new(1e-4, 1e4);
+/// Height of its walls, and levels in it (m).
+pub const LEVEL_TANK_HEIGHT: Limits = Limits::new(0.01, 100.0);
+/// A level in it (m).
+pub const TANK_LEVEL: Limits = Limits::new(0.0, LEVEL_TANK_HEIGHT.max);
+/// Ends of the range of a level transmitter (m), which may be mounted below the bottom.
+pub const TRANSMITTER_LEVEL: Limits = Limits::new(-LEVEL_TANK_HEIGHT.max, LEVEL_TANK_HEIGHT.max);
+/// Resistance of a laminar outlet (s/m²).
+pub const RESISTANCE: Limits = Limits::new(1e-3, 1e8);
+/// Coefficient k of a turbulent outlet (m^2.5/s).
+pub const FLOW_COEFFICIENT: Limits = Limits::new(1e-8, 100.0);
+/// A flow of a level loop (m³/s).
+pub const FLOW: Limits = Limits::new(0.0, 100.0);
+/// Flow of the open valve in a feed (m³/s).
+pub const FULL_FLOW: Limits = Limits::new(1e-9, FLOW.max);
+/// What is added to the inflow of a level loop (m³/s).
+pub const FLOW_CHANGE: Limits = Limits::new(-FLOW.max, FLOW.max);
+/// A signal or pressure in its unit (mA, psi), or a step of one.
+pub const SIGNAL: Limits = Limits::new(-1000.0, 1000.0);
+/// Least width of a range of signals (mA, psi) or levels (m), and least distance between two points of an actuator curve.
+pub const LEAST_SPAN: f64 = 1e-3;
+/// Lag of an instrument (s), 0 for one that follows at once; see also [`LEAST_LAG_S`].
+pub const LAG_S: Limits = Limits::new(0.0, 1e4);
+/// Least lag of an instrument that has one (s).
+pub const LEAST_LAG_S: f64 = 1e-3;
+/// Rangeability of an equal-percentage valve.
+pub const RANGEABILITY: Limits = Limits::new(1.01, 1e4);
+/// Points of an actuator curve.
+pub const MAX_CURVE_POINTS: usize = 32;
+/// A gain of a level controller (signal per signal), of either sign; see also [`LEVEL_GAIN_MAGNITUDE`].
+pub const LEVEL_GAIN: Limits = Limits::new(-LEVEL_GAIN_MAGNITUDE.max, LEVEL_GAIN_MAGNITUDE.max);
+/// Magnitude of such a gain that is not 0, and the gains of a search.
+pub const LEVEL_GAIN_MAGNITUDE: Limits = Limits::new(1e-9, 1e4);
+/// Integral time of a level controller, and other times of its settings (s).
+pub const LEVEL_TIME_S: Limits = Limits::new(1e-3, 1e6);
+/// Area or flows of a model as multiples of those of the plant.
+pub const MODEL_FACTOR: Limits = Limits::new(0.1, 10.0);
+/// Length of a run or a step test of a level loop (s).
+pub const LEVEL_DURATION_S: Limits = Limits::new(1.0, DURATION_S.max);
+/// Time between the rows of a log, period of a sine, or how long a random value is held (s); see also [`log_step_s`].
+pub const LEVEL_STEP_S: Limits = Limits::new(1e-3, DURATION_S.max);
+/// What a square of a move of the output costs.
+pub const MOVE_PENALTY: Limits = Limits::new(0.0, 1e6);
+/// Largest sensitivity peak that a search allows; every loop has more than 1.
+pub const SENSITIVITY_PEAK: Limits = Limits::new(1.01, 1000.0);
+/// Dead time of the Harris index (rows).
+pub const DEAD_TIME_ROWS: Limits = Limits::new(1.0, 1000.0);
+/// Order of the autoregressive model of the Harris index.
+pub const MODEL_ORDER: Limits = Limits::new(1.0, 50.0);
+
+/// Allowed times between the rows of the log of a level loop (s) in a run of a duration (s): at least one row after the first, at
+/// most [`MAX_SAMPLES`].
+pub fn log_step_s(duration_s: f64) -> Limits {
+    Limits { min: LEVEL_STEP_S.min.max(duration_s / MAX_SAMPLES), max: LEVEL_STEP_S.max.min(duration_s) }
+}
+
 /// Allowed times between the rows of a record of a duration (any unit): at least one row, at most [`MAX_ROWS`].
 pub fn row_step(duration: f64) -> Limits {
     Limits::new(duration / MAX_ROWS, duration)
@@ -182,8 +239,12 @@ pub fn valve_frequency(duration_s: f64) -> Limits {
 
 /// A gain K (V/V) of the same sign as the given one: [`GAIN_MAGNITUDE`] with that sign.
 pub fn gain_like(gain: f64) -> Limits {
-    let Limits { min, max } = GAIN_MAGNITUDE;
-    if gain < 0.0 { Limits::new(-max, -min) } else { GAIN_MAGNITUDE }
+    with_sign_of(gain, GAIN_MAGNITUDE)
+}
+
+/// Limits of a magnitude with the sign of a number.
+pub fn with_sign_of(number: f64, magnitude: Limits) -> Limits {
+    if number < 0.0 { Limits::new(-magnitude.max, -magnitude.min) } else { magnitude }
 }
 
 #[cfg(test)]

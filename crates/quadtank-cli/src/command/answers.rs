@@ -1,9 +1,12 @@
 //! What the commands answer about a document: one implementation for each kind.
 
+use quadtank::sim::level::LevelRunError;
 use quadtank::study::StudyError;
+use quadtank::study::level_loop::LevelLoopFault;
 use quadtank::study::quadruple_tank::{analyse, run};
 use quadtank::tuning::TuningError;
 use quadtank_figure::Style;
+use quadtank_scenario::level_loop::{self as level_loops, LevelLoopScenario};
 use quadtank_scenario::model_free::ModelFreeScenario;
 use quadtank_scenario::report::quadruple::AnalysisReport;
 use quadtank_scenario::report::tuning::TuningAnalysisReport;
@@ -12,6 +15,7 @@ use quadtank_scenario::{BenchDocument, Document, Scenario, ScenarioError, run_to
 use serde::Serialize;
 use thiserror::Error;
 
+use super::level_loop::{self, SearchOptions};
 use super::{Format, model_free, plot, tune};
 
 /// What is to be drawn, and how.
@@ -31,8 +35,14 @@ pub enum Fault {
     Scenario(#[from] ScenarioError),
     #[error("tuning: {0}")]
     Tuning(#[from] TuningError),
-    #[error("this command needs a relay-tuning session, version 2; a run of the quadruple tank is version 1")]
+    #[error("level_loop.{0}")]
+    LevelLoop(#[from] LevelLoopFault),
+    #[error("level_loop: {0}")]
+    LevelRun(#[from] LevelRunError),
+    #[error("this command needs a relay-tuning session, version 2, or a level loop, version 4")]
     NoTuning,
+    #[error("no picture of a level loop yet")]
+    NoPicture,
     #[error("{0}")]
     Json(#[from] serde_json::Error),
 }
@@ -45,8 +55,8 @@ pub trait Answers {
     fn simulate(&self, format: Format) -> Result<String, Fault>;
     /// A picture, as SVG.
     fn plot(&self, drawing: &Drawing) -> Result<String, Fault>;
-    /// What relay test and design find.
-    fn tune(&self, _: Format) -> Result<String, Fault> {
+    /// What relay test and design find, or a search for the settings of a level loop.
+    fn tune(&self, _: Format, _: &SearchOptions) -> Result<String, Fault> {
         Err(Fault::NoTuning)
     }
     /// What the document may not have been meant to say.
@@ -61,6 +71,7 @@ pub fn of(document: &Document) -> &dyn Answers {
         Document::Quadruple(scenario) => scenario,
         Document::Tuning(scenario) => scenario,
         Document::ModelFree(scenario) => scenario,
+        Document::LevelLoop(scenario) => scenario,
     }
 }
 
@@ -98,7 +109,7 @@ impl Answers for TuningScenario {
         Ok(tune::svg(&self.tuning, drawing.picture, &drawing.style)?)
     }
 
-    fn tune(&self, format: Format) -> Result<String, Fault> {
+    fn tune(&self, format: Format, _: &SearchOptions) -> Result<String, Fault> {
         match format {
             Format::Csv => Ok(tune::test_csv(&self.tuning)?),
             Format::Json => json_by_key(&tune::report(&self.tuning)?),
@@ -124,6 +135,34 @@ impl Answers for ModelFreeScenario {
 
     fn plot(&self, drawing: &Drawing) -> Result<String, Fault> {
         studied::<Self, _>(model_free::svg(&self.model_free, &drawing.style))
+    }
+}
+
+impl Answers for LevelLoopScenario {
+    fn analyse(&self) -> Result<String, Fault> {
+        json(&level_loop::analysis(&self.level_loop))
+    }
+
+    fn simulate(&self, format: Format) -> Result<String, Fault> {
+        match format {
+            Format::Csv => Ok(level_loop::csv(&self.level_loop)?),
+            Format::Json => json(&level_loop::report(&self.level_loop)?),
+        }
+    }
+
+    fn plot(&self, _: &Drawing) -> Result<String, Fault> {
+        Err(Fault::NoPicture)
+    }
+
+    fn tune(&self, format: Format, options: &SearchOptions) -> Result<String, Fault> {
+        match format {
+            Format::Csv => Ok(level_loop::search_csv(&self.level_loop, options)?),
+            Format::Json => json(&level_loop::search_report(&self.level_loop, options)?),
+        }
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        level_loops::warnings(&self.level_loop).iter().map(ToString::to_string).collect()
     }
 }
 

@@ -3,7 +3,9 @@
 use clap::ValueEnum;
 use quadtank::study::quadruple_tank::Run;
 use quadtank_scenario::BenchDocument;
+use quadtank_scenario::level_loop::LevelLoopScenario;
 use quadtank_scenario::model_free::ModelFreeScenario;
+use quadtank_scenario::report::level_loop::{LevelLoopAnalysisReport, LevelLoopReport, LevelSearchReport};
 use quadtank_scenario::report::model_free::{ModelFreeAnalysisReport, ModelFreeReport};
 use quadtank_scenario::report::quadruple::AnalysisReport;
 use quadtank_scenario::report::tuning::{TuningAnalysisReport, TuningReport};
@@ -18,7 +20,7 @@ pub enum Report {
     Analyse,
     /// What happens in the run; of version 2 the same as of tune
     Simulate,
-    /// What the relay test and the design find
+    /// What the relay test and the design find, or a search for settings of a level loop
     Tune,
 }
 
@@ -32,6 +34,9 @@ impl Report {
             (Self::Simulate, Scenario::VERSION) => Some(schema_of_report::<Run>()),
             (Self::Simulate | Self::Tune, TuningScenario::VERSION) => Some(schema_of_report::<TuningReport>()),
             (Self::Simulate, ModelFreeScenario::VERSION) => Some(schema_of_report::<ModelFreeReport>()),
+            (Self::Analyse, LevelLoopScenario::VERSION) => Some(schema_of_report::<LevelLoopAnalysisReport>()),
+            (Self::Simulate, LevelLoopScenario::VERSION) => Some(schema_of_report::<LevelLoopReport>()),
+            (Self::Tune, LevelLoopScenario::VERSION) => Some(schema_of_report::<LevelSearchReport>()),
             _ => None,
         }
     }

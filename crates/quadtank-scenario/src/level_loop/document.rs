@@ -61,7 +61,9 @@ impl BenchDocument for LevelLoopScenario {
     fn validate(&self) -> Result<(), ScenarioError> {
         self.label.check()?;
         params::check(self)?;
-        validate::version(self.version, Self::VERSION)
+        validate::version(self.version, Self::VERSION)?;
+        super::validate::setup(&self.level_loop, "level_loop")?;
+        validate::each(&self.pinned_loops, "pinned_loops", super::validate::setup)
     }
 }
 

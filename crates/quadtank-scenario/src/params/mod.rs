@@ -27,7 +27,8 @@ pub enum Scale {
 /// A number of a document.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Param {
-    /// Where it stands in a setup, with `[]` for any index, such as `plant.parameters.rig.tanks[].height`.
+    /// Where it stands in a setup, with `[]` for any index, such as `plant.parameters.rig.tanks[].height`; with `level_loop.` before
+    /// it where it stands there in a level loop alone and something else in other documents.
     pub path: &'static str,
     /// Its unit; empty for a number without one.
     pub unit: &'static str,
@@ -42,8 +43,7 @@ pub struct Param {
 impl Param {
     /// The number at a path of a document of any version, such as `pinned[0].plant.parameters.rig.tanks[2].height`.
     pub fn at(path: &str) -> Option<&'static Self> {
-        let place = place_in_setup(path);
-        PARAMS.iter().find(|param| param.path == place)
+        row_at(path, PARAMS, |param| param.path)
     }
 }
 
@@ -59,23 +59,34 @@ pub struct List {
 impl List {
     /// The list at a path of a document of any version.
     pub fn at(path: &str) -> Option<&'static Self> {
-        let place = place_in_setup(path);
-        LISTS.iter().find(|list| list.path == place)
+        row_at(path, LISTS, |list| list.path)
     }
 }
 
-/// Where a path of a document leads within a setup, with `[]` for any index. The setup that is worked on and the pinned ones are
-/// alike, and so are the PI loops that a model-free run is compared with and those of a setup of the tank.
-fn place_in_setup(path: &str) -> String {
+/// The row of the value at a path of a document. In a level loop its own rows come before those that it shares with other documents.
+fn row_at<T>(path: &str, rows: &'static [T], path_of: fn(&T) -> &'static str) -> Option<&'static T> {
+    let place = any_index(path);
+    let find = |place: &str| rows.iter().find(|row| path_of(row) == place);
+    let own = ["level_loop.", "pinned_loops[]."].iter().find_map(|root| place.strip_prefix(root));
+    own.and_then(|inside| find(&format!("level_loop.{inside}"))).or_else(|| find(&place_in_setup(&place)))
+}
+
+/// A path with `[]` for any index.
+fn any_index(path: &str) -> String {
     let mut pieces = path.split('[');
     let first = pieces.next().unwrap_or_default().to_owned();
-    let place = pieces.fold(first, |place, piece| place + "[" + piece.trim_start_matches(|c: char| c.is_ascii_digit()));
+    pieces.fold(first, |place, piece| place + "[" + piece.trim_start_matches(|c: char| c.is_ascii_digit()))
+}
+
+/// Where a path of a document, without indices, leads within a setup. The setup that is worked on and the pinned ones are alike, and
+/// so are the PI loops that a model-free run is compared with and those of a setup of the tank.
+fn place_in_setup(place: &str) -> String {
     let mut roots = KINDS.iter().map(|kind| kind.root).chain(["pinned[]", "pinned_loops[]"]);
     let inside = roots.find_map(|root| place.strip_prefix(root)?.strip_prefix('.'));
     match inside.map(|inside| (inside, inside.strip_prefix("compare."))) {
         Some((_, Some(compared))) => format!("controller.{compared}"),
         Some((inside, None)) => inside.to_owned(),
-        None => place,
+        None => place.to_owned(),
     }
 }
 
@@ -152,6 +163,11 @@ mod tests {
             (compared, compared),
             (Param::at("setup.controller.loops[0].gain"), Param::at("controller.loops[].gain"))
         );
+        let row = |path: &str| Param::at(path).map(|param| param.path);
+        let own = Some("level_loop.experiment.duration_s");
+        assert_eq!((row("level_loop.experiment.duration_s"), row("pinned_loops[3].experiment.duration_s")), (own, own));
+        assert_eq!(row("setup.experiment.duration_s"), Some("experiment.duration_s"));
+        assert_eq!(row("level_loop.experiment.set_point_steps[1].time_s"), Some("experiment.set_point_steps[].time_s"));
         assert_eq!(Param::at("setup.plant.preset"), None);
         assert_eq!(Param::at(""), None);
     }

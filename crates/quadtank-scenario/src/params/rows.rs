@@ -2,6 +2,7 @@ use super::Scale::{Linear, Logarithmic};
 use super::{List, Param, Scale};
 use crate::Scenario;
 use crate::codec::NEWEST;
+use crate::level_loop::LevelLoopScenario;
 use crate::limits::{self, Limits};
 use crate::tuning::TuningScenario;
 
@@ -16,8 +17,13 @@ const VERSION: Limits = Limits::new(1.0, NEWEST as f64);
 
 /// Unit of a time of a session: that of its plant.
 const OWN_TIME: &str = "unit of time of the plant";
+/// Unit of a signal of a level loop: that of its range.
+const OWN_SIGNAL: &str = "unit of the signal";
+/// Unit of a gain of a level controller.
+const PER_SIGNAL: &str = "signal per signal";
 
-/// Every number of every document.
+/// Every number of every document. Where the same path means something else in a level loop, the row of the level loop begins with
+/// `level_loop.`.
 #[rustfmt::skip]
 pub const PARAMS: &[Param] = &[
     row("version", "", VERSION, Linear, "Version of the document: which bench it is for"),
@@ -119,6 +125,86 @@ pub const PARAMS: &[Param] = &[
     row("response.references[]", "unit of the outputs", limits::TUNING_VALUE, Linear, "References of both loops, from the start on"),
     row("response.duration", OWN_TIME, limits::TUNING_POSITIVE, Logarithmic, "Duration of the response"),
     row("response.step", OWN_TIME, limits::TUNING_NOT_NEGATIVE, Linear, "Sampling time of the controllers: at most 100 000 samples"),
+
+    // The plant of a level loop.
+    row("plant.parameters.tank.area", "m²", limits::LEVEL_TANK_AREA, Logarithmic, "Cross-section A of the tank"),
+    row("plant.parameters.tank.height", "m", limits::LEVEL_TANK_HEIGHT, Linear, "Height of the walls; what comes in above them is lost"),
+    row("plant.parameters.tank.outflow.linear.resistance", "s/m²", limits::RESISTANCE, Logarithmic, "Resistance R of a laminar outlet, q = h/R"),
+    row("plant.parameters.tank.outflow.square_root.coefficient", "m^2.5/s", limits::FLOW_COEFFICIENT, Logarithmic, "Coefficient k of a turbulent outlet, q = k √h"),
+    row("plant.parameters.tank.outflow.pumped.flow", "m³/s", limits::FLOW, Linear, "Flow that a pump draws at every level"),
+    row("plant.parameters.transmitter.level_range[]", "m", limits::TRANSMITTER_LEVEL, Linear, "Levels at the lower and at the upper end of the transmitter signal"),
+    row("plant.parameters.transmitter.signal.low", OWN_SIGNAL, limits::SIGNAL, Linear, "Lower end of the transmitter signal"),
+    row("plant.parameters.transmitter.signal.high", OWN_SIGNAL, limits::SIGNAL, Linear, "Upper end of the transmitter signal"),
+    row("plant.parameters.transmitter.lag_s", "s", limits::LAG_S, Linear, "Time constant of the transmitter; 0 for one that follows at once"),
+    row("plant.parameters.output.signal.low", OWN_SIGNAL, limits::SIGNAL, Linear, "Lower end of the controller output"),
+    row("plant.parameters.output.signal.high", OWN_SIGNAL, limits::SIGNAL, Linear, "Upper end of the controller output"),
+    row("plant.parameters.converter.input.low", OWN_SIGNAL, limits::SIGNAL, Linear, "Lower end of what goes into the converter"),
+    row("plant.parameters.converter.input.high", OWN_SIGNAL, limits::SIGNAL, Linear, "Upper end of what goes into the converter"),
+    row("plant.parameters.converter.output.low", OWN_SIGNAL, limits::SIGNAL, Linear, "Lower end of what comes out of the converter"),
+    row("plant.parameters.converter.output.high", OWN_SIGNAL, limits::SIGNAL, Linear, "Upper end of what comes out of the converter"),
+    row("plant.parameters.actuator.lag_s", "s", limits::LAG_S, Linear, "Time constant of the actuator; 0 for one that follows at once"),
+    row("plant.parameters.actuator.curve[][]", "", limits::SIGNAL, Linear, "Points of the actuator curve by rising pressure, each the pressure in the unit of the converter output (of the controller output without a converter), then the travel from 0 to 1; travel rises or falls all along"),
+    row("plant.parameters.valve.characteristic.equal_percentage.rangeability", "", limits::RANGEABILITY, Logarithmic, "Rangeability R of the valve, f = R^(X − 1)"),
+    row("plant.parameters.valve.place.inlet.full_flow", "m³/s", limits::FULL_FLOW, Logarithmic, "Flow of the open valve in the feed"),
+
+    // Its step test, objective and rules.
+    row("test.level", "m", limits::TANK_LEVEL, Linear, "Level at which the step test begins at rest"),
+    row("test.inflow", "m³/s", limits::FLOW, Linear, "Inflow during the step test"),
+    row("level_loop.test.step", OWN_SIGNAL, limits::SIGNAL, Linear, "Step of the controller output, of either sign"),
+    row("test.step_time_s", "s", limits::TIME_S, Linear, "Time of the step"),
+    row("test.return_time_s", "s", limits::TIME_S, Linear, "Time at which the output steps back; absent for one step"),
+    row("test.duration_s", "s", limits::LEVEL_DURATION_S, Logarithmic, "Duration of the step test"),
+    row("test.method.one_point.dead_time_s", "s", limits::TIME_S, Linear, "Dead time as it is read by eye"),
+    row("objective.averaging.band[]", "m", limits::TANK_LEVEL, Linear, "Lowest and highest level of averaging control"),
+    row("closed_loop_time_s", "s", limits::LEVEL_TIME_S, Logarithmic, "Closed-loop time constant that is asked of SIMC (τc) and of Lambda tuning (λ)"),
+
+    // Its controller, and the tuning that it is held against.
+    row("controller.manual.steps[].time_s", "s", limits::TIME_S, Linear, "Time of the step of the output"),
+    row("controller.manual.steps[].size", OWN_SIGNAL, limits::SIGNAL, Linear, "How far the output steps, of either sign"),
+    row("controller.pi.gain", PER_SIGNAL, limits::LEVEL_GAIN, Logarithmic, "Gain Kp of either sign; 0 leaves the level alone"),
+    row("controller.pi.integral_time_s", "s", limits::LEVEL_TIME_S, Logarithmic, "Integral time Ti"),
+    row("controller.pi.anti_windup.back_calculation.tracking_ratio", "", limits::TRACKING_RATIO, Logarithmic, "Tracking time over integral time, Tt/Ti"),
+    row("controller.pid.proportional", PER_SIGNAL, limits::LEVEL_GAIN, Logarithmic, "P of the parallel PID controller, of either sign"),
+    row("controller.pid.integral", "1/s", limits::LEVEL_GAIN, Logarithmic, "I of the parallel PID controller, of either sign; 0 for none"),
+    row("controller.pid.derivative", "s", limits::LEVEL_GAIN, Logarithmic, "D of the parallel PID controller, of either sign; 0 for none"),
+    row("controller.pid.filter_time_s", "s", limits::LEVEL_TIME_S, Logarithmic, "Time constant of the derivative filter"),
+    row("controller.sampled.settings.gain", PER_SIGNAL, limits::LEVEL_GAIN, Logarithmic, "Gain K of the sampled controller, of either sign; 0 leaves the level alone"),
+    row("controller.sampled.settings.integral_time_s", "s", limits::LEVEL_TIME_S, Logarithmic, "Integral time Ti of the sampled controller"),
+    row("controller.sampled.settings.set_point_weight", "", limits::SET_POINT_WEIGHT, Linear, "Set-point weight b in the proportional part"),
+    row("controller.sampled.settings.anti_windup.back_calculation.tracking_ratio", "", limits::TRACKING_RATIO, Logarithmic, "Tracking time over integral time, Tt/Ti"),
+    row("controller.sampled.settings.mode.manual.output", OWN_SIGNAL, limits::SIGNAL, Linear, "Controller output in manual mode"),
+    row("controller.sampled.settings.mode.manual.until_s", "s", limits::TIME_S, Linear, "Time at which the controller takes over"),
+    row("controller.sampled.sampling_time_s", "s", limits::LEVEL_STEP_S, Logarithmic, "Sampling time Ts; the nearest multiple of a step of the integration is meant"),
+    row("reference.gain", PER_SIGNAL, limits::LEVEL_GAIN, Logarithmic, "Gain Kp of the tuning that the controller is held against"),
+    row("reference.integral_time_s", "s", limits::LEVEL_TIME_S, Logarithmic, "Integral time Ti of that tuning"),
+    row("model_error.area_factor", "", limits::MODEL_FACTOR, Logarithmic, "Area of the model, on which that tuning is run, over that of the plant"),
+    row("model_error.flow_factor", "", limits::MODEL_FACTOR, Logarithmic, "Flows of that model over those of the plant, the ratio of the valve coefficients"),
+
+    // Its experiment.
+    row("experiment.level", "m", limits::TANK_LEVEL, Linear, "Level at which the run begins at rest, and its set-point"),
+    row("experiment.inflow", "m³/s", limits::FLOW, Linear, "Inflow at the start"),
+    row("level_loop.experiment.duration_s", "s", limits::LEVEL_DURATION_S, Logarithmic, "Duration of the experiment"),
+    row("experiment.log_step_s", "s", limits::LEVEL_STEP_S, Logarithmic, "Time between the rows of the log: at most 20 000 rows"),
+    row("experiment.disturbance.from_s", "s", limits::TIME_S, Linear, "Time at which the disturbance of the inflow begins"),
+    row("experiment.disturbance.until_s", "s", limits::TIME_S, Linear, "Time at which it ends, not before it begins"),
+    row("experiment.disturbance.signal.step.size", "m³/s", limits::FLOW_CHANGE, Linear, "How far the inflow steps, of either sign; an inflow below 0 counts as none"),
+    row("experiment.disturbance.signal.sine.amplitude", "m³/s", limits::FLOW_CHANGE, Linear, "Amplitude of the sine on the inflow"),
+    row("experiment.disturbance.signal.sine.period_s", "s", limits::LEVEL_STEP_S, Logarithmic, "Period of the sine"),
+    row("experiment.disturbance.signal.simulink_normal.std", "m³/s", limits::FLOW, Linear, "Standard deviation of the random values"),
+    row("experiment.disturbance.signal.simulink_normal.sample_time_s", "s", limits::LEVEL_STEP_S, Logarithmic, "How long a random value is held"),
+    row("experiment.disturbance.signal.simulink_normal.seed", "", limits::SEED, Linear, "Seed of the block: the same seed gives the same run"),
+    row("experiment.disturbance.signal.normal.std", "m³/s", limits::FLOW, Linear, "Standard deviation of the random values"),
+    row("experiment.disturbance.signal.normal.sample_time_s", "s", limits::LEVEL_STEP_S, Logarithmic, "How long a random value is held"),
+    row("experiment.disturbance.signal.normal.seed", "", limits::SEED, Linear, "Seed of the random values: the same seed gives the same run"),
+    row("level_loop.experiment.set_point_steps[].size", "m, or unit of the signal", limits::SIGNAL, Linear, "How far the set-point steps, of either sign: the level, or with the scale `signal` the transmitter signal that it stands for"),
+
+    // Its search and its Harris index.
+    row("search.gain[]", PER_SIGNAL, limits::LEVEL_GAIN_MAGNITUDE, Logarithmic, "Smallest and largest gain of the search"),
+    row("search.integral_time_s[]", "s", limits::LEVEL_TIME_S, Logarithmic, "Smallest and largest integral time of the search"),
+    row("search.move_penalty", "unit of the cost per squared signal", limits::MOVE_PENALTY, Linear, "What is added to the cost for each square of a move of the output from row to row"),
+    row("search.largest_sensitivity", "", limits::SENSITIVITY_PEAK, Linear, "Largest sensitivity peak Ms of the linear loop; absent for any"),
+    row("harris.dead_time_rows", "", limits::DEAD_TIME_ROWS, Linear, "Dead time of the Harris index in rows of the log, that of the sampling included"),
+    row("harris.order", "", limits::MODEL_ORDER, Linear, "Order of the autoregressive model of the Harris index"),
 ];
 
 const _: () = assert!(Scenario::MAX_PINNED == TuningScenario::MAX_PINNED, "documents of both versions share a row");
@@ -126,8 +212,11 @@ const _: () = assert!(Scenario::MAX_PINNED == TuningScenario::MAX_PINNED, "docum
 /// Every list of any length.
 pub const LISTS: &[List] = &[
     List { path: "pinned", max: Scenario::MAX_PINNED },
+    List { path: "pinned_loops", max: LevelLoopScenario::MAX_PINNED },
     List { path: "experiment.set_point_steps", max: limits::MAX_STEPS },
     List { path: "experiment.load_steps", max: limits::MAX_STEPS },
     List { path: "plant.elements[][].numerator", max: limits::MAX_COEFFICIENTS },
     List { path: "plant.elements[][].denominator", max: limits::MAX_COEFFICIENTS },
+    List { path: "plant.parameters.actuator.curve", max: limits::MAX_CURVE_POINTS },
+    List { path: "controller.manual.steps", max: limits::MAX_STEPS },
 ];

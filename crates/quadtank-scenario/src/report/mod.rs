@@ -8,6 +8,7 @@ use nalgebra::Matrix2;
 use quadtank::linear::{Complex, LinearError};
 use serde::Serialize;
 
+pub mod level_loop;
 pub mod model_free;
 pub mod quadruple;
 pub mod tuning;

@@ -1,4 +1,5 @@
 use nalgebra::{DMatrix, DVector};
+use serde::Serialize;
 use thiserror::Error;
 
 use super::{IndexError, VarianceIndex};
@@ -19,7 +20,9 @@ pub struct HarrisIndex {
 }
 
 /// Data without an index of Harris.
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Error, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(tag = "error", rename_all = "kebab-case")]
 pub enum HarrisError {
     /// A model without coefficients, or a dead time without samples.
     #[error("{field} is {value}, below 1")]
@@ -53,6 +56,7 @@ pub enum HarrisError {
     },
     /// The data have no variance.
     #[error(transparent)]
+    #[serde(untagged)]
     Index(#[from] IndexError),
 }
 

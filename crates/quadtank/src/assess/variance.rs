@@ -1,3 +1,4 @@
+use serde::Serialize;
 use thiserror::Error;
 
 use crate::sim::level::SampleStatistics;
@@ -15,7 +16,9 @@ pub struct VarianceIndex {
 }
 
 /// Variances without an index.
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Error, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(tag = "error", rename_all = "kebab-case")]
 pub enum IndexError {
     /// The loop does not move, so its variance is not to be improved.
     #[error("the variance of the loop is zero")]
@@ -24,12 +27,15 @@ pub enum IndexError {
     #[error("{value} is no variance")]
     NoVariance {
         /// It.
+        #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
         value: f64,
     },
 }
 
 /// What an index advises. The bounds are ours: the source says "near 1" and "near 0".
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case")]
 pub enum IndexVerdict {
     /// 0.9 to 1.05: leave the tuning.
     Keep,

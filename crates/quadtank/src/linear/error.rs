@@ -55,6 +55,7 @@ pub enum LinearError {
         /// Name of the argument.
         field: &'static str,
         /// Its value.
+        #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
         value: f64,
     },
 }

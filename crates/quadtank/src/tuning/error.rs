@@ -1,9 +1,12 @@
+use serde::Serialize;
 use thiserror::Error;
 
 use crate::linear::LinearError;
 
 /// What can be wrong with a tuning experiment. Every variant carries the offending value.
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Error, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(tag = "error", rename_all = "kebab-case")]
 pub enum TuningError {
     /// A setting for which the experiment makes no sense.
     #[error("{field} = {value} is out of range")]
@@ -11,6 +14,7 @@ pub enum TuningError {
         /// Name of the setting.
         field: &'static str,
         /// Its value.
+        #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
         value: f64,
     },
     /// A pole of the plant that is not in the left half-plane: every method here needs a stable plant.
@@ -21,6 +25,7 @@ pub enum TuningError {
     },
     /// What is wrong with the plant itself.
     #[error(transparent)]
+    #[serde(untagged)]
     Linear(#[from] LinearError),
 }
 

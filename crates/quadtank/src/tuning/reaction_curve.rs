@@ -44,7 +44,9 @@ pub struct ReactionFit {
 }
 
 /// Why a record has no model.
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Error, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(tag = "error", rename_all = "kebab-case")]
 pub enum ReactionError {
     /// Too few rows after the step.
     #[error("{rows} rows after the step are too few")]
@@ -62,6 +64,7 @@ pub enum ReactionError {
     #[error("the signal moves by {change}, which is nothing")]
     NoResponse {
         /// By how much it moves.
+        #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
         change: f64,
     },
     /// The signal still moves at the end.

@@ -1,9 +1,12 @@
+use serde::Serialize;
 use thiserror::Error;
 
 use super::reaction_curve::SETTLED;
 
 /// Whether a process finds a level of its own, with the reason (Rice and Cooper 2015; Andreis 2017, §2.1).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(tag = "verdict", content = "reason", rename_all = "kebab-case")]
 pub enum Regulation {
     /// It does.
     SelfRegulating(RegulationReason),
@@ -14,7 +17,9 @@ pub enum Regulation {
 }
 
 /// What a test shows. Shares are of the largest move, of the signal in an open loop and of the set-point in a closed one.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(tag = "sign", rename_all = "kebab-case")]
 pub enum RegulationReason {
     /// After the step back the signal settles where it started.
     ReturnsToStart {
@@ -51,7 +56,8 @@ pub enum RegulationReason {
 }
 
 /// Why a record cannot be read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[error("a stretch of the test has {rows} rows, which are too few")]
 pub struct RegulationError {
     /// Rows of the shortest stretch.

@@ -304,3 +304,24 @@ fn published_setups_run_without_findings() {
     }
     assert_eq!(LevelLoopSetup::default().anti_windup(), AntiWindup::Off);
 }
+
+/// Errors of a report say their kind, and those that pass on another say that one's.
+#[test]
+fn errors_and_findings_are_written_with_their_kind() {
+    fn written(value: &impl serde::Serialize) -> String {
+        serde_json::to_string(value).unwrap()
+    }
+    let out = changed(|setup| setup.experiment.level = 5.0);
+    assert_eq!(
+        written(&run_level_loop(&out).unwrap_err().fault),
+        r#"{"error":"level-outside-tank","value":5.0,"height":2.0}"#
+    );
+    let late = changed(|setup| setup.test.step_time_s = 1e4);
+    let fault = results(&late).test.as_ref().as_ref().unwrap_err().to_owned();
+    assert_eq!(written(&fault), r#"{"error":"outside-test","field":"step_time_s","value":10000.0}"#);
+    let lost = changed(|setup| setup.test.level = 3.0);
+    let fault = results(&lost).test.as_ref().as_ref().unwrap_err().to_owned();
+    assert_eq!(written(&fault), r#"{"error":"level-outside-tank","value":3.0,"height":2.0}"#);
+    assert_eq!(written(&Finding::TankFull { time_s: 2.0 }), r#"{"finding":"tank-full","time_s":2.0}"#);
+    assert_eq!(written(&Finding::NoGain), r#"{"finding":"no-gain"}"#);
+}

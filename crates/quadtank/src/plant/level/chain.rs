@@ -28,6 +28,7 @@ pub struct LevelPlant {
 
 /// The values of all signals of a level loop at one moment.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct LevelSignals {
     /// Disturbed inflow (m³/s), without that of a valve in the inlet.
     pub inflow: f64,

@@ -36,6 +36,7 @@ pub enum LevelError {
     #[error("the valve would need an opening of {needed}, outside {min} to {max}")]
     ValveOutOfReach {
         /// Required opening, as a share of the flow of the open valve; not finite where no opening gives any flow.
+        #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
         needed: f64,
         /// Opening of the closed valve.
         min: f64,

@@ -107,11 +107,10 @@ impl LevelController {
 }
 
 /// Why a level loop has no run.
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Error, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(tag = "error", rename_all = "kebab-case")]
 pub enum LevelRunError {
-    /// The loop has no such rest.
-    #[error(transparent)]
-    Plant(#[from] LevelError),
     /// A number of experiment or controller without meaning, such as an integral time of 0.
     #[error("{field} = {value} is out of range")]
     OutOfRange {
@@ -138,10 +137,15 @@ pub enum LevelRunError {
     #[error("the run would take {steps} steps of integration, more than {max}")]
     TooMuchWork {
         /// Steps that it would take.
+        #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
         steps: f64,
         /// Most steps of a run.
         max: f64,
     },
+    /// The loop has no such rest.
+    #[error(transparent)]
+    #[serde(untagged)]
+    Plant(#[from] LevelError),
 }
 
 fn finite(field: &'static str, value: f64) -> Result<(), LevelRunError> {

@@ -30,6 +30,8 @@ pub struct LevelLog {
     pub full_s: f64,
     /// How long it was empty (s), likewise.
     pub empty_s: f64,
+    /// Steps of integration that the run took: its work.
+    pub steps: usize,
 }
 
 impl LevelLog {
@@ -58,7 +60,7 @@ impl LevelLog {
         ] {
             column.clear();
         }
-        (self.full_s, self.empty_s) = (0.0, 0.0);
+        (self.full_s, self.empty_s, self.steps) = (0.0, 0.0, 0);
     }
 
     /// Rows from one time to another (s), both included.

@@ -286,6 +286,7 @@ impl<'a> Running<'a> {
         let simulation = self.simulation;
         let kernel = &simulation.kernel;
         let inflow = simulation.inflows[step];
+        log.steps += self.pieces;
         if self.pieces == 1 {
             kernel.step(&self.law, self.reference, simulation.step_s, inflow, &mut self.moving);
         } else {

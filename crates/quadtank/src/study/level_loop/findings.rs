@@ -1,3 +1,5 @@
+use serde::Serialize;
+
 use crate::assess::LoopQuality;
 use crate::linear::LoopStability;
 use crate::plant::level::{LevelError, LevelPlant};
@@ -6,7 +8,9 @@ use crate::sim::level::{InflowSignal, LevelController, LevelFigures, LevelLog, S
 use super::{LevelLoopSetup, Objective};
 
 /// What is to be said about a run.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(tag = "finding", rename_all = "kebab-case")]
 pub enum Finding {
     /// The loop cannot hold the set-point that it is given.
     SetPointOutOfReach {

@@ -1,3 +1,4 @@
+use serde::Serialize;
 use thiserror::Error;
 
 use crate::plant::level::LevelPlant;
@@ -58,11 +59,10 @@ impl ModelMatch {
 }
 
 /// Why a test has no record.
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Error, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(tag = "error", rename_all = "kebab-case")]
 pub enum StepTestFault {
-    /// The loop has no such run.
-    #[error(transparent)]
-    Run(#[from] LevelRunError),
     /// The output does not step within the test.
     #[error("{field} = {value} is not within the test")]
     OutsideTest {
@@ -71,6 +71,10 @@ pub enum StepTestFault {
         /// Its value (s).
         value: f64,
     },
+    /// The loop has no such run.
+    #[error(transparent)]
+    #[serde(untagged)]
+    Run(#[from] LevelRunError),
 }
 
 /// Runs the test on a plant and reads it.
