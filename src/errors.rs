@@ -6,6 +6,7 @@ use super::texts::tr;
 use quadtank::control::{EstimatorError, MAX_WINDOW_SAMPLES};
 use quadtank::literature::DisplayUnit;
 use quadtank::plant::PlantError;
+use quadtank::plant::level::LevelError;
 use quadtank::study::relay_tuning::ElementFault;
 use quadtank::study::{StudyError, StudyFault};
 use quadtank_scenario::ScenarioError;
@@ -34,6 +35,9 @@ pub fn of_error(lab: Lab, unit: DisplayUnit, error: &ScenarioError) -> String {
         ScenarioError::DamagedLink => tr!(lab, refused.damaged),
         ScenarioError::Study { error, .. } => of_study_error(lab, unit, error),
         ScenarioError::Law { field, error } => of_law(lab, field, *error),
+        ScenarioError::Level { field, error } => {
+            tr!(lab, refused.level, field = field, reason = of_level_error(lab, error))
+        }
         ScenarioError::Element { field, fault } => {
             tr!(lab, refused.element, field = field, reason = of_fault(lab, *fault))
         }
@@ -106,6 +110,36 @@ pub fn of_plant_error(lab: Lab, unit: DisplayUnit, error: &PlantError) -> String
             max = style.fixed(max, 1)
         ),
         PlantError::OutOfRange { field, value, min, max } => out_of_range(lab, field, value, min, max),
+    }
+}
+
+/// Why a level loop has no such rest.
+pub fn of_level_error(lab: Lab, error: &LevelError) -> String {
+    let style = lab.number_style();
+    let cm = |metres: f64| style.fixed(100.0 * metres, 1);
+    match *error {
+        LevelError::LevelOutsideTank { value, height } => {
+            tr!(lab, level_error.outside_tank, level = cm(value), height = cm(height))
+        }
+        LevelError::NegativeFlow { value } => {
+            tr!(lab, level_error.negative_flow, flow = style.significant(1000.0 * value, 3))
+        }
+        LevelError::ValveOutOfReach { needed, min, .. } if needed < min => {
+            let percent = |share: f64| style.significant(100.0 * share, 2);
+            tr!(lab, level_error.valve_leaks, needed = percent(needed), least = percent(min))
+        }
+        LevelError::ValveOutOfReach { needed, .. } => {
+            tr!(lab, level_error.valve_too_small, needed = style.significant(100.0 * needed, 3))
+        }
+        LevelError::OutputOutOfReach { needed, min, max } => {
+            let number = |value: f64| style.fixed(value, 2);
+            tr!(lab, level_error.output_out_of_reach, needed = number(needed), min = number(min), max = number(max))
+        }
+        LevelError::ActuatorCurve { index } => tr!(lab, level_error.actuator_curve, point = index + 1),
+        LevelError::OutOfRange { field, value, min, max } => {
+            let number = |value: f64| style.significant(value, 4);
+            tr!(lab, refused.range, field = field, value = number(value), min = number(min), max = number(max))
+        }
     }
 }
 

@@ -1,49 +1,19 @@
 //! Why a loop has no rest, no run or no test, in the language of the reader.
 
 use quadtank::assess::{HarrisError, IndexError};
-use quadtank::plant::level::LevelError;
 use quadtank::sim::level::LevelRunError;
 use quadtank::study::level_loop::{LevelLoopFault, StepTestFault};
 use quadtank::tuning::{ReactionError, TuningError};
 
+use crate::errors::of_level_error;
 use crate::lab::Lab;
 use crate::texts::tr;
-
-/// Why a loop has no such rest.
-pub fn of_plant(lab: Lab, error: &LevelError) -> String {
-    let style = lab.number_style();
-    let cm = |metres: f64| style.fixed(100.0 * metres, 1);
-    match *error {
-        LevelError::LevelOutsideTank { value, height } => {
-            tr!(lab, level_error.outside_tank, level = cm(value), height = cm(height))
-        }
-        LevelError::NegativeFlow { value } => {
-            tr!(lab, level_error.negative_flow, flow = style.significant(1000.0 * value, 3))
-        }
-        LevelError::ValveOutOfReach { needed, min, .. } if needed < min => {
-            let percent = |share: f64| style.significant(100.0 * share, 2);
-            tr!(lab, level_error.valve_leaks, needed = percent(needed), least = percent(min))
-        }
-        LevelError::ValveOutOfReach { needed, .. } => {
-            tr!(lab, level_error.valve_too_small, needed = style.significant(100.0 * needed, 3))
-        }
-        LevelError::OutputOutOfReach { needed, min, max } => {
-            let number = |value: f64| style.fixed(value, 2);
-            tr!(lab, level_error.output_out_of_reach, needed = number(needed), min = number(min), max = number(max))
-        }
-        LevelError::ActuatorCurve { index } => tr!(lab, level_error.actuator_curve, point = index + 1),
-        LevelError::OutOfRange { field, value, min, max } => {
-            let number = |value: f64| style.significant(value, 4);
-            tr!(lab, refused.range, field = field, value = number(value), min = number(min), max = number(max))
-        }
-    }
-}
 
 /// Why a loop has no run.
 pub fn of_run(lab: Lab, error: &LevelRunError) -> String {
     let style = lab.number_style();
     match error {
-        LevelRunError::Plant(error) => of_plant(lab, error),
+        LevelRunError::Plant(error) => of_level_error(lab, error),
         LevelRunError::OutOfRange { field, value } => {
             tr!(lab, level_error.out_of_range, field = *field, value = style.significant(*value, 4))
         }

@@ -8,10 +8,10 @@ use quadtank_scenario::Limits;
 
 use super::drawing::LoopDrawing;
 use super::element::ElementPanel;
-use super::errors;
 use super::flags::locks;
 use super::session::{Session, load, set_cursor, use_session};
 use crate::controls::{ParamControl, ParamRow};
+use crate::errors::of_level_error;
 use crate::lab::Lab;
 use crate::shown::ShownUnit;
 use crate::texts::{say, terms, tr};
@@ -110,7 +110,7 @@ fn point(session: Session) -> (bool, String) {
     let style = lab.number_style();
     let number = |value: f64| style.significant(value, 3);
     session.throttled.plant.with(|plant| match plant.as_ref() {
-        Err(error) => (false, tr!(lab, level.no_rest, reason = errors::of_plant(lab, error))),
+        Err(error) => (false, tr!(lab, level.no_rest, reason = of_level_error(lab, error))),
         Ok(plant) => {
             let gains = plant.gains;
             let slope = number(gains.slope_gain());

@@ -8,6 +8,7 @@ use quadtank::tuning::{Regulation, RegulationReason};
 
 use super::errors;
 use super::session::Session;
+use crate::errors::of_level_error;
 use crate::lab::Lab;
 use crate::texts::tr;
 
@@ -58,7 +59,7 @@ fn of_finding(lab: Lab, finding: &Finding) -> String {
     let seconds = |time: f64| style.fixed(time, 0);
     match *finding {
         Finding::SetPointOutOfReach { level, reason } => {
-            tr!(lab, level.out_of_reach, level = cm(level), reason = errors::of_plant(lab, &reason))
+            tr!(lab, level.out_of_reach, level = cm(level), reason = of_level_error(lab, &reason))
         }
         Finding::TankFull { time_s } => tr!(lab, level.tank_full, time = seconds(time_s)),
         Finding::TankEmpty { time_s } => tr!(lab, level.tank_empty, time = seconds(time_s)),
