@@ -166,7 +166,7 @@ fn instruments(lab: Lab, plant: &LevelPlant, signals: &LevelSignals, valve_y: f6
         <text x="208" y=LINE_Y + 30.0 text-anchor="middle">
             {with_unit(signals.measured, unit_of(plant.transmitter.signal.unit))}
         </text>
-        <text x="384" y=LINE_Y + 30.0 text-anchor="middle">{pressure}</text>
+        <text x="376" y=LINE_Y + 30.0 text-anchor="end">{pressure}</text>
         <text x=VALVE_X - 20.0 y=valve_y - 24.0 text-anchor="end">{format!("X {}", style.fixed(signals.travel, 3))}</text>
         <text x=VALVE_X y=valve_y + 24.0 text-anchor="middle">{format!("f {}", style.fixed(signals.opening, 3))}</text>
     }

@@ -11,7 +11,7 @@ use super::session::Session;
 use crate::slices::Slices;
 
 /// Cells along each side of the map.
-const CELLS: usize = 40;
+pub const CELLS: usize = 40;
 /// Shown again after so long at the earliest (ms): painting the map takes a few milliseconds.
 const BETWEEN_PICTURES_MS: f64 = 120.0;
 

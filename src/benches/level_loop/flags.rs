@@ -6,30 +6,30 @@ pub mod panels {
 
     /// The loop with its instruments.
     pub const PROCESS: Panel = Panel("process");
-    /// The step test and the model that is read from it.
-    pub const TEST: Panel = Panel("test");
-    /// The run.
-    pub const RESPONSES: Panel = Panel("responses");
-    /// The variance of the level against that of the outflow.
-    pub const TRADE_OFF: Panel = Panel("trade-off");
     /// What is done to the loop.
     pub const EXPERIMENT: Panel = Panel("experiment");
+    /// The run.
+    pub const RESPONSES: Panel = Panel("responses");
+    /// The step test and the model that is read from it.
+    pub const TEST: Panel = Panel("test");
+    /// The variance of the level against that of the outflow.
+    pub const TRADE_OFF: Panel = Panel("trade-off");
     /// Objective and tuning.
     pub const CONTROLLER: Panel = Panel("controller");
     /// Indices and margins.
     pub const ASSESSMENT: Panel = Panel("assessment");
     /// The cost over gain and integral time, and the searches in it.
     pub const MAP: Panel = Panel("map");
-    /// Published tables.
-    pub const PUBLISHED: Panel = Panel("published");
     /// Forms of PI controllers and the limits of commercial ones.
     pub const FORMS: Panel = Panel("forms");
+    /// Published tables.
+    pub const PUBLISHED: Panel = Panel("published");
     /// The heated tank.
     pub const HEATED: Panel = Panel("heated");
 
     /// All of them.
     pub const ALL: &[Panel] =
-        &[PROCESS, TEST, RESPONSES, TRADE_OFF, EXPERIMENT, CONTROLLER, ASSESSMENT, MAP, PUBLISHED, FORMS, HEATED];
+        &[PROCESS, EXPERIMENT, RESPONSES, TEST, TRADE_OFF, CONTROLLER, ASSESSMENT, MAP, FORMS, PUBLISHED, HEATED];
 }
 
 /// Groups of controls that can be disabled.

@@ -34,7 +34,7 @@ pub fn FormsCard() -> impl IntoView {
     view! {
         <Card name="forms" title=say!(lab, level.forms) terms=TERMS>
             <p class="sentence">{move || sentence(session)}</p>
-            <Figures name="level-forms" caption=say!(lab, level.forms)>{move || table(session)}</Figures>
+            <Figures name="level-forms" caption=say!(lab, level.dials_caption)>{move || table(session)}</Figures>
             <p class="remark">{move || common(session)}</p>
             <div class="toolbar">
                 <button
@@ -118,7 +118,7 @@ fn table(session: Session) -> impl IntoView {
         view! { <Row name=controller.name figures /> }.into_any()
     };
     let rows = COMMERCIAL_CONTROLLERS.iter().map(row).collect();
-    view! { <TableContent caption=tr!(lab, level.forms) columns rows /> }
+    view! { <TableContent caption=tr!(lab, level.dials_caption) columns rows /> }
 }
 
 /// What all controllers of the table can be set to.

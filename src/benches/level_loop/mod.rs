@@ -40,22 +40,26 @@ fn all_cards(session: Session) -> impl IntoView {
     view! {
         <div class="side left">
             {lab.shows(panels::PROCESS).then(|| view! { <process::ProcessCard with_start=true /> })}
-            {lab.shows(panels::TEST).then(|| view! { <test::TestCard /> })}
+            {lab.shows(panels::EXPERIMENT).then(|| view! { <experiment::ExperimentCard /> })}
         </div>
         <div class="side middle">
             {lab.shows(panels::RESPONSES).then(|| view! { <course::CourseCard /> })}
+            {lab.shows(panels::TEST).then(|| view! { <test::TestCard /> })}
             {lab.shows(panels::TRADE_OFF).then(|| view! { <trade_off::TradeOffCard /> })}
-            {lab.shows(panels::EXPERIMENT).then(|| view! { <experiment::ExperimentCard /> })}
         </div>
         <div class="side right">
             {lab.shows(panels::CONTROLLER).then(|| view! { <tuning::TuningCard /> })}
             {lab.shows(panels::ASSESSMENT).then(|| view! { <assess::AssessCard /> })}
         </div>
         <div class="side below">
-            {lab.shows(panels::MAP).then(|| view! { <map::MapCard /> })}
-            {lab.shows(panels::PUBLISHED).then(|| view! { <published::PublishedCard /> })}
-            {lab.shows(panels::FORMS).then(|| view! { <forms::FormsCard /> })}
-            {lab.shows(panels::HEATED).then(|| view! { <heated::HeatedCard /> })}
+            <div class="side">
+                {lab.shows(panels::MAP).then(|| view! { <map::MapCard /> })}
+                {lab.shows(panels::FORMS).then(|| view! { <forms::FormsCard /> })}
+            </div>
+            <div class="side">
+                {lab.shows(panels::PUBLISHED).then(|| view! { <published::PublishedCard /> })}
+                {lab.shows(panels::HEATED).then(|| view! { <heated::HeatedCard /> })}
+            </div>
         </div>
     }
 }

@@ -11,7 +11,7 @@ use quadtank_figure::{
 };
 use quadtank_scenario::level_loop::{cost_map_to_csv, run_to_csv, step_test_to_csv, trade_off_to_csv};
 
-use super::exploration::{Computed, Searched};
+use super::exploration::{CELLS, Computed, Searched};
 use super::session::{Session, shown};
 use crate::lab::Lab;
 use crate::texts::tr;
@@ -53,12 +53,7 @@ pub fn run(session: Session, window: Signal<(f64, f64)>) -> Picture {
             window_s: window.get(),
             output_range: [range.low, range.high],
             texts: LevelLoopTexts {
-                axes: [
-                    &tr!(lab, chart.time),
-                    &tr!(lab, level.axis_level),
-                    &tr!(lab, level.axis_flow),
-                    &tr!(lab, level.axis_output, unit = unit),
-                ],
+                axes: [&tr!(lab, chart.time), "h (cm)", "q (L/s)", &format!("m ({unit})")],
                 level: &tr!(lab, level.level),
                 reference: &tr!(lab, responses.reference),
                 inflow: &tr!(lab, level.inflow),
@@ -111,11 +106,7 @@ pub fn test(session: Session) -> Picture {
             output: &test.log.output,
             marks,
             texts: StepTestTexts {
-                axes: [
-                    &tr!(lab, chart.time),
-                    &tr!(lab, level.axis_signal, unit = units[0]),
-                    &format!("m ({})", units[1]),
-                ],
+                axes: [&tr!(lab, chart.time), &format!("y ({})", units[0]), &format!("m ({})", units[1])],
                 measured: &tr!(lab, level.measured),
                 fitted: &tr!(lab, level.fitted),
             },
@@ -128,6 +119,8 @@ pub fn test(session: Session) -> Picture {
 /// A point of the trade-off that can be taken up.
 #[derive(Clone, PartialEq)]
 pub struct TradeOffEntry {
+    /// Its place among the known tunings.
+    pub place: usize,
     /// Its short name.
     pub name: String,
     /// The tuning.
@@ -173,9 +166,10 @@ pub fn cost_map(
     let build = move |show: &mut dyn FnMut(&[Chart])| {
         let setup = session.charts.setup.get();
         let [gains, times] = setup.search.axes().map(|axis| (axis.low, axis.high));
-        let cells: Vec<CostCell> =
-            map.with(|map| map.as_ref().map_or_else(Vec::new, |map| map.0.value.cells().iter().map(cell).collect()));
-        let size = map.with(|map| map.as_ref().map_or([0, 0], |map| map.0.value.size()));
+        let (size, cells): ([usize; 2], Vec<CostCell>) = map.with(|map| match map {
+            Some(Shown(map)) => (map.value.size(), map.value.cells().iter().map(cell).collect()),
+            None => ([CELLS; 2], vec![CostCell::Pending; CELLS * CELLS]),
+        });
         let way = tr!(lab, level.way);
         let (mut paths, mut population) = (Vec::new(), Vec::new());
         search.with(|search| {

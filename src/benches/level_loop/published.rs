@@ -12,7 +12,7 @@ use quadtank::study::level_loop::{
 
 use super::flags::locks;
 use super::pictures::method_name;
-use super::sentences::variance;
+use super::sentences::{short_variance, variance};
 use super::session::{load, use_session};
 use crate::lab::Lab;
 use crate::texts::{say, tr};
@@ -44,7 +44,7 @@ pub fn PublishedCard() -> impl IntoView {
                 on_choose=move |chosen| table.set(chosen)
                 disabled=false
             />
-            <div class="scroll" tabindex="0" role="region" aria-label=say!(lab, level.published)>
+            <div class="scroll" tabindex="0" role="region" aria-label=say!(lab, level.printed_computed)>
                 <table class="plain" data-testid="published-numbers">{content}</table>
             </div>
             <ul class="remarks">{remarks}</ul>
@@ -66,7 +66,6 @@ fn Numbers(found: ComparedTable) -> impl IntoView {
         tr!(lab, level.column_printed),
         tr!(lab, level.column_computed),
         tr!(lab, level.column_deviation),
-        String::new(),
     ];
     let table = found.table;
     let rows = found.numbers.iter().map(|row| {
@@ -77,7 +76,7 @@ fn Numbers(found: ComparedTable) -> impl IntoView {
     let headings = headings.map(|text| view! { <th scope="col">{text}</th> });
     view! {
         <caption class="visually-hidden">{table_name(lab, table)}</caption>
-        <thead><tr>{headings}</tr></thead>
+        <thead><tr>{headings}<th scope="col"><span class="visually-hidden">{tr!(lab, free.show)}</span></th></tr></thead>
         <tbody>{rows}</tbody>
     }
 }
@@ -213,7 +212,7 @@ fn features(lab: Lab, found: &[ComparedFeatures; 2]) -> impl IntoView + use<> {
         (tight.printed.outflow, tight.outflow),
         (averaging.printed.outflow, averaging.outflow),
     ];
-    let number = |value: f64| style.significant(value, 5);
+    let number = |value: f64| if value < 0.001 { short_variance(lab, value) } else { style.significant(value, 4) };
     let rows: Vec<AnyView> = names
         .into_iter()
         .enumerate()

@@ -2,7 +2,7 @@
 
 use leptos::prelude::*;
 use quadtank::literature::andreis;
-use quadtank::study::level_loop::{LevelLoopSetup, ModelMatch, ModelSource, run_proportional_test};
+use quadtank::study::level_loop::{LevelLoopSetup, ModelMatch, run_proportional_test};
 use quadtank::tuning::ReactionMethod;
 use quadtank_figure::Frame;
 use quadtank_scenario::Limits;
@@ -106,7 +106,6 @@ pub fn TestCard() -> impl IntoView {
                 text=Signal::derive(move || found.get().1)
             />
             <ProportionalTest />
-            <SourceSwitch />
         </Card>
     }
 }
@@ -221,26 +220,6 @@ fn ProportionalTest() -> impl IntoView {
 
 /// Gain of that test where the controller has none.
 const USUAL_GAIN: f64 = 5.0;
-
-/// Which model the rules take.
-#[component]
-fn SourceSwitch() -> impl IntoView {
-    let session = use_session();
-    let lab = session.lab;
-    view! {
-        <Switch
-            session
-            label=say!(lab, level.model_source)
-            choices=vec![
-                (ModelSource::Test, "model-test", say!(lab, level.model_of_test)),
-                (ModelSource::Local, "model-local", say!(lab, level.model_local)),
-            ]
-            read=|s| s.model_source
-            write=|s, source| s.model_source = source
-            lock=locks::TEST
-        />
-    }
-}
 
 /// The model of the test beside that around the operating point, and what kind of process it is.
 fn sentence(session: Session) -> (bool, String) {

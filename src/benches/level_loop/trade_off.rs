@@ -1,7 +1,7 @@
 //! The trade-off: the variance of the level against that of the outflow, with every known tuning a click away.
 
 use leptos::prelude::*;
-use quadtank::study::level_loop::{PiTuning, TradeOff, trade_off};
+use quadtank::study::level_loop::{PiTuning, TradeOff, TradeOffPoint, trade_off};
 use quadtank_figure::Frame;
 
 use super::flags::locks;
@@ -51,20 +51,18 @@ pub fn TradeOffCard() -> impl IntoView {
 fn Point(entry: TradeOffEntry, frames: RwSignal<Vec<Frame>>) -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
-    let TradeOffEntry { name, tuning, at } = entry;
-    let full_name = name.clone();
+    let TradeOffEntry { place, name, tuning, at } = entry;
     let label = Signal::derive(move || {
         let style = lab.number_style();
         let (gain, time) = (style.significant(tuning.gain, 3), style.significant(tuning.integral_time_s, 4));
-        tr!(lab, level.take_point, name = &full_name, gain = gain, time = time)
+        tr!(lab, level.take_point, name = &name, gain = gain, time = time)
     });
     let choose = move |()| {
         if !lab.locks(locks::GAINS) {
             session.edit(|s| s.set_pi_tuning(tuning));
         }
     };
-    let id = format!("trade-{}", name.to_lowercase().replace(' ', "-"));
-    view! { <PointButton id label at=Signal::stored(at) on_choose=choose frames /> }
+    view! { <PointButton id=format!("trade-{place}") label at=Signal::stored(at) on_choose=choose frames /> }
 }
 
 /// The reference, the published tunings and those of the rules, each tuning once.
@@ -83,12 +81,12 @@ fn tunings(session: Session) -> Vec<(String, PiTuning)> {
 }
 
 fn entries(found: &TradeOff, names: &[(String, PiTuning)]) -> Vec<TradeOffEntry> {
-    let of = |((name, tuning), point): (&(String, PiTuning), &Option<_>)| {
-        let point: quadtank::study::level_loop::TradeOffPoint = (*point)?;
+    let of = |(place, ((name, tuning), point)): (usize, (&(String, PiTuning), &Option<TradeOffPoint>))| {
+        let point = (*point)?;
         let at = (point.outflow, point.level);
-        (at.0 > 0.0 && at.1 > 0.0).then(|| TradeOffEntry { name: name.clone(), tuning: *tuning, at })
+        (at.0 > 0.0 && at.1 > 0.0).then(|| TradeOffEntry { place, name: name.clone(), tuning: *tuning, at })
     };
-    names.iter().zip(&found.points).filter_map(of).collect()
+    names.iter().zip(&found.points).enumerate().filter_map(of).collect()
 }
 
 /// Where the present tuning stands.

@@ -3,7 +3,7 @@
 use leptos::prelude::*;
 use quadtank::control::{AntiWindup, LoopMode, PiSettings};
 use quadtank::sim::level::LevelController;
-use quadtank::study::level_loop::{LevelLoopSetup, Objective, PiTuning, SuggestedRule, Suggestion};
+use quadtank::study::level_loop::{LevelLoopSetup, ModelSource, Objective, PiTuning, SuggestedRule, Suggestion};
 use quadtank::tuning::{ModelRule, TuningRule};
 use quadtank_scenario::Limits;
 
@@ -152,6 +152,7 @@ pub fn TuningCard() -> impl IntoView {
             <KindSwitch />
             <Dials />
             <h3>{say!(lab, level.rules)}</h3>
+            <SourceSwitch />
             <ParamRow session control=&WISH />
             <Rules />
         </Card>
@@ -357,6 +358,26 @@ const fn pid(setup: &LevelLoopSetup) -> [f64; 3] {
 fn set_pid(setup: &mut LevelLoopSetup, which: usize, value: f64) {
     if let LevelController::Pid { proportional, integral, derivative, .. } = &mut setup.controller {
         *[proportional, integral, derivative][which] = value;
+    }
+}
+
+/// Which model the rules take.
+#[component]
+fn SourceSwitch() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    view! {
+        <Switch
+            session
+            label=say!(lab, level.model_source)
+            choices=vec![
+                (ModelSource::Test, "model-test", say!(lab, level.model_of_test)),
+                (ModelSource::Local, "model-local", say!(lab, level.model_local)),
+            ]
+            read=|s| s.model_source
+            write=|s, source| s.model_source = source
+            lock=locks::GAINS
+        />
     }
 }
 
