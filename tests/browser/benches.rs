@@ -39,6 +39,20 @@ async fn on_the_model_free_bench_case_b_loses_a_level() {
 }
 
 #[wasm_bindgen_test]
+async fn on_the_level_loop_the_outflow_takes_what_the_level_does_not() {
+    let page = Page::open("bench=level-loop&lang=en&view=full").await;
+    // Andreis (2017, Table 5.9): the current tuning has 0.0130 of the quality of the best one under Sine L.
+    assert!(page.text("level-index").contains("0.013"), "{}", page.text("level-index"));
+    page.press("objective-averaging").await;
+    // Table 5.12.
+    assert!(page.text("level-index").contains("0.015"), "{}", page.text("level-index"));
+    page.press("kind-off").await;
+    assert!(page.text("level-quality").contains("No loop is closed"), "{}", page.text("level-quality"));
+    page.set("level-inflow-number", "60").await;
+    assert!(page.text("level-verdict").contains("No run."), "{}", page.text("level-verdict"));
+}
+
+#[wasm_bindgen_test]
 async fn a_lock_of_an_instructor_disables_the_valves() {
     let page = Page::open("lock=valves&lang=en").await;
     assert!(page.is_disabled("gamma1") && page.is_disabled("gamma1-number"));

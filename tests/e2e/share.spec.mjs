@@ -182,7 +182,7 @@ test('an experiment has a name and a note: in header, link, undo and the names o
   await expect(lab.id('shown-name')).toBeVisible();
 });
 
-for (const bench of ['quadruple-tank', 'relay-tuning', 'model-free']) {
+for (const bench of ['quadruple-tank', 'relay-tuning', 'model-free', 'level-loop']) {
   test(`${bench} prints a handout with pictures, numbers, link and code`, async ({ lab, page }) => {
     await lab.open(`bench=${bench}&lang=en&theme=dark`);
     await page.evaluate(() => dispatchEvent(new Event('beforeprint')));

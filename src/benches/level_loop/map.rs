@@ -13,6 +13,7 @@ use super::sentences::variance;
 use super::session::{Session, use_session};
 use crate::controls::{ParamControl, ParamRow, Switch};
 use crate::lab::Lab;
+use crate::shown::ShownUnit;
 use crate::texts::{say, terms, tr};
 use crate::widgets::{Card, ChartCanvas, ChartMenu, Sentence, Text, Tick};
 
@@ -37,6 +38,7 @@ const PENALTY: ParamControl<LevelLoopSetup> = ParamControl {
     write: |s, _, penalty| s.search.move_penalty = penalty,
     matters: None,
     digits: None,
+    shown_unit: Some(|_| ShownUnit::called("")),
     ..PEAK
 };
 
