@@ -12,8 +12,8 @@ use crate::slices::Slices;
 
 /// Cells along each side of the map.
 pub const CELLS: usize = 40;
-/// Shown again after so long at the earliest (ms): painting the map takes a few milliseconds.
-const BETWEEN_PICTURES_MS: f64 = 120.0;
+/// Shown again after so long at the earliest (ms): painting the map takes as long as a hundred of its cells.
+const BETWEEN_PICTURES_MS: f64 = 250.0;
 
 /// What is being computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
