@@ -189,6 +189,8 @@ fn reports_about_level_loops_are_what_their_schemas_say() {
         with(&case, &[("/level_loop/controller/pi/gain", json!(0))]),
         with(&case, &[("/level_loop/harris", json!({ "dead_time_rows": 400, "order": 50 }))]),
     ]);
+    // Plants, controllers and disturbances of every kind.
+    documents.extend(include_str!("../../../quadtank-scenario/src/dictionary-4.jsonl").lines().map(parsed));
     assert_reported(4, &documents);
     // Where nothing can be held, analyse says so in place; the other two refuse.
     let out = with(&case, &[("/level_loop/experiment/level", json!(0.0))]);

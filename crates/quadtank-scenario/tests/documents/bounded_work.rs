@@ -21,7 +21,7 @@ use quadtank_scenario::{BenchDocument, Document, document_from_json, limits};
 /// Documents of each version.
 const DOCUMENTS: usize = 2000;
 /// Level loops, of which one in three has a run.
-const LEVEL_LOOPS: usize = 1000;
+const LEVEL_LOOPS: usize = 500;
 /// Sessions with the same plant, whose critical curve takes longest.
 const SESSIONS: usize = 40;
 /// Work of the last motion of a run, which may begin just within the bound.

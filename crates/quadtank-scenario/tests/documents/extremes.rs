@@ -8,9 +8,7 @@ use proptest::sample::Index;
 use proptest::test_runner::RngSeed;
 use quadtank::literature::campestrini::PublishedCase;
 use quadtank::sim::{LoopMetrics, NoResponse};
-use quadtank::study::level_loop::{
-    ContourMap, ContourSettings, LevelLoopSetup, run_level_loop, run_step_test, trade_off,
-};
+use quadtank::study::level_loop::{ContourMap, ContourSettings, LevelLoopSetup, run_level_loop, run_step_test};
 use quadtank::study::model_free::{ModelFreeSetup, analyse_model_free, run_model_free};
 use quadtank::study::quadruple_tank::{Setup, ValveMap, analyse, run};
 use quadtank::study::relay_tuning::{TuningSetup, tune};
@@ -150,7 +148,6 @@ fn check_level_loop(setup: &LevelLoopSetup) {
         assert_finite(&test.regulation);
         assert_table(&level_loop::step_test_to_csv(&test));
     }
-    assert_table(&level_loop::trade_off_to_csv(&trade_off(setup, &[setup.reference])));
     if let Ok(mut map) = ContourMap::new(setup, ContourSettings { size: [2, 2] }) {
         while map.advance(4) {}
         assert_table(&level_loop::cost_map_to_csv(&map));
