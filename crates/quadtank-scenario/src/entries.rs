@@ -36,7 +36,7 @@ fn collect(root: &str, value: &Value, path: &str, found: &mut Vec<Entry>) {
     let mut push = |value: EntryValue, unit| found.push(Entry { path: path.to_owned(), value, unit });
     match value {
         Value::Object(fields) => {
-            fields.iter().for_each(|(name, value)| collect(root, value, &field_of(path, name), found))
+            fields.iter().for_each(|(name, value)| collect(root, value, &field_of(path, name), found));
         }
         Value::Array(items) => {
             items.iter().enumerate().for_each(|(k, value)| collect(root, value, &format!("{path}[{k}]"), found));

@@ -1,7 +1,7 @@
 //! The document that describes an experiment: its versions, validation and links, and the tables and reports of its results.
 //!
-//! A [`Scenario`], [`TuningScenario`](tuning::TuningScenario) or [`ModelFreeScenario`](model_free::ModelFreeScenario) is a file, a
-//! link, an embed, a command-line run. It comes in by [`document_from_bytes`] or [`document_from_link`], which check every number
+//! A [`Scenario`], [`TuningScenario`](tuning::TuningScenario), [`ModelFreeScenario`](model_free::ModelFreeScenario) or
+//! [`LevelLoopScenario`](level_loop::LevelLoopScenario) is a file, a link, an embed, a command-line run. It comes in by [`document_from_bytes`] or [`document_from_link`], which check every number
 //! against its row in the table of [parameters](params) and take any bytes; [`to_json`] and [`to_link`] write it, with all digits.
 //! What a document holds besides its version, a setup, is a type of [`quadtank::study`], which also computes what follows from it.
 

@@ -58,11 +58,12 @@ fn describe(schema: &mut Value, path: &str) {
     }
 }
 
-/// A number, or a list of numbers, is described by its row. What a choice contains, and has no words of its own, is described by
+/// A number, or a list of numbers or of such lists, is described by its row. What a choice contains, and has no words of its own, is described by
 /// those of the choice.
 fn describe_property(property: &mut Value, path: &str, choice: Option<&Value>) {
     describe(property, path);
-    if let Some(param) = Param::at(path).or_else(|| Param::at(&format!("{path}[]"))) {
+    let row = ["", "[]", "[][]"].iter().find_map(|items| Param::at(&format!("{path}{items}")));
+    if let Some(param) = row {
         merge(property, json!({ "description": words(param) }));
     } else if let (None, Some(choice)) = (property.get("description"), choice) {
         merge(property, json!({ "description": choice }));

@@ -109,7 +109,7 @@ fn what_cannot_work_is_said() {
     let output = pipe(&["tune", "-"], case("junqueira-a-s1").to_string().as_bytes());
     assert_eq!(output.status.code(), Some(2));
     let mut later = case("junqueira-a-s1");
-    later["version"] = json!(4);
+    later["version"] = json!(5);
     let output = pipe(&["analyse", "-"], later.to_string().as_bytes());
-    assert!(stderr(&output).contains("version: 4 is unknown, this program reads 1 to 3"));
+    assert!(stderr(&output).contains("version: 5 is unknown, this program reads 1 to 4"));
 }

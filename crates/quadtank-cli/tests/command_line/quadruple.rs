@@ -164,7 +164,7 @@ fn a_broken_scenario_ends_with_code_2_and_names_the_field() {
     for (broken, message) in [
         (with("/setup/valves/0", json!(1.5)), "setup.valves[0]: 1.5 is outside 0 to 1"),
         (with("/setup/controller/loops/1/gain", json!("high")), "setup.controller.loops[1].gain: invalid type: string"),
-        (with("/version", json!(7)), "version: 7 is unknown, this program reads 1 to 3"),
+        (with("/version", json!(7)), "version: 7 is unknown, this program reads 1 to 4"),
         (good.replace("3000.0", "1e999").into_bytes(), "setup.experiment.duration_s: number out of range"),
         (singular, "setup.operating_point: the plant is singular at steady state: gamma1 + gamma2 = 1"),
         (vec![b'['; 100_000], "the document is longer than 65536 bytes"),

@@ -166,6 +166,40 @@ fn reports_about_model_free_control_are_what_their_schemas_say() {
 }
 
 #[test]
+fn reports_about_level_loops_are_what_their_schemas_say() {
+    let mut documents = cases(4);
+    assert_eq!(documents.len(), 10);
+    let case = documents[0].clone();
+    let parameters = |change: &dyn Fn(&mut Value)| {
+        let text = include_str!("../../../quadtank-scenario/tests/data/everything-acts-level-loop.json");
+        let mut document = parsed(text);
+        change(&mut document["level_loop"]);
+        document
+    };
+    documents.extend([
+        parameters(&|_| {}),
+        // Integrating; a quick valve that is closed; an empty tank; by hand, with a test that never settles.
+        parameters(&|setup| setup["plant"]["parameters"]["tank"]["outflow"] = json!({ "pumped": { "flow": 0.03 } })),
+        with(&case, &[("/level_loop/objective", json!({ "averaging": { "band": [0.99, 1.01] } }))]),
+        with(&case, &[("/level_loop/controller", json!({ "manual": { "steps": [{ "time_s": 0, "size": 20 }] } }))]),
+        with(&case, &[("/level_loop/test/duration_s", json!(900.0))]),
+        with(&case, &[("/level_loop/test/level", json!(50.0))]),
+        with(&case, &[("/level_loop/experiment/disturbance/signal", json!("none"))]),
+        with(&case, &[("/level_loop/controller/pi/gain", json!(200.0))]),
+        with(&case, &[("/level_loop/controller/pi/gain", json!(0))]),
+        with(&case, &[("/level_loop/harris", json!({ "dead_time_rows": 400, "order": 50 }))]),
+    ]);
+    // Plants, controllers and disturbances of every kind.
+    documents.extend(include_str!("../../../quadtank-scenario/src/dictionary-4.jsonl").lines().map(parsed));
+    assert_reported(4, &documents);
+    // Where nothing can be held, analyse says so in place; the other two refuse.
+    let out = with(&case, &[("/level_loop/experiment/level", json!(0.0))]);
+    let report = parsed(&stdout(&pipe(&["analyse", "-"], out.to_string().as_bytes())));
+    assert_eq!(report["rest"]["error"], json!("valve-out-of-reach"));
+    assert_eq!(fault(&schema("analyse", 4).unwrap(), &report, ""), None);
+}
+
+#[test]
 fn a_report_that_is_not_what_its_schema_says_is_found() {
     let schema = schema("analyse", 1).unwrap();
     let report = parsed(&stdout(&pipe(&["analyse", "-"], preset(PresetId::JohanssonMinimumPhase).as_bytes())));
@@ -184,7 +218,7 @@ fn a_report_that_is_not_what_its_schema_says_is_found() {
 #[test]
 fn every_property_of_a_report_is_described() {
     for (name, _) in REPORTS {
-        for schema in (1..=3).filter_map(|version| schema(name, version)) {
+        for schema in (1..=4).filter_map(|version| schema(name, version)) {
             let described = described(&schema);
             assert!(described > 15, "{name}: {described}");
             assert!(!schema.to_string().contains("[`"), "{name}: a link of rustdoc");
@@ -193,11 +227,11 @@ fn every_property_of_a_report_is_described() {
 }
 
 #[test]
-fn tune_reports_on_relay_tuning_alone() {
+fn tune_reports_on_relay_tuning_and_level_loops() {
     assert_eq!(Some(parsed(&stdout(&run(&["schema", "--report", "tune"])))), schema("tune", 2));
     assert_eq!(schema("simulate", 2), schema("tune", 2));
     let refused = run(&["schema", "--report", "tune", "--version", "3"]);
     assert_eq!((refused.status.code(), refused.stdout.len()), (Some(2), 0));
     assert_eq!(stderr(&refused).lines().count(), 1);
-    assert!(stderr(&refused).contains("version 2; this is version 3"), "{}", stderr(&refused));
+    assert!(stderr(&refused).contains("versions 2 and 4; this is version 3"), "{}", stderr(&refused));
 }

@@ -5,7 +5,7 @@ use serde_json::Value;
 use super::{run, stdout};
 
 fn schemas() -> impl Iterator<Item = Value> {
-    ["1", "2", "3"]
+    ["1", "2", "3", "4"]
         .into_iter()
         .map(|version| serde_json::from_str(&stdout(&run(&["schema", "--version", version]))).unwrap())
 }
@@ -66,7 +66,7 @@ fn every_number_has_its_limits_and_every_list_its_length() {
 
 #[test]
 fn an_order_and_a_unit_are_told() {
-    let [first, second, _] = &schemas().collect::<Vec<_>>()[..] else { panic!("three versions") };
+    let [first, second, _, fourth] = &schemas().collect::<Vec<_>>()[..] else { panic!("four versions") };
     let text = |schema: &Value, start: &str| {
         let mut found = String::new();
         walk(schema, "", &mut |path, schema| {
@@ -79,5 +79,10 @@ fn an_order_and_a_unit_are_told() {
     assert!(text(second, "denominator").contains("by rising powers of s: [1, 10] is 1 + 10 s"));
     assert!(text(first, "setup.plant.parameters.rig.tanks[].height").ends_with("(m); from 0.01 to 10."));
     assert!(text(first, "setup.operating_point.levels").starts_with("Levels of tanks 1 and 2 at rest"));
+    // The same path in another document is another number.
+    assert!(text(second, "tuning.test.step").starts_with("Time between the rows"));
+    assert!(text(fourth, "level_loop.test.step").starts_with("Step of the controller output"));
+    assert!(text(fourth, "level_loop.experiment.duration_s").ends_with("(s); from 1 to 20000."));
+    assert!(text(fourth, "actuator.curve").contains("by rising pressure"));
     assert!(text(first, "controller.pairing").contains("`swapped`: Level 1 – pump 2"));
 }

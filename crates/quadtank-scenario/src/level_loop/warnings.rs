@@ -18,6 +18,16 @@ pub enum LevelLoopWarning {
         /// Where it would act.
         acts: &'static str,
     },
+    /// A process whose signal falls when the output rises, with a search among positive gains.
+    #[error(
+        "{field}: the signal falls when the output rises ({slope_gain} 1/s per signal), so only a negative gain controls it"
+    )]
+    NegativeProcess {
+        /// Where in the document.
+        field: &'static str,
+        /// Slope K' of the signal per unit of output (1/s).
+        slope_gain: f64,
+    },
     /// Two instruments that are connected name their signal by different units.
     #[error("{field}: {} goes into an instrument for {}", name(*unit), name(*expected))]
     UnitsDiffer {
@@ -39,7 +49,7 @@ fn name(unit: SignalUnit) -> &'static str {
 
 /// What a level loop may not have been meant to say.
 pub fn warnings(setup: &LevelLoopSetup) -> Vec<LevelLoopWarning> {
-    units(setup).into_iter().chain(settings_without_effect(setup)).collect()
+    units(setup).into_iter().chain(negative_process(setup)).chain(settings_without_effect(setup)).collect()
 }
 
 fn units(setup: &LevelLoopSetup) -> Option<LevelLoopWarning> {
@@ -47,6 +57,15 @@ fn units(setup: &LevelLoopSetup) -> Option<LevelLoopWarning> {
     let (unit, expected) = (plant.output.signal.unit, plant.converter?.input.unit);
     let field = "level_loop.plant.parameters.output.signal.unit";
     (unit != expected).then_some(LevelLoopWarning::UnitsDiffer { field, unit, expected })
+}
+
+/// A level that cannot be held has no such slope; the run says so.
+fn negative_process(setup: &LevelLoopSetup) -> Option<LevelLoopWarning> {
+    let plant = setup.plant();
+    let rest = plant.rest(setup.experiment.level, setup.experiment.inflow).ok()?;
+    let slope_gain = plant.gains(&rest).slope_gain();
+    let is_negative = slope_gain < 0.0 && slope_gain.is_finite();
+    is_negative.then_some(LevelLoopWarning::NegativeProcess { field: "level_loop.search.gain", slope_gain })
 }
 
 const WITH_A_MOVE: &str = "with a disturbance or a step of the set-point within the run";
@@ -64,11 +83,12 @@ fn settings_without_effect(setup: &LevelLoopSetup) -> Vec<LevelLoopWarning> {
         || experiment.disturbance.until_s != 0.0;
     let is_tight = setup.objective == Objective::Tight;
     let clips = setup.plant().output.clips;
-    let (windup, weight, filter) = match &setup.controller {
-        LevelController::Pi { anti_windup, .. } => (*anti_windup, 1.0, false),
-        LevelController::Pid { derivative, .. } => (AntiWindup::Off, 1.0, *derivative == 0.0),
-        LevelController::Sampled { settings, .. } => (settings.anti_windup, settings.set_point_weight, false),
-        LevelController::Manual { .. } => (AntiWindup::Off, 1.0, false),
+    let (windup, windup_field, weight) = match &setup.controller {
+        LevelController::Pi { anti_windup, .. } => (*anti_windup, "controller.pi.anti_windup", 1.0),
+        LevelController::Sampled { settings, .. } => {
+            (settings.anti_windup, "controller.sampled.settings.anti_windup", settings.set_point_weight)
+        }
+        LevelController::Pid { .. } | LevelController::Manual { .. } => (AntiWindup::Off, "controller", 1.0),
     };
     let idle = [
         (
@@ -78,8 +98,7 @@ fn settings_without_effect(setup: &LevelLoopSetup) -> Vec<LevelLoopWarning> {
         ),
         (!steps && experiment.set_point_scale == SetPointScale::Signal, "experiment.set_point_scale", WITH_STEPS),
         (!steps && weight != 1.0, "controller.sampled.settings.set_point_weight", WITH_STEPS),
-        (!clips && windup != AntiWindup::Off, "controller", WITH_LIMITS),
-        (filter, "controller.pid.filter_time_s", "with a derivative"),
+        (!clips && windup != AntiWindup::Off, windup_field, WITH_LIMITS),
         (!steps && !disturbed && setup.model_error != ModelError::NONE, "model_error", WITH_A_MOVE),
         (!steps && !disturbed, "reference", WITH_A_MOVE),
         (is_tight && search.keep_band, "search.keep_band", "with the band of averaging control"),
@@ -151,6 +170,16 @@ mod tests {
         assert_eq!(fields(late), ["level_loop.experiment.set_point_steps[0]"]);
         let gone = |setup: &mut LevelLoopSetup| setup.experiment.disturbance.from_s = 150.0;
         assert_eq!(fields(gone), ["level_loop.experiment.disturbance", "level_loop.reference"]);
+    }
+
+    #[test]
+    fn a_process_of_the_other_sign_is_named() {
+        let found = fields(|setup| {
+            let mut plant = setup.plant();
+            plant.actuator.curve.0.iter_mut().for_each(|point| point[1] = 1.0 - point[1]);
+            setup.plant = LevelPlantSpec::Parameters(plant);
+        });
+        assert_eq!(found, ["level_loop.search.gain"]);
     }
 
     #[test]

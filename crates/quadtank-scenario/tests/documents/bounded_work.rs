@@ -1,23 +1,27 @@
 //! The work that any valid document asks for has a bound. Work is counted, not timed: steps of the integration, and
 //! multiplications of exact motions.
 
-mod draw;
+pub mod draw;
 
 use draw::Draw;
 use quadtank::literature::campestrini::PublishedPlant;
 use quadtank::plant::ValveSchedule;
+use quadtank::sim::level::MAX_LEVEL_STEPS;
 use quadtank::sim::{Halt, LoopTrace, MAX_RUN_WORK, MAX_WORK};
 use quadtank::study::StudyFault;
+use quadtank::study::level_loop::{ContourMap, ContourSettings, run_level_loop, run_step_test};
 use quadtank::study::model_free::{StartSpec, analyse_model_free, run_model_free};
 use quadtank::study::quadruple_tank::{analyse, run};
 use quadtank::study::relay_tuning::{PlantStudy, StepResponse, TestKind, Tested, TuningPlant};
 use quadtank::tuning::RelayVerdict;
 use quadtank_scenario::model_free::ModelFreeScenario;
 use quadtank_scenario::tuning::TuningScenario;
-use quadtank_scenario::{BenchDocument, Document, document_from_json};
+use quadtank_scenario::{BenchDocument, Document, document_from_json, limits};
 
 /// Documents of each version.
 const DOCUMENTS: usize = 2000;
+/// Level loops, of which one in three has a run.
+const LEVEL_LOOPS: usize = 500;
 /// Sessions with the same plant, whose critical curve takes longest.
 const SESSIONS: usize = 40;
 /// Work of the last motion of a run, which may begin just within the bound.
@@ -91,6 +95,29 @@ fn relay_tests_and_responses_have_a_bound() {
             }
         }
     }
+}
+
+/// Runs, step tests and the runs of a search take so many steps of integration at most; the rows of a log are bounded by the document.
+#[test]
+fn level_loops_have_a_bound() {
+    let mut draw = Draw(4);
+    let mut runs = 0;
+    let valid = std::iter::repeat_with(|| draw.level_loop()).filter(|scenario| scenario.validate().is_ok());
+    for scenario in valid.take(LEVEL_LOOPS) {
+        let setup = &scenario.level_loop;
+        let answer = run_level_loop(setup);
+        let test = run_step_test(&setup.plant(), &setup.test);
+        let logs = [answer.as_ref().ok().map(|answer| &answer.log), test.as_ref().ok().map(|test| &test.log)];
+        for log in logs.into_iter().flatten() {
+            assert!(log.steps as f64 <= MAX_LEVEL_STEPS, "{}: {scenario:?}", log.steps);
+            assert!(log.len() as f64 <= limits::MAX_SAMPLES + 1.0, "{}: {scenario:?}", log.len());
+        }
+        runs += usize::from(answer.is_ok());
+        if let Ok(mut map) = ContourMap::new(setup, ContourSettings { size: [2, 2] }) {
+            while map.advance(1) {}
+        }
+    }
+    assert!(runs > LEVEL_LOOPS / 4, "{runs} of {LEVEL_LOOPS} have a run");
 }
 
 /// Poles from 1e-7 to 8.7e3 in four elements of degree 7: once 65 s of steps of the quickest pole.

@@ -10,11 +10,12 @@ use serde_json::Value;
 fn documents() -> Vec<Value> {
     let rich = |line: &str| serde_json::from_str(line).unwrap();
     let own_rig = include_str!("../data/scenario-v1-own-rig.json");
+    let own_loop = include_str!("../data/everything-acts-level-loop.json");
     let [session, model_free] = [
         to_json(&TuningScenario::default()).unwrap(),
         include_str!("../../src/dictionary-3.jsonl").lines().next().unwrap().to_owned(),
     ];
-    vec![rich(own_rig), rich(&session), rich(&model_free)]
+    vec![rich(own_rig), rich(&session), rich(&model_free), rich(own_loop)]
 }
 
 /// JSON pointers to all values of a document.
@@ -32,6 +33,7 @@ fn written(document: &Document) -> Result<String, ScenarioError> {
         Document::Quadruple(scenario) => to_json(scenario),
         Document::Tuning(scenario) => to_json(scenario),
         Document::ModelFree(scenario) => to_json(scenario),
+        Document::LevelLoop(scenario) => to_json(scenario),
     }
 }
 
@@ -39,7 +41,7 @@ proptest! {
     /// Anything in the place of any value: it is refused with the name of a field, or read and written again.
     #[test]
     fn whatever_stands_anywhere_is_read_or_named(
-        version in 0..3_usize,
+        version in 0..4_usize,
         place in any::<Index>(),
         other in any::<Index>(),
         put in prop::sample::select(vec!["null", "true", "-1", "7", "1e-3", "1e300", "\"off\"", "[]", "[0, 0]", "{}", "{\"manual\": 1}"]),
@@ -60,7 +62,7 @@ proptest! {
 
     /// A field that is left out is named, unless it may be absent; then the document can be written.
     #[test]
-    fn a_field_that_is_left_out_is_named_or_spare(version in 0..3_usize, place in any::<Index>()) {
+    fn a_field_that_is_left_out_is_named_or_spare(version in 0..4_usize, place in any::<Index>()) {
         let mut document = documents().swap_remove(version);
         let places = pointers(&document, "");
         let (parent, name) = places[place.index(places.len())].rsplit_once('/').unwrap();

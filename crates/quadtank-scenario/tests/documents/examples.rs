@@ -3,16 +3,20 @@
 use quadtank_scenario::document_from_json;
 use serde_json::{Value, json};
 
-/// Files of version 1 and 3.
-const FILES: [&str; 4] = [
+/// Files of versions 1, 3 and 4.
+const FILES: [&str; 5] = [
     include_str!("../data/scenario-v1-own-rig.json"),
     include_str!("../data/scenario-v1-johansson.json"),
     include_str!("../data/everything-acts.json"),
     include_str!("../data/everything-acts-model-free.json"),
+    include_str!("../data/everything-acts-level-loop.json"),
 ];
 
 /// A run under the model-free law, and one with other valves, from empty tanks.
 const MODEL_FREE: &str = include_str!("../../src/dictionary-3.jsonl");
+
+/// Level loops with every kind of plant, controller and disturbance, which the dictionary has for the same reason, and one with PID.
+const LEVEL_LOOPS: &str = include_str!("../../src/dictionary-4.jsonl");
 
 /// A session on a published rig: a sequential test of two passes.
 fn on_a_rig() -> Value {
@@ -73,7 +77,7 @@ pub fn sessions() -> [Value; 3] {
 
 /// All of them, each of which can be read.
 pub fn all() -> Vec<Value> {
-    let texts = FILES.into_iter().chain(MODEL_FREE.lines());
+    let texts = FILES.into_iter().chain(MODEL_FREE.lines()).chain(LEVEL_LOOPS.lines());
     let documents: Vec<Value> = texts.map(|text| serde_json::from_str(text).unwrap()).chain(sessions()).collect();
     for document in &documents {
         assert!(document_from_json(&document.to_string()).is_ok(), "{:?}", document_from_json(&document.to_string()));

@@ -1,4 +1,4 @@
-//! Random documents of all three versions whose numbers lie at their limits, or as near to them and to 0 as numbers go: every
+//! Random documents of all versions whose numbers lie at their limits, or as near to them and to 0 as numbers go: every
 //! number that is printed of them is finite, or its place says why there is none.
 
 use std::fmt::Debug;
@@ -8,12 +8,14 @@ use proptest::sample::Index;
 use proptest::test_runner::RngSeed;
 use quadtank::literature::campestrini::PublishedCase;
 use quadtank::sim::{LoopMetrics, NoResponse};
+use quadtank::study::level_loop::{ContourMap, ContourSettings, LevelLoopSetup, run_level_loop, run_step_test};
 use quadtank::study::model_free::{ModelFreeSetup, analyse_model_free, run_model_free};
 use quadtank::study::quadruple_tank::{Setup, ValveMap, analyse, run};
 use quadtank::study::relay_tuning::{TuningSetup, tune};
 use quadtank_scenario::tuning::{TuningScenario, record_to_csv};
 use quadtank_scenario::{
-    Document, ScenarioError, document_from_json, model_free, roots_to_csv, run_to_csv, to_json, valve_map_to_csv,
+    Document, ScenarioError, document_from_json, level_loop, model_free, roots_to_csv, run_to_csv, to_json,
+    valve_map_to_csv,
 };
 use serde_json::{Value, json};
 
@@ -93,7 +95,8 @@ fn assert_table(csv: &str) {
     let cells = csv.lines().skip(1).flat_map(|line| line.split(','));
     let numbers = cells.filter(|cell| cell.starts_with(|first: char| first == '-' || first.is_ascii_digit()));
     assert!(numbers.clone().all(|cell| cell.parse::<f64>().is_ok_and(f64::is_finite)));
-    assert!(!csv.contains("NaN") && !csv.contains("inf"), "{}", csv.lines().find(|l| l.contains("NaN")).unwrap_or(""));
+    let none = csv.lines().skip(1).find(|line| line.contains("NaN") || line.contains("inf"));
+    assert_eq!(none, None);
 }
 
 /// Figures that are missing are missing for a reason; those of a level that was not at rest are there beside the reason.
@@ -110,6 +113,7 @@ fn check(document: &Document) {
         Document::Quadruple(scenario) => check_run(&scenario.setup),
         Document::ModelFree(scenario) => check_model_free(&scenario.model_free),
         Document::Tuning(scenario) => check_session(&scenario.tuning),
+        Document::LevelLoop(scenario) => check_level_loop(&scenario.level_loop),
     }
 }
 
@@ -134,6 +138,22 @@ fn check_model_free(setup: &ModelFreeSetup) {
     }
 }
 
+fn check_level_loop(setup: &LevelLoopSetup) {
+    if let Ok(answer) = run_level_loop(setup) {
+        assert_finite(&(answer.figures, answer.step, answer.travel, &answer.indices, &answer.harris));
+        assert_finite(&answer.reference.ok());
+        assert_table(&level_loop::run_to_csv(&answer, setup));
+    }
+    if let Ok(test) = run_step_test(&setup.plant(), &setup.test) {
+        assert_finite(&test.regulation);
+        assert_table(&level_loop::step_test_to_csv(&test));
+    }
+    if let Ok(mut map) = ContourMap::new(setup, ContourSettings { size: [2, 2] }) {
+        while map.advance(4) {}
+        assert_table(&level_loop::cost_map_to_csv(&map));
+    }
+}
+
 fn check_session(setup: &TuningSetup) {
     let Ok(tuning) = tune(setup) else { return };
     assert_finite(&tuning.test);
@@ -144,9 +164,15 @@ fn check_session(setup: &TuningSetup) {
 }
 
 /// Short runs in which everything acts: own rig, loads, noise, quantised measurement; under the model-free law also moving
-/// valves and a comparison.
-const EVERYTHING: [&str; 2] =
-    [include_str!("../data/everything-acts.json"), include_str!("../data/everything-acts-model-free.json")];
+/// valves and a comparison; a level loop with a sampled controller.
+const EVERYTHING: [&str; 3] = [
+    include_str!("../data/everything-acts.json"),
+    include_str!("../data/everything-acts-model-free.json"),
+    include_str!("../data/everything-acts-level-loop.json"),
+];
+
+/// Level loops of every kind.
+const LEVEL_LOOPS: &str = include_str!("../../src/dictionary-4.jsonl");
 
 #[test]
 fn of_every_field_at_each_of_its_extremes() {
@@ -196,6 +222,11 @@ proptest! {
     #[test]
     fn of_a_run_under_the_model_free_law(scenario in crate::random::model_free(3), extremes in extremes()) {
         check(&with_extremes(&to_json(&scenario).unwrap(), &extremes));
+    }
+
+    #[test]
+    fn of_a_level_loop(line in prop::sample::select(LEVEL_LOOPS.lines().collect::<Vec<_>>()), extremes in extremes()) {
+        check(&with_extremes(line, &extremes));
     }
 
     #[test]

@@ -6,6 +6,7 @@ mod every_version;
 mod examples;
 mod extremes;
 mod junqueira;
+mod level_loop;
 mod margins;
 mod model_free;
 mod model_free_properties;

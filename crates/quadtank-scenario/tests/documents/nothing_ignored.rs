@@ -1,23 +1,30 @@
 //! Nothing is accepted and ignored: whatever is changed in a document changes an answer, or a warning, or is refused.
 
+use quadtank::study::Study;
+use quadtank::study::level_loop::{
+    ContourMap, ContourSettings, LevelLoopSetup, LevelLoopStudy, Results, run_level_loop,
+};
 use quadtank::study::model_free::{analyse_model_free, run_model_free};
 use quadtank::study::quadruple_tank::{analyse, run};
 use quadtank::study::relay_tuning::tune;
 use quadtank_scenario::tuning::warnings;
-use quadtank_scenario::{Document, document_from_json};
+use quadtank_scenario::{Document, document_from_json, level_loop};
 use serde_json::{Value, json};
 
 use super::examples::{leaves, pointer, sessions};
 
 /// What is meant to change no answer, by the beginning or the end of its path, and why.
-const EXCEPTIONS: [(&str, &str); 3] = [
+const EXCEPTIONS: [(&str, &str); 6] = [
     ("display_unit", "the unit that a page shows levels in; answers are in SI"),
     ("parameters.rig.valves", "a rig is written with its valves, and those of the setup take their place"),
+    ("transmitter.signal.unit", "the name of a unit: a gain is signal per signal, whatever their units"),
+    ("output.unit", "likewise, of the pressure in the actuator"),
+    ("cursor_s", "what a page shows"),
     ("version", "it is what all else is read by, and another one is another kind of document"),
 ];
 
 /// Names of choices without content. A name that a field does not know is refused.
-const NAMES: [&str; 39] = [
+const NAMES: [&str; 59] = [
     "automatic",
     "off",
     "conditional",
@@ -57,6 +64,26 @@ const NAMES: [&str; 39] = [
     "tyreus-luyben-pid",
     "process-two",
     "junqueira-case-b",
+    "andreis",
+    "andreis-uncertain",
+    "lecture-slides",
+    "linear",
+    "quick_opening",
+    "outlet",
+    "two_point",
+    "ramp",
+    "tight",
+    "test",
+    "local",
+    "level",
+    "signal",
+    "level_variance",
+    "outflow_variance",
+    "iae",
+    "ise",
+    "itae",
+    "milliampere",
+    "psi",
 ];
 
 /// Everything that is computed from a document.
@@ -68,7 +95,19 @@ fn answers(document: &Document) -> String {
             let setup = &scenario.model_free;
             format!("{:?} {:?}", analyse_model_free(setup), run_model_free(setup))
         }
+        Document::LevelLoop(scenario) => answers_of_level_loop(&scenario.level_loop),
     }
+}
+
+/// Run, test, suggestions, warnings, and what a search would compute.
+fn answers_of_level_loop(setup: &LevelLoopSetup) -> String {
+    let Results { plant, test, suggestions, answer, .. } = LevelLoopStudy::update(setup, &[], None);
+    let map = ContourMap::new(setup, ContourSettings { size: [3, 3] }).map(|mut map| {
+        map.advance(9);
+        (0..9).map(|cell| (map.settings_of(cell), map.cells()[cell])).collect::<Vec<_>>()
+    });
+    let clipped: Vec<_> = suggestions.iter().map(|suggestion| suggestion.clipped(setup)).collect();
+    format!("{plant:?} {test:?} {clipped:?} {answer:?} {map:?} {:?}", level_loop::warnings(setup))
 }
 
 fn is_answered(document: &Document) -> bool {
@@ -76,6 +115,7 @@ fn is_answered(document: &Document) -> bool {
         Document::Quadruple(scenario) => run(&scenario.setup).is_ok(),
         Document::Tuning(scenario) => tune(&scenario.tuning).is_ok_and(|tuning| tuning.design.is_some()),
         Document::ModelFree(scenario) => run_model_free(&scenario.model_free).is_ok(),
+        Document::LevelLoop(scenario) => run_level_loop(&scenario.level_loop).is_ok(),
     }
 }
 
@@ -159,6 +199,67 @@ fn in_a_run_under_the_model_free_law() {
 /// Every test has a rule and two amplitudes, of which a single one uses one: no value of the others says that they are not meant, so
 /// there is nothing to warn of.
 const IDLE_IN_A_SINGLE_TEST: [&str; 2] = ["tuning.test.amplitudes[1]", "tuning.test.rule"];
+
+/// A level loop, and the same with a disturbance and a step of the set-point that drive it to its limits and back.
+fn loop_and_driven(calm: Value) -> [Value; 2] {
+    let mut driven = calm.clone();
+    let experiment = &mut driven["level_loop"]["experiment"];
+    let [low, high] = [-8.0, 5.0].map(|size| json!({ "time_s": if size < 0.0 { 100 } else { 60 }, "size": size }));
+    experiment["set_point_steps"] = json!([high, low]);
+    for signal in experiment["disturbance"]["signal"].as_object_mut().unwrap().values_mut() {
+        for size in ["size", "amplitude", "std"] {
+            if let Some(size) = signal.get_mut(size) {
+                *size = json!(8.0 * size.as_f64().unwrap());
+            }
+        }
+    }
+    [calm, driven]
+}
+
+#[test]
+fn in_level_loops() {
+    let first = parsed(include_str!("../data/everything-acts-level-loop.json"));
+    let with = |change: &dyn Fn(&mut Value)| {
+        let mut document = first.clone();
+        change(&mut document["level_loop"]);
+        document
+    };
+    let loops = [
+        first.clone(),
+        with(&|setup| {
+            setup["controller"] = json!({ "pi": {
+                "gain": 2.0, "integral_time_s": 60.0, "anti_windup": { "back_calculation": { "tracking_ratio": 0.5 } },
+            } });
+            setup["plant"]["parameters"]["tank"]["outflow"] = json!({ "linear": { "resistance": 35.0 } });
+            setup["test"]["method"] = json!({ "one_point": { "dead_time_s": 3.0 } });
+            setup["experiment"]["disturbance"]["signal"] = json!({ "sine": { "amplitude": 0.004, "period_s": 37.0 } });
+            setup["objective"] = json!("tight");
+            setup["search"]["keep_band"] = json!(false);
+        }),
+        with(&|setup| {
+            setup["controller"] = json!({ "pid": {
+                "proportional": 2.0, "integral": 0.02, "derivative": 4.0, "filter_time_s": 1.0,
+            } });
+            setup["plant"]["parameters"]["tank"]["outflow"] = json!({ "pumped": { "flow": 0.03 } });
+            setup["test"]["method"] = json!("ramp");
+            let random = json!({ "simulink_normal": { "std": 0.003, "sample_time_s": 2.0, "seed": 0 } });
+            setup["experiment"]["disturbance"]["signal"] = random;
+        }),
+        with(&|setup| {
+            setup["controller"] = json!({ "manual": { "steps": [
+                { "time_s": 10.0, "size": 0.5 }, { "time_s": 120.0, "size": -30.0 }, { "time_s": 200.0, "size": 60.0 },
+            ] } });
+            setup["plant"]["parameters"]["actuator"]["curve"] = json!([[3.0, 0.0], [8.0, 0.3], [15.0, 1.0]]);
+            setup["plant"]["parameters"]["valve"] =
+                json!({ "characteristic": "linear", "place": { "inlet": { "full_flow": 0.04 } } });
+            setup["experiment"]["disturbance"]["signal"] = json!({ "step": { "size": 0.003 } });
+        }),
+    ];
+    for calm in loops {
+        let controller = calm["level_loop"]["controller"].to_string();
+        assert_eq!(ignored(&loop_and_driven(calm)), [""; 0], "{controller}");
+    }
+}
 
 #[test]
 fn in_relay_tuning_sessions() {

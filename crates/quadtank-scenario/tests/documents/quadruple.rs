@@ -187,7 +187,7 @@ fn an_unknown_version_is_refused_before_anything_else_is_read() {
         let text = json!({ "version": found, "whatever": [1, 2, 3] }).to_string();
         assert_eq!(from_json(&text), Err(ScenarioError::UnknownVersion { found, newest: 1 }));
     }
-    assert_eq!(from_link("q4.AAAA"), Err(ScenarioError::UnknownVersion { found: 4, newest: 3 }));
+    assert_eq!(from_link("q5.AAAA"), Err(ScenarioError::UnknownVersion { found: 5, newest: 4 }));
     for text in ["{}", r#"{"version": "1"}"#, r#"{"version": -1}"#, "[]", "null", "", "{"] {
         assert!(matches!(from_json(text), Err(ScenarioError::Malformed { .. })), "{text}");
     }

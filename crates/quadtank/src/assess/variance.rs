@@ -26,7 +26,7 @@ pub enum IndexError {
     /// A variance that is negative or not finite.
     #[error("{value} is no variance")]
     NoVariance {
-        /// It.
+        /// What was given for one.
         #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
         value: f64,
     },

@@ -55,9 +55,9 @@ pub struct LinearReport {
     pub flow_gain: Option<f64>,
     /// Gain of the transmitter (signal per m).
     pub transmitter_gain: f64,
-    /// Lag τ_a of the actuator (s).
+    /// Lag of the actuator (s).
     pub actuator_lag_s: f64,
-    /// Lag τ_t of the transmitter (s).
+    /// Lag of the transmitter (s).
     pub transmitter_lag_s: f64,
     /// The same as a process with one lag and a dead time, by the half rule; null where its numbers are not finite.
     pub model: Option<ProcessModel>,

@@ -1,5 +1,7 @@
 //! Random valid documents of every version: numbers over the whole of their ranges, often at a limit.
 
+mod level_loop;
+
 use quadtank::control::{
     AntiWindup, DecentralisedPi, EstimatorSettings, FedWith, LoopMode, ModelFree, ModelFreeSettings, ModelFreeWindup,
     Pairing, PiSettings, Quadrature, Window,

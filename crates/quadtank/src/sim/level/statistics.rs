@@ -10,7 +10,7 @@ pub struct SampleStatistics {
     pub minimum: f64,
     /// Largest sample.
     pub maximum: f64,
-    /// Mean.
+    /// Mean of the samples.
     pub mean: f64,
     /// Variance with the divisor N − 1.
     pub variance: f64,

@@ -16,7 +16,7 @@ pub enum Finding {
     SetPointOutOfReach {
         /// The set-point (m).
         level: f64,
-        /// Why.
+        /// Why the loop cannot hold it.
         reason: LevelError,
     },
     /// The tank is full to the brim for a time; what comes in above it is lost.
