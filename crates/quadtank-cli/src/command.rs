@@ -27,6 +27,7 @@ use thiserror::Error;
 mod andreis;
 mod answers;
 mod level_loop;
+mod level_plot;
 mod message;
 mod model_free;
 mod plot;
@@ -85,6 +86,9 @@ enum Command {
         /// What to draw of a relay-tuning session (version 2)
         #[arg(long, value_enum, default_value_t = tune::Picture::Loci)]
         picture: tune::Picture,
+        /// What to draw of a level loop (version 4)
+        #[arg(long, value_enum, default_value_t = level_plot::LevelPicture::Run)]
+        level_picture: level_plot::LevelPicture,
         /// Colours
         #[arg(long, value_enum, default_value_t = plot::Colours::Light)]
         theme: plot::Colours,
@@ -241,8 +245,8 @@ fn execute(command: Command) -> Result<(), Failure> {
         Command::Analyse { source } => print(&answer(&source, |document| document.analyse())?),
         Command::Simulate { source, format } => print(&answer(&source, |document| document.simulate(format))?),
         Command::Tune { source, search, format } => print(&answer(&source, |document| document.tune(format, &search))?),
-        Command::Plot { source, svg, chart, picture, theme } => {
-            let drawing = Drawing { chart, picture, style: theme.style() };
+        Command::Plot { source, svg, chart, picture, level_picture, theme } => {
+            let drawing = Drawing { chart, picture, level_picture, style: theme.style() };
             let drawing = answer(&source, |document| document.plot(&drawing))?;
             if is_standard_stream(&svg) { print(&drawing) } else { write_file(&svg, &drawing) }
         }

@@ -2,7 +2,7 @@
 
 use quadtank::sim::level::LevelRunError;
 use quadtank::study::StudyError;
-use quadtank::study::level_loop::LevelLoopFault;
+use quadtank::study::level_loop::{LevelLoopFault, StepTestFault};
 use quadtank::study::quadruple_tank::{analyse, run};
 use quadtank::tuning::TuningError;
 use quadtank_figure::Style;
@@ -16,7 +16,7 @@ use serde::Serialize;
 use thiserror::Error;
 
 use super::level_loop::{self, SearchOptions};
-use super::{Format, model_free, plot, tune};
+use super::{Format, level_plot, model_free, plot, tune};
 
 /// What is to be drawn, and how.
 pub struct Drawing {
@@ -24,6 +24,8 @@ pub struct Drawing {
     pub chart: plot::Chart,
     /// Of a relay-tuning session.
     pub picture: tune::Picture,
+    /// Of a level loop.
+    pub level_picture: level_plot::LevelPicture,
     /// Colours and size.
     pub style: Style,
 }
@@ -41,8 +43,8 @@ pub enum Fault {
     LevelRun(#[from] LevelRunError),
     #[error("this command needs a relay-tuning session, version 2, or a level loop, version 4")]
     NoTuning,
-    #[error("no picture of a level loop yet")]
-    NoPicture,
+    #[error("level_loop.test: {0}")]
+    StepTest(#[from] StepTestFault),
     #[error("{0}")]
     Json(#[from] serde_json::Error),
 }
@@ -150,8 +152,8 @@ impl Answers for LevelLoopScenario {
         }
     }
 
-    fn plot(&self, _: &Drawing) -> Result<String, Fault> {
-        Err(Fault::NoPicture)
+    fn plot(&self, drawing: &Drawing) -> Result<String, Fault> {
+        level_plot::svg(&self.level_loop, drawing.level_picture, &drawing.style)
     }
 
     fn tune(&self, format: Format, options: &SearchOptions) -> Result<String, Fault> {

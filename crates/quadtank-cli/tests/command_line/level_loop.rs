@@ -132,10 +132,23 @@ fn what_cannot_work_is_said() {
     assert!(work.contains("level_loop.experiment: the run would take 300000 steps"), "{work}");
     let tuned = said(&["tune", "-"], "/experiment/level", json!(2.5));
     assert!(tuned.contains("level_loop: a level of 2.5 m is outside the tank"), "{tuned}");
-    let scenario = case("andreis-sine-l").to_string();
-    let output = pipe(&["plot", "-", "--svg", "-"], scenario.as_bytes());
-    assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
-    assert!(stderr(&output).contains("no picture of a level loop yet"), "{}", stderr(&output));
+    let drawn = said(&["plot", "-", "--svg", "-"], "/experiment/level", json!(2.5));
+    assert!(drawn.contains("a level of 2.5 m is outside the tank"), "{drawn}");
+}
+
+#[test]
+fn every_picture_is_drawn_for_every_case() {
+    for name in ["andreis-sine-l", "andreis-random", "level-slides-2"] {
+        let scenario = case(name).to_string();
+        for (picture, word) in
+            [("run", "reference"), ("step-test", "measured"), ("trade-off", "var(h)"), ("cost-map", "Kp")]
+        {
+            let output = pipe(&["plot", "-", "--svg", "-", "--level-picture", picture], scenario.as_bytes());
+            let svg = stdout(&output);
+            assert!(svg.starts_with("<svg") && svg.contains(word), "{name} {picture}: {}", &svg[..200.min(svg.len())]);
+            assert!(!svg.contains("NaN"), "{name} {picture}");
+        }
+    }
 }
 
 #[test]
