@@ -21,14 +21,21 @@ fn sources(folder: &Path) -> Vec<(String, String)> {
         .collect()
 }
 
-/// What a source names of a module of the core, such as `Complex` of `quadtank::linear`.
+/// What a source names of a module of the core or of a module in it, such as `Complex` of `quadtank::linear` and `LevelController` of
+/// `quadtank::sim::level`.
 fn named<'a>(source: &'a str, module: &str) -> Vec<&'a str> {
     let root = format!("quadtank::{module}::");
-    let lists = source.split(&root).skip(1).map(|rest| match rest.strip_prefix('{') {
+    let lists = source.split(&root).skip(1).map(in_module).map(|rest| match rest.strip_prefix('{') {
         Some(list) => list.split('}').next().unwrap_or_default(),
         None => rest.split(|c: char| !(c.is_alphanumeric() || c == '_')).next().unwrap_or_default(),
     });
     lists.flat_map(|list| list.split(',')).map(str::trim).filter(|name| !name.is_empty()).collect()
+}
+
+/// The rest of a path behind the modules that it begins with.
+fn in_module(path: &str) -> &str {
+    let inner = path.split_once("::").filter(|(module, _)| module.chars().all(|c| c.is_ascii_lowercase() || c == '_'));
+    inner.map_or(path, |(_, rest)| in_module(rest))
 }
 
 #[test]
@@ -51,4 +58,6 @@ fn a_function_would_be_seen() {
     let source = "use quadtank::linear::{Complex, transmission_zeros};\nquadtank::sim::simulate(plant)";
     assert_eq!(named(source, "linear"), ["Complex", "transmission_zeros"]);
     assert_eq!(named(source, "sim"), ["simulate"]);
+    let nested = "use quadtank::sim::level::{LevelLog, heated_run};\nquadtank::sim::level::heated_run(tank); a::b";
+    assert_eq!(named(nested, "sim"), ["LevelLog", "heated_run", "heated_run"]);
 }
