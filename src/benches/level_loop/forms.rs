@@ -3,7 +3,7 @@
 use leptos::prelude::*;
 use quadtank::control::{IntegralDial, PiDials, PiForm, ProportionalDial};
 use quadtank::literature::andreis::{COMMERCIAL_CONTROLLERS, CommercialController};
-use quadtank::study::level_loop::PiTuning;
+use quadtank::study::level_loop::{LevelLoopSetup, PiTuning};
 
 use super::flags::locks;
 use super::session::{Session, use_session};
@@ -22,7 +22,7 @@ const PARALLEL: PiDials =
 pub fn FormsCard() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
-    let tuning = session.part(|s| s.pi_tuning());
+    let tuning = session.part(LevelLoopSetup::pi_tuning);
     let mistake = move |_| {
         session.edit(|s| {
             if let Some(tuning) = s.pi_tuning() {

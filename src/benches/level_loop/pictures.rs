@@ -167,7 +167,9 @@ pub fn cost_map(
         let setup = session.charts.setup.get();
         let [gains, times] = setup.search.axes().map(|axis| (axis.low, axis.high));
         let (size, cells): ([usize; 2], Vec<CostCell>) = map.with(|map| match map {
-            Some(Shown(map)) => (map.value.size(), map.value.cells().iter().map(cell).collect()),
+            Some(Shown(map)) => {
+                (map.value.size(), map.value.cells().iter().map(|worth| cell(worth.as_ref())).collect())
+            }
             None => ([CELLS; 2], vec![CostCell::Pending; CELLS * CELLS]),
         });
         let way = tr!(lab, level.way);
@@ -204,7 +206,7 @@ impl<T> PartialEq for Shown<T> {
     }
 }
 
-fn cell(worth: &Option<LevelWorth>) -> CostCell {
+fn cell(worth: Option<&LevelWorth>) -> CostCell {
     match worth {
         None => CostCell::Pending,
         Some(LevelWorth::Cost(cost)) => CostCell::Cost(*cost),
