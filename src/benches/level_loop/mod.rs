@@ -15,6 +15,7 @@ mod map;
 mod pictures;
 mod process;
 mod published;
+mod rules;
 mod sentences;
 mod session;
 mod test;

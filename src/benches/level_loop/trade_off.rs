@@ -6,9 +6,9 @@ use quadtank_figure::Frame;
 
 use super::flags::locks;
 use super::pictures::{self, TradeOffEntry, method_name};
+use super::rules::suggested;
 use super::sentences::variance;
 use super::session::{Session, use_session};
-use super::tuning::suggested;
 use crate::texts::{say, terms, tr};
 use crate::widgets::{Card, ChartCanvas, ChartMenu, PointButton, Text};
 
