@@ -124,6 +124,7 @@ pub fn of_level_error(lab: Lab, error: &LevelError) -> String {
         LevelError::NegativeFlow { value } => {
             tr!(lab, level_error.negative_flow, flow = style.significant(1000.0 * value, 3))
         }
+        LevelError::ValveOutOfReach { needed, .. } if !needed.is_finite() => tr!(lab, level_error.nothing_flows),
         LevelError::ValveOutOfReach { needed, min, .. } if needed < min => {
             let percent = |share: f64| style.significant(100.0 * share, 2);
             tr!(lab, level_error.valve_leaks, needed = percent(needed), least = percent(min))

@@ -154,7 +154,7 @@ const BACK = {
     await lab.id('level-preset').selectOption('lecture-slides');
     await lab.id('level-preset').selectOption('andreis');
     await lab.settle();
-    expect(await lab.text('level-verdict')).toContain('The level stays between 95.27 and 104.74 cm');
+    expect(await lab.text('level-verdict')).toContain('the level moves between 95.27 and 104.74 cm');
   },
 };
 

@@ -9,6 +9,7 @@ use super::flags::locks;
 use super::sentences::{self, short_variance};
 use super::session::{Session, use_session};
 use crate::controls::{ParamControl, ParamRow};
+use crate::shown::ShownUnit;
 use crate::texts::{say, terms, tr};
 use crate::widgets::{Card, Figure, Figures, ReasonedRow, Scale, Sentence, TableContent, Text, Verdict, marked};
 
@@ -20,6 +21,7 @@ const REFERENCE: ParamControl<LevelLoopSetup> = ParamControl {
     read: |s, k| [s.reference.gain, s.reference.integral_time_s][k],
     write: |s, k, value| *if k == 0 { &mut s.reference.gain } else { &mut s.reference.integral_time_s } = value,
     within: |_, _| Limits::NONE,
+    shown_unit: Some(|_| ShownUnit::called("")),
     ..ParamControl::locked_by(locks::GAINS)
 };
 const MODEL_ERROR: ParamControl<LevelLoopSetup> = ParamControl {

@@ -20,7 +20,7 @@ use crate::widgets::{
 const SHORTEST: f64 = 0.01;
 
 /// The words of the card that explain themselves.
-const TERMS: &[Text] = &[terms::tight, terms::averaging, terms::variance, terms::costs];
+const TERMS: &[Text] = &[terms::tight, terms::averaging, terms::variance, terms::level_costs];
 
 /// The run with its sentence and its figures.
 #[component]

@@ -48,6 +48,8 @@ pub fn of_reaction(lab: Lab, error: &ReactionError) -> String {
     match error {
         ReactionError::NoStep { .. } => tr!(lab, level_error.no_step),
         ReactionError::EmptyRecord { .. } => tr!(lab, level_error.empty_record),
+        ReactionError::NoRamp { .. } => tr!(lab, level_error.no_ramp),
+        ReactionError::AtWall => tr!(lab, level_error.at_wall),
         ReactionError::NoResponse { .. } => tr!(lab, level_error.no_response),
         ReactionError::NotSettled { share } => {
             tr!(lab, level_error.not_settled, share = lab.number_style().significant(100.0 * share, 2))

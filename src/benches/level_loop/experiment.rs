@@ -218,6 +218,7 @@ impl Kind {
         if experiment.disturbance.until_s <= experiment.disturbance.from_s {
             (experiment.disturbance.from_s, experiment.disturbance.until_s) = (0.0, experiment.duration_s);
         }
+        setup.take_reference();
     }
 }
 

@@ -210,6 +210,7 @@ fn sentence(
     let setting = |value: f64| style.significant(value, 3);
     let mut parts = Vec::new();
     if let Some(Shown(map)) = map
+        && map.value.progress() >= 1.0
         && let Some((cell, cost)) = map.value.best()
     {
         let [gain, time] = map.value.settings_of(cell);
@@ -221,7 +222,7 @@ fn sentence(
             seconds = seconds(map.took_ms),
             gain = setting(gain),
             time = setting(time),
-            cost = variance(lab, cost)
+            cost = cost_text(lab, &map.setup, cost)
         ));
     }
     if let Some(Shown(found)) = search
@@ -236,7 +237,7 @@ fn sentence(
             seconds = seconds(found.took_ms),
             gain = setting(gain),
             time = setting(time),
-            cost = variance(lab, best.cost)
+            cost = cost_text(lab, &found.setup, best.cost)
         );
         parts.push(text);
         let at_bound = found.setup.search.at_bounds(best.point);
@@ -248,6 +249,21 @@ fn sentence(
         }
     }
     if parts.is_empty() { tr!(lab, level.map_idle) } else { parts.join(" ") }
+}
+
+/// A cost with its unit; without one where moves of the output are part of it.
+fn cost_text(lab: Lab, setup: &LevelLoopSetup, cost: f64) -> String {
+    let number = |value: f64| lab.number_style().significant(value, 5);
+    if setup.search.move_penalty > 0.0 {
+        return number(cost);
+    }
+    match setup.search.measure {
+        CostMeasure::LevelVariance => format!("{} m²", variance(lab, cost)),
+        CostMeasure::OutflowVariance => format!("{} (m³/s)²", variance(lab, cost)),
+        CostMeasure::Iae => format!("{} cm s", number(100.0 * cost)),
+        CostMeasure::Ise => format!("{} cm² s", number(1e4 * cost)),
+        CostMeasure::Itae => format!("{} cm s²", number(100.0 * cost)),
+    }
 }
 
 /// The name of a method of search, and how long the source needed for it where it says so.

@@ -1,7 +1,7 @@
 //! What the bench says of a run, in the language of the reader. What is said is decided by the core.
 
 use leptos::prelude::*;
-use quadtank::assess::IndexVerdict;
+use quadtank::assess::{IndexVerdict, LoopQuality};
 use quadtank::linear::LoopStability;
 use quadtank::study::level_loop::{Finding, LevelLoopAnswer, Objective};
 use quadtank::tuning::{Regulation, RegulationReason};
@@ -92,6 +92,9 @@ pub fn of_index(session: Session) -> (bool, String) {
         let is_tight = objective == Objective::Tight;
         let which = if is_tight { tr!(lab, level.index_level) } else { tr!(lab, level.index_outflow) };
         match index.verdict() {
+            IndexVerdict::Keep if is_fragile(answer) => {
+                (false, tr!(lab, level.verdict_fragile, which = which, value = value))
+            }
             IndexVerdict::Keep => (true, tr!(lab, level.verdict_keep, which = which, value = value)),
             IndexVerdict::Fair => (true, tr!(lab, level.verdict_fair, which = which, value = value)),
             IndexVerdict::Retune => (false, tr!(lab, level.verdict_retune, which = which, value = value)),
@@ -99,6 +102,11 @@ pub fn of_index(session: Session) -> (bool, String) {
         }
     };
     session.throttled.with_answer(of).unwrap_or_default()
+}
+
+/// Whether the linear loop is stable by a hair, or not at all.
+fn is_fragile(answer: &LevelLoopAnswer) -> bool {
+    answer.quality.as_ref().ok().and_then(Option::as_ref).is_some_and(LoopQuality::is_fragile)
 }
 
 /// Margins of the linear loop in one sentence, and whether it is robust.

@@ -13,7 +13,7 @@ use super::session::use_session;
 use crate::controls::{ParamControl, ParamRow, Switch};
 use crate::shown::ShownUnit;
 use crate::texts::{say, terms, tr};
-use crate::widgets::{Card, Scale, Text, Tick};
+use crate::widgets::{Card, Scale, Segmented, Text, Tick};
 
 const GAIN: ParamControl<LevelLoopSetup> = ParamControl {
     ids: [("level-gain", "level-gain-number"); 2],
@@ -124,7 +124,7 @@ const TERMS: &[Text] = &[
     terms::averaging,
     terms::gain_of_signals,
     terms::integral_time,
-    terms::windup,
+    terms::level_windup,
     terms::simc,
     terms::lambda,
 ];
@@ -202,16 +202,16 @@ impl Kind {
     }
 }
 
-/// Gain and integral time (s) with which a kind of controller begins where the one before it had none.
+/// Gain and integral time (s) with which a kind of controller begins where there was none before.
 const USUAL: (f64, f64) = (2.0, 120.0);
 
-/// Changes the kind of the controller; its tuning stays as far as the new kind has it.
-fn set_kind(setup: &mut LevelLoopSetup, kind: Kind) {
+/// Changes the kind of the controller; its tuning stays as far as the new kind has it. One that had none gets what was `kept`.
+fn set_kind(setup: &mut LevelLoopSetup, kind: Kind, kept: (f64, f64)) {
     let before = tuning(setup).or_else(|| {
         let [gain, integral, _] = pid(setup);
         (integral > 0.0).then(|| (gain, gain / integral))
     });
-    let (gain, integral_time_s) = before.unwrap_or(USUAL);
+    let (gain, integral_time_s) = before.unwrap_or(kept);
     let anti_windup = setup.anti_windup();
     setup.controller = match kind {
         Kind::Pi => LevelController::Pi { gain, integral_time_s, anti_windup },
@@ -236,13 +236,20 @@ fn set_kind(setup: &mut LevelLoopSetup, kind: Kind) {
 /// Time constant of the derivative filter (s): that of the lecture slides.
 const FILTER_S: f64 = quadtank::literature::level_slides::DERIVATIVE_FILTER_S;
 
+/// Which kind of controller there is. The tuning of the last PI controller is kept for the way back from none.
 #[component]
 fn KindSwitch() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
+    let kept = StoredValue::new(USUAL);
+    let choose = move |kind: Kind| {
+        if let Some(now) = session.document.with_untracked(|document| tuning(&document.level_loop)) {
+            kept.set_value(now);
+        }
+        session.edit(|s| set_kind(s, kind, kept.get_value()));
+    };
     view! {
-        <Switch
-            session
+        <Segmented
             label=say!(lab, level.controller)
             choices=vec![
                 (Kind::Pi, "kind-pi", say!(lab, level.kind_pi)),
@@ -250,9 +257,9 @@ fn KindSwitch() -> impl IntoView {
                 (Kind::Pid, "kind-pid", say!(lab, level.kind_pid)),
                 (Kind::Off, "kind-off", say!(lab, level.kind_off)),
             ]
-            read=Kind::of
-            write=set_kind
-            lock=locks::GAINS
+            value=lab.throttled(session.part(Kind::of))
+            on_choose=choose
+            disabled=lab.locks(locks::GAINS)
         />
     }
 }

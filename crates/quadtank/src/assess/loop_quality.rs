@@ -42,9 +42,9 @@ impl LoopQuality {
     /// Largest sensitivity peak of a loop that forgives errors of its model (Åström and Hägglund 2006, §4.6: 1.2 to 2).
     const ROBUST: f64 = 2.0;
 
-    /// Whether a stable loop has a larger sensitivity peak than loops that are built to last.
+    /// Whether the loop is not stable, or has a larger sensitivity peak than loops that are built to last.
     pub fn is_fragile(&self) -> bool {
-        self.sensitivity_peak().is_some_and(|peak| peak > Self::ROBUST)
+        self.sensitivity_peak().is_none_or(|peak| peak > Self::ROBUST)
     }
 
     /// Sensitivity peak Ms, 1 at least.

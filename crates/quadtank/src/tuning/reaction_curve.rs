@@ -67,6 +67,15 @@ pub enum ReactionError {
         #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
         change: f64,
     },
+    /// The signal bends: it is no ramp, but a curve that settles.
+    #[error("the signal bends: its slope at the end is {share} of that of its second half")]
+    NoRamp {
+        /// Slope of the last quarter over that of the last half.
+        share: f64,
+    },
+    /// The tank is full or empty during the test, so the curve is not that of the process.
+    #[error("the tank is full or empty during the test")]
+    AtWall,
     /// The signal still moves at the end.
     #[error("in the last tenth of the test the signal still moves by {share} of its change")]
     NotSettled {
@@ -79,6 +88,8 @@ pub enum ReactionError {
 pub(super) const SETTLED: f64 = 0.02;
 /// Levels of the two points.
 const POINTS: [f64; 2] = [0.283, 0.632];
+/// Least slope of the last quarter of a ramp, as a share of that of its last half.
+const STRAIGHT: f64 = 0.8;
 /// Rows that a fit needs after the step.
 const LEAST_ROWS: usize = 10;
 
@@ -104,7 +115,7 @@ impl StepRecord<'_> {
             return Err(ReactionError::NoResponse { change });
         }
         if method == ReactionMethod::Ramp {
-            return Ok(self.ramp(first, rows));
+            return self.ramp(first, rows);
         }
         let share = (end - self.signal[first + rows - 1 - rows / 10]) / change;
         if share.abs() > SETTLED {
@@ -134,7 +145,10 @@ impl StepRecord<'_> {
     }
 
     /// The line through the last half of the record, against the one before the step.
-    fn ramp(&self, first: usize, rows: usize) -> ReactionFit {
+    ///
+    /// # Errors
+    /// [`ReactionError::NoRamp`] for a record that bends there.
+    fn ramp(&self, first: usize, rows: usize) -> Result<ReactionFit, ReactionError> {
         let last = first + rows - 1;
         let middle = first + rows / 2;
         let line = |from: usize, to: usize| {
@@ -142,6 +156,10 @@ impl StepRecord<'_> {
             if span > 0.0 { (self.signal[to] - self.signal[from]) / span } else { 0.0 }
         };
         let (old, new) = (line(0, first), line(middle, last));
+        let share = line(first + 3 * rows / 4, last) / new;
+        if share < STRAIGHT || share.is_nan() {
+            return Err(ReactionError::NoRamp { share: if share.is_nan() { 0.0 } else { share } });
+        }
         let change = new - old;
         // Where the new line meets the old one, counted from the step.
         let start = self.signal[first];
@@ -149,7 +167,7 @@ impl StepRecord<'_> {
         let above = self.signal[middle] - (start + old * at_middle);
         let dead_time_s = if change == 0.0 { 0.0 } else { (at_middle - above / change).max(0.0) };
         let model = ProcessModel::Integrating { slope: change / self.step, dead_time_s };
-        ReactionFit { model, ends: [start, self.signal[last]], times_s: None }
+        Ok(ReactionFit { model, ends: [start, self.signal[last]], times_s: None })
     }
 }
 

@@ -5,9 +5,9 @@ use crate::literature::andreis::{
 };
 use crate::plant::level::{LevelPlant, OutflowLaw};
 use crate::sim::level::{LevelController, LevelExperiment};
-use crate::tuning::CostMeasure;
+use crate::tuning::{CostMeasure, ModelRule, ProcessModel};
 
-use super::{LevelLoopSetup, LevelPlantSpec, Objective, PiTuning};
+use super::{LevelLoopSetup, LevelPlantSpec, Objective, PiTuning, PlantAnswer};
 
 /// A published tuning of the loop that a setup is about.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -83,16 +83,41 @@ impl LevelLoopSetup {
         })
     }
 
-    /// Takes another objective up: the cost of the search is its variance, and the reference the tuning that the source found best for
-    /// it, where there is one.
+    /// Takes another objective up: the cost of the search is its variance, and the reference that of it, see
+    /// [`take_reference`](Self::take_reference).
     pub fn set_objective(&mut self, objective: Objective) {
         self.objective = objective;
         self.search.measure = objective.measure();
-        let of_it =
-            |one: &PublishedTuning| one.method == PublishedMethod::Gradient && one.objective == objective.published();
-        if let Some(best) = self.published_tunings().into_iter().find(of_it) {
-            self.reference = best.tuning;
+        self.take_reference();
+    }
+
+    /// Takes the reference up that belongs to loop, experiment and objective: the tuning that the source found best, where it has one.
+    /// Else SIMC with τc = θ for tight control, and Lambda tuning with λ = 3 max(θ, τ), the robust choice of Andreis (2017, §2.5.2), for
+    /// averaging control (thirty dead times where the tank integrates), by the half rule where the loop works, within the box.
+    pub fn take_reference(&mut self) {
+        let of_objective = |one: &PublishedTuning| {
+            one.method == PublishedMethod::Gradient && one.objective == self.objective.published()
+        };
+        let published = self.published_tunings().into_iter().find(of_objective).map(|best| best.tuning);
+        if let Some(tuning) = published.or_else(|| self.tuning_by_rule()) {
+            self.reference = tuning;
         }
+    }
+
+    fn tuning_by_rule(&self) -> Option<PiTuning> {
+        let model = PlantAnswer::of(self).ok()?.model;
+        let theta = model.dead_time_s();
+        let rule = match (self.objective, model) {
+            (Objective::Tight, _) => ModelRule::Simc { closed_loop_time_s: theta },
+            (Objective::Averaging { .. }, ProcessModel::SelfRegulating { time_constant_s, .. }) => {
+                ModelRule::Lambda { closed_loop_time_s: 3.0 * theta.max(time_constant_s) }
+            }
+            (Objective::Averaging { .. }, ProcessModel::Integrating { .. }) => {
+                ModelRule::Lambda { closed_loop_time_s: 30.0 * theta }
+            }
+        };
+        let settings = rule.settings(&model).ok()?;
+        Some(self.search.clip(PiTuning { gain: settings.gain, integral_time_s: settings.integral_time }))
     }
 
     /// Takes a published disturbance up, at the level and the inflow at which the experiment starts now, with the reference that
@@ -120,6 +145,7 @@ impl LevelLoopSetup {
                 plant.tank.outflow = law.through(level, flow);
             }
         });
+        self.take_reference();
     }
 
     /// Whether a map of the cost and a search of another setup are those of this one, whatever the controller is now.
@@ -174,6 +200,28 @@ mod tests {
         assert!(setup.has_same_problem(&other));
         other.set_objective(Objective::Averaging { band: other.usual_band() });
         assert!(!setup.has_same_problem(&other));
+    }
+
+    #[test]
+    fn a_loop_without_published_tunings_has_references_by_rules_whatever_came_before() {
+        let reference = |path: &[PublishedDisturbance]| {
+            let mut setup = LevelLoopSetup::default();
+            for disturbance in path {
+                setup.set_published_disturbance(*disturbance);
+            }
+            setup.experiment.disturbance.until_s = 120.0;
+            setup.set_objective(Objective::Tight);
+            setup.reference
+        };
+        let direct = reference(&[]);
+        assert_eq!(direct, reference(&[PublishedDisturbance::Random]));
+        // SIMC by the half rule at 0.017 m³/s: (7.36, 24 s), Ms 1.8 (docs/model.md, §15).
+        assert!((direct.gain - 7.36).abs() < 0.01 && (direct.integral_time_s - 24.0).abs() < 0.05, "{direct:?}");
+        let mut setup = LevelLoopSetup::default();
+        setup.set_outflow_law(OutflowLaw::Pumped);
+        let tight = setup.reference;
+        setup.set_objective(Objective::Averaging { band: setup.usual_band() });
+        assert!(setup.reference.gain < tight.gain / 5.0, "{:?}", setup.reference);
     }
 
     #[test]

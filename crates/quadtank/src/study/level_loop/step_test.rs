@@ -109,7 +109,8 @@ pub fn run_step_test(plant: &LevelPlant, test: &StepTestSpec) -> Result<StepTest
         step_time_s: test.step_time_s,
         step: test.step,
     };
-    let fit = record.fit(test.method);
+    let at_wall = log.full_s > 0.0 || log.empty_s > 0.0;
+    let fit = if at_wall { Err(ReactionError::AtWall) } else { record.fit(test.method) };
     let fitted = fit.as_ref().ok().map(|fit| answer_of(&fit.model, test, &log));
     let start = log.level.get(first).copied().unwrap_or(test.level);
     let regulation =
