@@ -84,7 +84,7 @@ pub fn TestCard() -> impl IntoView {
             beside=move || view! { <Places /> <ChartMenu picture=for_menu file="step-test" title /> }
         >
             <div class="chart"><ChartCanvas picture frames summary name="step-test-chart" /></div>
-            <div class="pairs four">
+            <div class="pairs">
                 <ParamRow session control=&INFLOW index=0 />
                 <ParamRow session control=&LEVEL index=1 />
                 <ParamRow session control=&STEP />
