@@ -9,8 +9,8 @@ use leptos::wasm_bindgen::JsValue;
 use wasm_bindgen_futures::{JsFuture, spawn_local};
 use web_sys::MessageChannel;
 
-/// How long a slice takes at most, but for its last step (ms): with the painting after it, it stays within a frame and a half.
-const SLICE_MS: f64 = 10.0;
+/// How long a slice takes at most, but for its last step (ms): two of them and the browser share a frame.
+const SLICE_MS: f64 = 6.0;
 
 /// Work that goes on until it is done or this handle is dropped.
 pub struct Slices {

@@ -61,6 +61,7 @@ pub fn CourseCard() -> impl IntoView {
                     <Figures name="level-figures" caption=say!(lab, level.figures)>{move || figures(session)}</Figures>
                     <p class="remark">{move || step_text(session)}</p>
                 </details>
+                <p class="remark" data-testid="level-pinned-note">{move || without_run(session)}</p>
                 <DataTable picture=for_table id="level-table" />
             </div>
         </Card>
@@ -173,6 +174,14 @@ fn figures(session: Session) -> impl IntoView {
 
 fn variance_text(session: Session, value: f64) -> String {
     sentences::variance(session.lab, value)
+}
+
+/// Which pinned loops have no run in the present experiment.
+fn without_run(session: Session) -> String {
+    let lab = session.lab;
+    let pinned = session.throttled.pinned.get();
+    let missing = pinned.iter().enumerate().filter(|(_, pinned)| pinned.result.is_err());
+    missing.map(|(place, _)| tr!(lab, responses.pinned_none, run = place + 1)).collect::<Vec<_>>().join(" ")
 }
 
 /// The answer to the step of the set-point, where there is one.

@@ -120,6 +120,11 @@ impl LevelSimulation {
         })
     }
 
+    /// Steps of integration of a run, before a quick controller has them divided.
+    pub fn steps(&self) -> usize {
+        self.rows * self.steps_per_row
+    }
+
     /// The signals at rest, from which a run starts.
     pub fn rest(&self) -> &LevelSignals {
         &self.rest

@@ -2,6 +2,7 @@ use std::sync::Arc;
 
 use crate::control::level_transfer_function;
 use crate::plant::level::{LevelError, LevelGains, LevelSignals};
+use crate::sim::level::{LevelRunError, LevelSimulation, MAX_LEVEL_STEPS};
 use crate::study::{PinnedResults, Study, update_pinned};
 use crate::tuning::{ProcessModel, UltimatePoint, ultimate_point_of};
 
@@ -78,7 +79,8 @@ impl Study for LevelLoopStudy {
     /// controller leaves both and the suggestions as they are.
     fn update(setup: &LevelLoopSetup, pinned: &[LevelLoopSetup], last: Option<&Results>) -> Results {
         let compared: Vec<LevelLoopSetup> = pinned.iter().map(|pinned| pinned.in_experiment_of(setup)).collect();
-        let pinned = update_pinned(&compared, last.map(|last| &last.pinned), run_level_loop);
+        let bounded = |pinned: &LevelLoopSetup| run_pinned(pinned, compared.len());
+        let pinned = update_pinned(&compared, last.map(|last| &last.pinned), bounded);
         if let Some(last) = last.filter(|last| *last.setup == *setup) {
             return Results { pinned, ..last.clone() };
         }
@@ -95,6 +97,18 @@ impl Study for LevelLoopStudy {
         let answer = answer.unwrap_or_else(|| Arc::new(run_level_loop(setup)));
         Results { setup: Arc::new(setup.clone()), plant, test, suggestions, answer, pinned }
     }
+}
+
+/// The run of a pinned loop, one of `count`. All of them together are given the steps of integration of one run, so that a document
+/// with many long ones does not stop the page for long.
+fn run_pinned(setup: &LevelLoopSetup, count: usize) -> Result<LevelLoopAnswer, LevelLoopFault> {
+    let max = MAX_LEVEL_STEPS / count as f64;
+    let steps =
+        LevelSimulation::new(&setup.plant(), &setup.experiment).map_or(0.0, |simulation| simulation.steps() as f64);
+    if steps > max {
+        return Err(LevelLoopFault { field: "pinned", fault: LevelRunError::TooMuchWork { steps, max } });
+    }
+    run_level_loop(setup)
 }
 
 fn has_same_rest(one: &LevelLoopSetup, other: &LevelLoopSetup) -> bool {
@@ -206,6 +220,24 @@ mod tests {
             let after = results(&changed, &[], Some(&before));
             assert!(!Arc::ptr_eq(&before.answer, &after.answer));
         }
+    }
+
+    #[test]
+    fn many_long_pinned_runs_are_refused_by_their_work() {
+        let mut setup = LevelLoopSetup::default();
+        setup.experiment.duration_s = 15_000.0;
+        let with = |count: usize| {
+            let pinned: Vec<LevelLoopSetup> = std::iter::repeat_n(setup.clone(), count).collect();
+            results(&setup, &pinned, None)
+        };
+        assert!(with(1).pinned[0].result.is_ok());
+        let many = with(8);
+        let fault = many.pinned[7].result.as_ref().as_ref().unwrap_err();
+        assert!(
+            matches!(fault.fault, LevelRunError::TooMuchWork { max, .. } if max == MAX_LEVEL_STEPS / 8.0),
+            "{fault}"
+        );
+        assert!(many.answer.is_ok());
     }
 
     #[test]
