@@ -242,6 +242,8 @@ fn in_level_loops() {
             } });
             setup["plant"]["parameters"]["tank"]["outflow"] = json!({ "pumped": { "flow": 0.03 } });
             setup["test"]["method"] = json!("ramp");
+            // So small that the tank does not fill, in which case no method reads a model.
+            setup["test"]["step"] = json!(0.05);
             let random = json!({ "simulink_normal": { "std": 0.003, "sample_time_s": 2.0, "seed": 0 } });
             setup["experiment"]["disturbance"]["signal"] = random;
         }),
