@@ -42,6 +42,27 @@ pub struct TimeAxis {
 }
 
 impl TimeAxis {
+    /// The time of a run from 0 to `end` (s), all of which is shown until the reader zooms. Nothing of the zoom is kept in the document.
+    pub fn of_run(
+        end: Signal<f64>,
+        cursor: Signal<Option<f64>>,
+        on_cursor: Callback<Option<f64>>,
+        shortest: f64,
+    ) -> Self {
+        let shown = RwSignal::new(None::<Stretch>);
+        // A stretch of a longer run may lie beyond the end of this one.
+        let window = move || shown.get().filter(|(_, to)| *to <= end.get()).unwrap_or((0.0, end.get()));
+        Self {
+            whole: Signal::derive(move || (0.0, end.get())),
+            window: Signal::derive(window),
+            cursor,
+            on_cursor,
+            on_show: Callback::new(move |stretch| shown.set(stretch)),
+            about: Signal::stored(None),
+            shortest,
+        }
+    }
+
     fn show(self, (from, to): Stretch) {
         let (begin, end) = self.whole.get_untracked();
         let all = end - begin;

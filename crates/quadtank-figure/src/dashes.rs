@@ -2,8 +2,8 @@
 
 use super::trace::Px;
 
-/// Most dashes of a line. One that swings all over the plot would have tens of thousands, which nobody tells apart and which
-/// take a tenth of a second to paint: its dashes are longer.
+/// Largest number of dashes of a line. A line with more of them is drawn with longer dashes: an oscillation that fills the plot would
+/// have tens of thousands, which take a tenth of a second to paint.
 const MOST_DASHES: f64 = 500.0;
 
 fn length_of(pair: &[Px]) -> f64 {

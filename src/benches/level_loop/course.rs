@@ -70,18 +70,8 @@ pub fn CourseCard() -> impl IntoView {
 
 fn time_axis(session: Session) -> TimeAxis {
     let end = session.part(|s| s.experiment.duration_s);
-    let shown = RwSignal::new(None::<(f64, f64)>);
-    // A stretch of a longer run may lie beyond the end of this one.
-    let window = move || shown.get().filter(|(_, to)| *to <= end.get()).unwrap_or((0.0, end.get()));
-    TimeAxis {
-        whole: Signal::derive(move || (0.0, end.get())),
-        window: Signal::derive(window),
-        cursor: session.own.cursor.into(),
-        on_cursor: Callback::new(move |time| set_cursor(session, time)),
-        on_show: Callback::new(move |stretch| shown.set(stretch)),
-        about: Signal::stored(None),
-        shortest: SHORTEST * end.get_untracked(),
-    }
+    let on_cursor = Callback::new(move |time| set_cursor(session, time));
+    TimeAxis::of_run(end, session.own.cursor.into(), on_cursor, SHORTEST * end.get_untracked())
 }
 
 /// The values at the shown moment.

@@ -92,18 +92,8 @@ fn RunFigures() -> impl IntoView {
 
 fn time_axis(session: Session) -> TimeAxis {
     let end = session.part(|s| s.experiment.duration_s);
-    let shown = RwSignal::new(None::<(f64, f64)>);
-    // A stretch of a longer run may lie beyond the end of this one.
-    let window = move || shown.get().filter(|(_, to)| *to <= end.get()).unwrap_or((0.0, end.get()));
-    TimeAxis {
-        whole: Signal::derive(move || (0.0, end.get())),
-        window: Signal::derive(window),
-        cursor: session.own.cursor.into(),
-        on_cursor: Callback::new(move |time| set_cursor(session, time)),
-        on_show: Callback::new(move |stretch| shown.set(stretch)),
-        about: Signal::stored(None),
-        shortest: SHORTEST_S,
-    }
+    let on_cursor = Callback::new(move |time| set_cursor(session, time));
+    TimeAxis::of_run(end, session.own.cursor.into(), on_cursor, SHORTEST_S)
 }
 
 /// The values at the shown moment.

@@ -55,7 +55,7 @@ fn curve<'a>(
     Layer::Line(Series { name: name.into(), role, pen, course, x: x.into(), y: y.into(), y_scale: 1.0 })
 }
 
-/// A range of a logarithmic axis with room around what it holds: a share of its decades.
+/// Widens the range of a logarithmic axis at both ends by a share of its decades, `least` decades at least.
 fn with_room((low, high): (f64, f64), share: f64, least: f64) -> (f64, f64) {
     let room = 10f64.powf((share * (high / low).log10()).max(least));
     (low / room, high * room)

@@ -64,7 +64,8 @@ pub fn step_test_to_csv(answer: &StepTestAnswer) -> String {
     table(&columns)
 }
 
-/// The trade-off as CSV: the curve over the gain, then the tunings that were asked for and have a run.
+/// The trade-off as CSV: variances (m², (m³/s)²) along the curve of gains, then those of the given tunings. A tuning without a run has
+/// no row.
 pub fn trade_off_to_csv(trade_off: &TradeOff) -> String {
     let mut text = "kind,gain,integral_time_s,level_variance_m2,outflow_variance_m6_per_s2\n".to_owned();
     let row = |kind: &str, point: &TradeOffPoint| {

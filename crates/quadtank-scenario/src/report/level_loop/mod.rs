@@ -99,7 +99,7 @@ pub struct StepTestReport {
     pub regulation: Option<Answer<Regulation, RegulationError>>,
 }
 
-/// A model with what it was read from.
+/// A process model with the points of the reaction curve from which it is read.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct FitReport {

@@ -99,7 +99,7 @@ impl LevelSearchReport {
 }
 
 impl TradeOffReport {
-    /// Of a trade-off that was asked for some of three tunings, in their order.
+    /// Reports a trade-off whose points are those of the `asked` tunings that are not `None`, in their order.
     fn of(found: &TradeOff, asked: [Option<PiTuning>; 3]) -> Self {
         let mut points = found.points.iter();
         let [current, reference, best] =

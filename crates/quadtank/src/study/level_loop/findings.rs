@@ -53,7 +53,7 @@ pub enum Finding {
 }
 
 impl Finding {
-    /// Whether the loop fails at what it is for, rather than that something is to be known.
+    /// Whether the finding is a failure of the loop (`true`) or only information about the run (`false`).
     pub const fn is_failure(&self) -> bool {
         match self {
             Self::OutputAtLimit { .. } | Self::InflowCut { .. } | Self::NothingMoves => false,
