@@ -17,8 +17,8 @@ use quadtank_scenario::level_loop::LevelLoopScenario;
 use quadtank_scenario::model_free::ModelFreeScenario;
 use quadtank_scenario::tuning::TuningScenario;
 use quadtank_scenario::{
-    BenchDocument, DOCUMENT_LIMIT, Document, Scenario, ScenarioError, check_length, document_from_bytes, schema_of,
-    to_json,
+    BenchDocument, DOCUMENT_LIMIT, Document, Scenario, ScenarioError, check_length, document_from_bytes,
+    level_loop_cases, model_free_cases, schema_of, to_json,
 };
 use serde::Serialize;
 use serde_json::Value;
@@ -178,8 +178,8 @@ enum Case {
 }
 
 fn case_of(name: &str) -> Result<Case, &'static str> {
-    let model_free = || model_free::published().find(|(known, ..)| known == name);
-    let level_loop = || level_loop::published().find(|(known, ..)| known == name);
+    let model_free = || model_free_cases().find(|(known, ..)| known == name);
+    let level_loop = || level_loop_cases().find(|(known, ..)| known == name);
     PublishedCase::from_name(name)
         .map(Case::Tuning)
         .or_else(|| {
@@ -359,11 +359,11 @@ fn list_of_cases() -> String {
         let _ = writeln!(list, "{:<16} Campestrini (2006), {place}", case.name());
         list
     });
-    let both = model_free::published().fold(tuning, |mut list, (name, valves, experiment)| {
+    let both = model_free_cases().fold(tuning, |mut list, (name, valves, experiment)| {
         let _ = writeln!(list, "{name:<16} Junqueira, Neves and Angelico, case {valves:?}, experiment {experiment:?}");
         list
     });
-    level_loop::published().fold(both, |mut list, (name, place, _)| {
+    level_loop_cases().fold(both, |mut list, (name, place, _)| {
         let _ = writeln!(list, "{name:<24} {place}");
         list
     })

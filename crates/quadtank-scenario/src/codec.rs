@@ -102,6 +102,19 @@ pub fn document_from_bytes(bytes: &[u8]) -> Result<Document, ScenarioError> {
     document_from_json(&text_of(bytes)?)
 }
 
+/// Reads any other kind of file of the laboratory from JSON, as strictly as a document and with the place of what is wrong.
+///
+/// # Errors
+/// [`ScenarioError::TooLong`] beyond `limit` bytes, [`ScenarioError::NotText`], [`ScenarioError::Malformed`].
+pub fn read_json<T: DeserializeOwned>(bytes: &[u8], limit: usize) -> Result<T, ScenarioError> {
+    if bytes.len() > limit {
+        return Err(ScenarioError::TooLong { length: bytes.len(), max: limit });
+    }
+    let text = text_of(bytes)?;
+    let tree: Tree = serde_json::from_str(&text).map_err(|error| syntax_error(&text, &error))?;
+    reader::read(&tree)
+}
+
 /// Reads a document of any kind from what JSON was parsed to.
 ///
 /// A later version of a document is read here too: into its own types, then brought up to date.

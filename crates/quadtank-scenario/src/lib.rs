@@ -18,6 +18,7 @@ pub mod model_free;
 mod pack;
 pub mod params;
 mod path;
+mod published;
 mod reader;
 pub mod report;
 #[cfg(feature = "schema")]
@@ -28,7 +29,9 @@ mod tree;
 pub mod tuning;
 mod validate;
 
-pub use codec::{DOCUMENT_LIMIT, Document, check_length, document_from_bytes, document_from_json, from_json, to_json};
+pub use codec::{
+    DOCUMENT_LIMIT, Document, check_length, document_from_bytes, document_from_json, from_json, read_json, to_json,
+};
 pub use csv::{roots_to_csv, run_to_csv, valve_map_to_csv};
 pub use document::{BenchDocument, Scenario, View};
 pub use entries::{Entry, EntryValue, entries};
@@ -36,5 +39,6 @@ pub use error::ScenarioError;
 pub use label::Label;
 pub use limits::Limits;
 pub use link::{LINK_LIMIT, document_from_link, to_link};
+pub use published::{level_loop_cases, model_free_cases, published_document};
 #[cfg(feature = "schema")]
 pub use schema::{schema_of, schema_of_report};

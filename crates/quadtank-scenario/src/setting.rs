@@ -23,6 +23,23 @@ impl Document {
         }
         document_from_json(&document.to_string())
     }
+
+    /// The same for settings as they are written on the command line, such as `setup.valves[0]=0.4`. A value that is not JSON is the
+    /// name of a choice.
+    ///
+    /// # Errors
+    /// As [`with_values`](Self::with_values); [`ScenarioError::Malformed`] for a setting without `=`.
+    pub fn with_settings<'a>(&self, settings: impl IntoIterator<Item = &'a str>) -> Result<Self, ScenarioError> {
+        let setting = |text: &str| {
+            let (path, value) = text
+                .split_once('=')
+                .ok_or_else(|| malformed(quoted(text), "a setting is a path, `=` and a value".to_owned()))?;
+            let value = serde_json::from_str(value).unwrap_or_else(|_| Value::from(value));
+            Ok((path.to_owned(), value))
+        };
+        let values = settings.into_iter().map(setting).collect::<Result<Vec<_>, _>>()?;
+        if values.is_empty() { Ok(self.clone()) } else { self.with_values(&values) }
+    }
 }
 
 /// Sets the value at a path. A field that is not there is added, for it may be one that a document may be without.

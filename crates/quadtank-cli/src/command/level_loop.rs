@@ -1,13 +1,10 @@
 //! Level loops without a screen: what theory says, what happens in a run, and searches for settings, as a report or CSV.
 
 use clap::{Args, ValueEnum};
-use quadtank::literature::andreis::PublishedDisturbance;
-use quadtank::literature::{LevelPresetId, level_slides};
 use quadtank::sim::level::{LevelController, LevelRunError};
 use quadtank::study::Study;
 use quadtank::study::level_loop::{
-    LevelLoopFault, LevelLoopSetup, LevelLoopStudy, LevelSearch, PiTuning, SearchMethod, published_setup,
-    run_level_loop,
+    LevelLoopFault, LevelLoopSetup, LevelLoopStudy, LevelSearch, PiTuning, SearchMethod, run_level_loop,
 };
 use quadtank::tuning::search::GeneticSettings;
 use quadtank_scenario::level_loop::{run_to_csv, search_to_csv};
@@ -107,33 +104,4 @@ pub fn search_report(setup: &LevelLoopSetup, options: &SearchOptions) -> Result<
 /// Where a search stood, one line for each step, simplex or generation.
 pub fn search_csv(setup: &LevelLoopSetup, options: &SearchOptions) -> Result<String, LevelRunError> {
     Ok(search_to_csv(&searched(setup, options.method(setup))?))
-}
-
-/// The published cases with their names and places.
-pub fn published() -> impl Iterator<Item = (String, String, LevelLoopSetup)> {
-    let plants = [
-        (LevelPresetId::Andreis, "andreis", "the plant with its current controller"),
-        (LevelPresetId::AndreisUncertain, "andreis-uncertain", "the model with errors, the same controller"),
-    ];
-    let andreis = plants.into_iter().flat_map(|(id, name, what)| {
-        PublishedDisturbance::ALL.map(|disturbance| {
-            let (suffix, title, tables) = match disturbance {
-                PublishedDisturbance::SineL => ("sine-l", "Sine Wave L", "Tables 5.1, 5.2"),
-                PublishedDisturbance::SineH => ("sine-h", "Sine Wave H", "Tables 5.3, 5.4"),
-                PublishedDisturbance::Random => ("random", "Random", "Tables 5.5, 5.6"),
-            };
-            let place = format!("Andreis (2017), §5.1, {tables}: {what}, {title}");
-            (format!("{name}-{suffix}"), place, published_setup(id, disturbance))
-        })
-    });
-    let slides = level_slides::settings().into_iter().enumerate().map(|(index, settings)| {
-        let disturbance = PublishedDisturbance::SineL;
-        let controller = LevelController::pid(settings, level_slides::DERIVATIVE_FILTER_S);
-        let setup = LevelLoopSetup { controller, ..published_setup(LevelPresetId::LectureSlides, disturbance) };
-        let minutes = level_slides::MINUTE;
-        let [p, i, d] = [settings.proportional, settings.integral * minutes, settings.derivative / minutes];
-        let place = format!("lecture slides on a level tank, setting {}: P = {p}, I = {i}/min, D = {d} min", index + 1);
-        (format!("level-slides-{}", index + 1), place, setup)
-    });
-    andreis.chain(slides)
 }

@@ -1,21 +1,10 @@
 //! The model-free law without a screen: what theory says of a run and what happens in it, as a report, CSV or a picture.
 
-use quadtank::literature::junqueira::{PublishedExperiment, PublishedValves};
 use quadtank::study::StudyError;
 use quadtank::study::model_free::{ModelFreeSetup, analyse_model_free, run_model_free};
 use quadtank_figure::{ModelFreeCourse, ModelFreeTexts, Size, Style, model_free_course, to_svg};
 use quadtank_scenario::model_free::run_to_csv;
 use quadtank_scenario::report::model_free::{ModelFreeAnalysisReport, ModelFreeReport};
-
-/// The published cases by name: `junqueira-a-s1` and so on.
-pub fn published() -> impl Iterator<Item = (String, PublishedValves, PublishedExperiment)> {
-    PublishedValves::ALL.into_iter().flat_map(|valves| {
-        PublishedExperiment::ALL.into_iter().map(move |experiment| {
-            let name = format!("junqueira-{valves:?}-{experiment:?}").to_lowercase();
-            (name, valves, experiment)
-        })
-    })
-}
 
 /// What theory says at the references that the run ends with.
 pub fn analysis(setup: &ModelFreeSetup) -> ModelFreeAnalysisReport {
