@@ -18,6 +18,7 @@ pub mod model_free;
 mod pack;
 pub mod params;
 mod path;
+mod quantities;
 mod reader;
 pub mod report;
 #[cfg(feature = "schema")]
@@ -36,5 +37,6 @@ pub use error::ScenarioError;
 pub use label::Label;
 pub use limits::Limits;
 pub use link::{LINK_LIMIT, document_from_link, to_link};
+pub use quantities::{Quantities, QuantityRow, UnknownQuantity, bench_of, quantities_of};
 #[cfg(feature = "schema")]
 pub use schema::{schema_of, schema_of_report};
