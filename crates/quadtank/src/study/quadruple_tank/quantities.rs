@@ -203,3 +203,147 @@ pub const QUANTITIES: &[Quantity<Results>] = &[
     q("run.overflows", "yes/no", "Whether a tank runs over in the run.", |r| happened(r, |kind| matches!(kind, EventKind::Overflow { .. }))),
     q("run.runs_dry", "yes/no", "Whether a tank runs dry in the run.", |r| happened(r, |kind| matches!(kind, EventKind::Empty { .. }))),
 ];
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+    use crate::literature::PresetId;
+    use crate::sim::SetPointStep;
+    use crate::study::Study;
+    use crate::study::quadruple_tank::{OperatingPointSpec, QuadrupleTankStudy, Setup, setup_of};
+
+    fn values<const N: usize>(setup: &Setup, names: [&str; N]) -> [Option<f64>; N] {
+        let results = QuadrupleTankStudy::update(setup, &[], None);
+        names.map(|name| Quantity::find(QUANTITIES, name).expect(name).value(&results))
+    }
+
+    fn numbers<const N: usize>(setup: &Setup, names: [&str; N]) -> [f64; N] {
+        values(setup, names).map(Option::unwrap)
+    }
+
+    /// The rig of Johansson (2000) with both pumps at 3 V.
+    fn at(valves: [f64; 2]) -> Setup {
+        let operating_point = OperatingPointSpec::PumpVoltage([3.0; 2]);
+        Setup { valves, operating_point, ..setup_of(PresetId::JohanssonMinimumPhase) }
+    }
+
+    fn with_steps(id: PresetId, sizes: [f64; 2]) -> Setup {
+        let mut setup = setup_of(id);
+        let step = |level: usize| SetPointStep { level, time_s: 100.0, size: sizes[level] };
+        setup.experiment.set_point_steps = [0, 1].map(step).to_vec();
+        setup
+    }
+
+    #[test]
+    fn the_zero_crosses_where_the_relative_gain_is_unbounded() {
+        for (gamma, zero) in [(0.3, 0.0248), (0.4, 0.0107), (0.6, -0.0104)] {
+            let [found] = numbers(&at([gamma; 2]), ["zero.rightmost"]);
+            assert!((found - zero).abs() < 5e-5, "{gamma}: {found}");
+        }
+        let line = values(&at([0.4, 0.6]), ["zero.rightmost", "gain.det", "rga.lambda11", "niederlinski"]);
+        assert_eq!(line, [Some(0.0), Some(0.0), None, None]);
+        // λ11 = γ1 γ2/(γ1 + γ2 − 1).
+        for (gamma, lambda) in [(0.49, -0.49 * 0.49 / 0.02), (5.0 - 20.0_f64.sqrt(), 5.0)] {
+            let [one, other] = numbers(&at([gamma; 2]), ["rga.lambda11", "rga.lambda12"]);
+            assert_relative_eq!(one, lambda, max_relative = 1e-9);
+            assert_relative_eq!(other, 1.0 - lambda, max_relative = 1e-9);
+        }
+    }
+
+    /// Johansson (2000), Tables 1 and 2: time constants, levels, zeros.
+    #[test]
+    fn the_printed_rigs_have_their_printed_numbers() {
+        let names = ["tank1.time_constant", "tank3.time_constant", "levels.h1", "zero.rightmost", "zero.leftmost"];
+        let minimum = numbers(&setup_of(PresetId::JohanssonMinimumPhase), names);
+        let other = numbers(&setup_of(PresetId::JohanssonNonMinimumPhase), names);
+        let printed = [[62.0, 23.0, 0.124, -0.018, -0.060], [63.0, 39.0, 0.126, 0.013, -0.057]];
+        for (found, printed) in [minimum, other].iter().flatten().zip(printed.as_flattened()) {
+            assert_relative_eq!(found, printed, max_relative = 0.07);
+        }
+    }
+
+    #[test]
+    fn the_swapped_pairing_makes_two_positive_gains_stable() {
+        let mut setup = setup_of(PresetId::JohanssonNonMinimumPhase);
+        let names = ["closed_loop.is_stable", "niederlinski", "pairing.is_diagonal", "pairing.recommended_is_diagonal"];
+        let [stable, index, diagonal, advised] = numbers(&setup, names);
+        assert!(index < 0.0);
+        assert_eq!([stable, diagonal, advised], [1.0, 1.0, 0.0]);
+        let [peak] = numbers(&setup, ["closed_loop.sensitivity_peak"]);
+        assert!((peak - 2.21).abs() < 5e-3, "{peak}");
+        setup.controller.pairing = Pairing::Swapped;
+        let swapped = values(&setup, ["closed_loop.is_stable", "closed_loop.sensitivity_peak", "level1.overshoot"]);
+        assert_eq!(swapped, [Some(0.0), None, None]);
+        setup.controller.pairing = Pairing::Diagonal;
+        for (gain, integral_time_s) in [(0.3, 170.0), (0.1, 300.0), (0.02, 1000.0)] {
+            for settings in &mut setup.controller.loops {
+                (settings.gain, settings.integral_time_s) = (gain, integral_time_s);
+            }
+            assert_eq!(numbers(&setup, ["closed_loop.is_stable"]), [0.0], "{gain}");
+        }
+    }
+
+    #[test]
+    fn steps_across_the_direction_of_the_zero_cost_four_times_as_much() {
+        let errors = ["level1.iae", "level2.iae", "level1.undershoot", "level2.undershoot"];
+        let swapped = |sizes: [f64; 2]| {
+            let mut setup = with_steps(PresetId::JohanssonNonMinimumPhase, sizes);
+            setup.controller.pairing = Pairing::Swapped;
+            for (settings, (gain, time)) in setup.controller.loops.iter_mut().zip([(0.3, 170.0), (0.28, 160.0)]) {
+                (settings.gain, settings.integral_time_s) = (gain, time);
+            }
+            numbers(&setup, errors)
+        };
+        let near = |found: [f64; 4], told: [f64; 4]| {
+            for (found, (told, slack)) in found.into_iter().zip(told.into_iter().zip([0.01, 0.015, 0.005, 0.005])) {
+                assert!((found - told).abs() < slack, "{found} {told}");
+            }
+        };
+        near(swapped([0.005, 0.005]), [0.77, 0.70, 0.0, 0.0]);
+        near(swapped([0.005, -0.005]), [2.99, 3.00, 0.088, 0.12]);
+        let [easy] = numbers(&with_steps(PresetId::JohanssonMinimumPhase, [0.005; 2]), ["level2.iae"]);
+        let [hard] = numbers(&with_steps(PresetId::JohanssonMinimumPhase, [0.005, -0.005]), ["level2.iae"]);
+        assert!((easy - 0.068).abs() < 5e-4 && (hard - 0.063).abs() < 5e-4, "{easy} {hard}");
+    }
+
+    #[test]
+    fn windup_doubles_the_overshoot() {
+        let mut setup = with_steps(PresetId::JohanssonMinimumPhase, [0.07, 0.0]);
+        let names = ["controller.anti_windup", "level1.overshoot", "set_point.step1"];
+        let [with, calm, step] = numbers(&setup, names);
+        setup.controller.loops.iter_mut().for_each(|settings| settings.anti_windup = AntiWindup::Off);
+        let [without, wild, _] = numbers(&setup, names);
+        assert_eq!([with, without, step], [1.0, 0.0, 0.07]);
+        assert!((calm - 0.038).abs() < 5e-4 && (wild - 0.079).abs() < 5e-4, "{calm} {wild}");
+        assert_eq!(values(&setup, ["set_point.step2"]), [None]);
+        let [pump, run] = numbers(&setup, ["pump1.time_at_limit", "run.time_at_limit"]);
+        assert_eq!((pump, run), (7.0, 7.0));
+    }
+
+    #[test]
+    fn a_model_is_good_for_small_moves_of_a_pump() {
+        let error = |share: f64| {
+            let mut setup = at([0.7, 0.6]);
+            let output = [3.0 * (1.0 + share), 3.0];
+            for (settings, output) in setup.controller.loops.iter_mut().zip(output) {
+                settings.mode = LoopMode::Manual { output, until_s: setup.experiment.duration_s };
+            }
+            numbers(&setup, ["run.largest_model_error1", "loop1.is_automatic"])
+        };
+        let ([small, by_hand], [large, _]) = (error(0.05), error(0.4));
+        assert_eq!(by_hand, 0.0);
+        // The rest of a square root grows with the square of the move.
+        assert!(large > 40.0 * small && small > 0.0, "{small} {large}");
+    }
+
+    #[test]
+    fn a_pump_has_the_costs_of_the_loop_that_drives_it() {
+        let mut setup = setup_of(PresetId::JohanssonNonMinimumPhase);
+        setup.controller.pairing = Pairing::Swapped;
+        let results = QuadrupleTankStudy::update(&setup, &[], None);
+        let travel = results.run.as_ref().as_ref().unwrap().metrics.map(|metrics| metrics.total_variation);
+        assert_eq!(numbers(&setup, ["pump1.travel", "pump2.travel"]), [travel[1], travel[0]]);
+    }
+}
