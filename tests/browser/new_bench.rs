@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use leptos::prelude::*;
-use quadtank::study::Study;
 use quadtank::study::quadruple_tank::Setup;
+use quadtank::study::{Quantity, Study};
 use quadtank_lab::{Bench, BenchEntry, Lab, Lock, Panel, Session, part_of};
 use quadtank_scenario::{BenchDocument, Scenario, to_link};
 use wasm_bindgen_test::wasm_bindgen_test;
@@ -23,6 +23,8 @@ struct Results {
 impl Study for GammaSum {
     type Setup = Setup;
     type Results = Results;
+    const QUANTITIES: &'static [Quantity<Results>] =
+        &[Quantity { name: "valves.sum", unit: "1", description: "γ1 + γ2.", read: |results| Some(*results.sum) }];
 
     fn setup_of(results: &Results) -> &Arc<Setup> {
         &results.setup

@@ -31,6 +31,7 @@ mod level_plot;
 mod message;
 mod model_free;
 mod plot;
+mod quantities;
 mod report;
 mod tune;
 
@@ -61,6 +62,11 @@ enum Command {
     Analyse {
         #[command(flatten)]
         source: Source,
+        /// Print only this quantity, such as `zero.rightmost`; may be repeated. `quadtank quantities` lists them
+        ///
+        /// The answer is a JSON object of numbers in SI, null where a quantity does not exist.
+        #[arg(long, value_name = "NAME")]
+        only: Vec<String>,
     },
     /// Run the experiment of a scenario on the nonlinear plant and on its linear model
     ///
@@ -123,6 +129,12 @@ enum Command {
         /// A table of Andreis (2017), 5.1 to 5.6, 5.9, 5.10, 5.12, 5.13, 5.17 or 5.18: every printed number beside the computed one
         #[arg(long, value_name = "NUMBER", conflicts_with = "name", value_parser = andreis::table_of)]
         table: Option<TableNumber>,
+    },
+    /// List the quantities of each bench with units and descriptions, as Markdown
+    Quantities {
+        /// Version of the document: 1 for the quadruple tank, 2 for relay tuning, 3 for model-free control, 4 for a level loop
+        #[arg(long, value_parser = clap::value_parser!(u32).range(1..=4))]
+        version: Option<u32>,
     },
     /// Print the JSON Schema of the scenario, or of what a command reports about it
     Schema {
@@ -242,7 +254,12 @@ fn wrong_command(error: &clap::Error) -> ExitCode {
 
 fn execute(command: Command) -> Result<(), Failure> {
     match command {
-        Command::Analyse { source } => print(&answer(&source, |document| document.analyse())?),
+        Command::Analyse { source, only } if only.is_empty() => print(&answer(&source, |document| document.analyse())?),
+        Command::Analyse { source, only } => {
+            let document = document_of(&source)?;
+            print(&told(&source.file, quantities::only(&document, &only))?)
+        }
+        Command::Quantities { version } => print(&quantities::list(version)),
         Command::Simulate { source, format } => print(&answer(&source, |document| document.simulate(format))?),
         Command::Tune { source, search, format } => print(&answer(&source, |document| document.tune(format, &search))?),
         Command::Plot { source, svg, chart, picture, level_picture, theme } => {
@@ -273,14 +290,19 @@ fn execute(command: Command) -> Result<(), Failure> {
 /// Reads a document and asks it. What it may not have been meant to say is printed as warnings.
 fn answer(source: &Source, ask: impl Fn(&dyn Answers) -> Result<String, Fault>) -> Result<String, Failure> {
     let file = &source.file;
-    let read = document(file)?;
-    let document = if source.settings.is_empty() { read } else { told(file, read.with_values(&source.settings))? };
+    let document = document_of(source)?;
     let document = answers::of(&document);
     let answer = told(file, ask(document))?;
     for warning in document.warnings() {
         message::tell(format!("{}: warning: {warning}", file_name(file)));
     }
     Ok(answer)
+}
+
+/// A document with the values that are set.
+fn document_of(source: &Source) -> Result<Document, Failure> {
+    let read = document(&source.file)?;
+    if source.settings.is_empty() { Ok(read) } else { told(&source.file, read.with_values(&source.settings)) }
 }
 
 fn told<T>(file: &Path, result: Result<T, impl Into<Fault>>) -> Result<T, Failure> {

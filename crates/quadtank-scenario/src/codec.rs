@@ -6,6 +6,7 @@ use super::error::{malformed, quoted};
 use super::level_loop::LevelLoopScenario;
 use super::model_free::ModelFreeScenario;
 use super::path::{byte_at, decimal_comma, path_before};
+use super::quantities::{QuantityRow, rows_of};
 use super::text::text_of;
 use super::tree::Tree;
 use super::tuning::TuningScenario;
@@ -32,6 +33,8 @@ pub(super) struct DocumentKind {
     pub version: u32,
     pub root: &'static str,
     pub dictionary: &'static [u8],
+    pub bench: &'static str,
+    pub quantities: fn() -> Vec<QuantityRow>,
     read: fn(&Tree) -> Result<Document, ScenarioError>,
     #[cfg(feature = "schema")]
     pub shape: fn(&mut schemars::SchemaGenerator) -> schemars::Schema,
@@ -60,6 +63,8 @@ impl DocumentKind {
             version: D::VERSION,
             root: D::ROOT,
             dictionary: D::DICTIONARY,
+            bench: D::BENCH,
+            quantities: rows_of::<D::Study>,
             read: |tree| read::<D>(tree).map(D::into),
             #[cfg(feature = "schema")]
             shape: schemars::SchemaGenerator::root_schema_for::<D>,

@@ -1,5 +1,6 @@
 use quadtank::literature::PresetId;
-use quadtank::study::quadruple_tank::{Setup, setup_of};
+use quadtank::study::Study;
+use quadtank::study::quadruple_tank::{QuadrupleTankStudy, Setup, setup_of};
 use serde::{Deserialize, Serialize};
 
 use super::{Document, Label, ScenarioError, params, validate};
@@ -10,6 +11,10 @@ pub trait BenchDocument:
 {
     /// What results follow from.
     type Setup: Clone + PartialEq;
+    /// What computes them.
+    type Study: Study<Setup = Self::Setup>;
+    /// The name of the bench, which also stands in the address of the page.
+    const BENCH: &'static str;
     /// The version that this program writes, which is the bench's own, and the format of its links.
     const VERSION: u32;
     /// The field of the document that holds its setup.
@@ -86,6 +91,8 @@ impl Scenario {
 
 impl BenchDocument for Scenario {
     type Setup = Setup;
+    type Study = QuadrupleTankStudy;
+    const BENCH: &'static str = "quadruple-tank";
     const VERSION: u32 = 1;
     const ROOT: &'static str = "setup";
     const DICTIONARY: &'static [u8] = include_bytes!("dictionary-1.jsonl");

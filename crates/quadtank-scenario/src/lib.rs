@@ -19,6 +19,7 @@ mod pack;
 pub mod params;
 mod path;
 mod published;
+mod quantities;
 mod reader;
 pub mod report;
 #[cfg(feature = "schema")]
@@ -40,5 +41,6 @@ pub use label::Label;
 pub use limits::Limits;
 pub use link::{LINK_LIMIT, document_from_link, to_link};
 pub use published::{level_loop_cases, model_free_cases, published_document};
+pub use quantities::{Quantities, QuantityRow, UnknownQuantity, bench_of, quantities_of};
 #[cfg(feature = "schema")]
 pub use schema::{schema_of, schema_of_report};

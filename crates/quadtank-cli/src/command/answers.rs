@@ -11,12 +11,12 @@ use quadtank_scenario::model_free::ModelFreeScenario;
 use quadtank_scenario::report::quadruple::AnalysisReport;
 use quadtank_scenario::report::tuning::TuningAnalysisReport;
 use quadtank_scenario::tuning::{TuningScenario, warnings};
-use quadtank_scenario::{BenchDocument, Document, Scenario, ScenarioError, run_to_csv};
+use quadtank_scenario::{BenchDocument, Document, Scenario, ScenarioError, UnknownQuantity, run_to_csv};
 use serde::Serialize;
 use thiserror::Error;
 
 use super::level_loop::{self, SearchOptions};
-use super::{Format, level_plot, model_free, plot, tune};
+use super::{Format, level_plot, model_free, plot, quantities, tune};
 
 /// What is to be drawn, and how.
 pub struct Drawing {
@@ -45,6 +45,8 @@ pub enum Fault {
     NoTuning,
     #[error("level_loop.test: {0}")]
     StepTest(#[from] StepTestFault),
+    #[error("{error}{}", quantities::suggestion(near))]
+    UnknownQuantity { error: UnknownQuantity, near: Vec<&'static str> },
     #[error("{0}")]
     Json(#[from] serde_json::Error),
 }
@@ -173,7 +175,7 @@ fn studied<D: BenchDocument, T>(result: Result<T, StudyError>) -> Result<T, Faul
     Ok(result.map_err(|error| ScenarioError::Study { setup: D::ROOT, error })?)
 }
 
-fn json<T: Serialize>(report: &T) -> Result<String, Fault> {
+pub fn json<T: Serialize>(report: &T) -> Result<String, Fault> {
     Ok(serde_json::to_string_pretty(report)? + "\n")
 }
 

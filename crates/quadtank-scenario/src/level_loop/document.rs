@@ -1,4 +1,4 @@
-use quadtank::study::level_loop::LevelLoopSetup;
+use quadtank::study::level_loop::{LevelLoopSetup, LevelLoopStudy};
 use serde::{Deserialize, Serialize};
 
 use crate::{BenchDocument, Document, Label, Scenario, ScenarioError, params, validate};
@@ -30,6 +30,8 @@ impl LevelLoopScenario {
 
 impl BenchDocument for LevelLoopScenario {
     type Setup = LevelLoopSetup;
+    type Study = LevelLoopStudy;
+    const BENCH: &'static str = "level-loop";
     const VERSION: u32 = 4;
     const ROOT: &'static str = "level_loop";
     const DICTIONARY: &'static [u8] = include_bytes!("../dictionary-4.jsonl");

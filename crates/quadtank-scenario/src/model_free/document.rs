@@ -1,4 +1,4 @@
-use quadtank::study::model_free::ModelFreeSetup;
+use quadtank::study::model_free::{ModelFreeSetup, ModelFreeStudy};
 use serde::{Deserialize, Serialize};
 
 use crate::{BenchDocument, Document, Label, ScenarioError, params, validate};
@@ -22,6 +22,8 @@ pub struct ModelFreeScenario {
 
 impl BenchDocument for ModelFreeScenario {
     type Setup = ModelFreeSetup;
+    type Study = ModelFreeStudy;
+    const BENCH: &'static str = "model-free";
     const VERSION: u32 = 3;
     const ROOT: &'static str = "model_free";
     const DICTIONARY: &'static [u8] = include_bytes!("../dictionary-3.jsonl");

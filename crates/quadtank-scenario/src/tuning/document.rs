@@ -1,4 +1,4 @@
-use quadtank::study::relay_tuning::TuningSetup;
+use quadtank::study::relay_tuning::{RelayTuningStudy, TuningSetup};
 use serde::{Deserialize, Serialize};
 
 use crate::{BenchDocument, Document, Label, ScenarioError, params, validate};
@@ -27,6 +27,8 @@ impl TuningScenario {
 
 impl BenchDocument for TuningScenario {
     type Setup = TuningSetup;
+    type Study = RelayTuningStudy;
+    const BENCH: &'static str = "relay-tuning";
     const VERSION: u32 = 2;
     const ROOT: &'static str = "tuning";
     const DICTIONARY: &'static [u8] = include_bytes!("../dictionary-2.jsonl");

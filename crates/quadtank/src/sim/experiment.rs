@@ -122,6 +122,13 @@ impl Experiment {
         times.into_iter().map(step_at).find(|step| *step != [0.0; 2])
     }
 
+    /// The first step of the reference of a level (m), which is all of its steps at that time, added; `None` when it never moves.
+    pub fn first_step_of(&self, level: usize) -> Option<f64> {
+        let of_level = self.set_point_steps.iter().filter(|step| step.level == level).copied();
+        let [first, second] = Self { set_point_steps: of_level.collect(), ..self.clone() }.first_reference_step()?;
+        Some(if level == 0 { first } else { second })
+    }
+
     /// The same experiment measured without noise.
     #[must_use]
     pub fn without_noise(&self) -> Self {

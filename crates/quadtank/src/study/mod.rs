@@ -6,10 +6,12 @@ pub mod level_loop;
 mod linear_plant;
 pub mod model_free;
 pub mod quadruple_tank;
+mod quantity;
 pub mod relay_tuning;
 
 pub use error::{StudyError, StudyFault};
 pub use linear_plant::LinearPlant;
+pub use quantity::{Quantity, UNITS};
 
 use std::sync::Arc;
 
@@ -23,7 +25,9 @@ pub trait Study {
     /// What the results follow from.
     type Setup: Clone + PartialEq;
     /// All results, in parts that are shared.
-    type Results: Clone;
+    type Results: Clone + 'static;
+    /// The numbers that follow from results, by their names.
+    const QUANTITIES: &'static [Quantity<Self::Results>];
 
     /// The setup that results are of.
     fn setup_of(results: &Self::Results) -> &Arc<Self::Setup>;

@@ -8,6 +8,7 @@ mod findings;
 mod heated;
 mod proportional_test;
 mod published;
+mod quantities;
 mod results;
 mod search;
 mod setup;

@@ -3,9 +3,10 @@ use std::sync::Arc;
 use crate::control::level_transfer_function;
 use crate::plant::level::{LevelError, LevelGains, LevelSignals};
 use crate::sim::level::{LevelRunError, LevelSimulation, MAX_LEVEL_STEPS};
-use crate::study::{PinnedResults, Study, update_pinned};
+use crate::study::{PinnedResults, Quantity, Study, update_pinned};
 use crate::tuning::{ProcessModel, UltimatePoint, ultimate_point_of};
 
+use super::quantities::QUANTITIES;
 use super::{
     LevelLoopAnswer, LevelLoopFault, LevelLoopSetup, ModelSource, StepTestAnswer, StepTestFault, Suggestion,
     run_level_loop, run_step_test, suggest,
@@ -70,6 +71,7 @@ impl PlantAnswer {
 impl Study for LevelLoopStudy {
     type Setup = LevelLoopSetup;
     type Results = Results;
+    const QUANTITIES: &'static [Quantity<Results>] = QUANTITIES;
 
     fn setup_of(results: &Results) -> &Arc<LevelLoopSetup> {
         &results.setup

@@ -2,6 +2,7 @@
 
 mod answer;
 mod claims;
+mod quantities;
 mod results;
 mod setup;
 mod verdict;

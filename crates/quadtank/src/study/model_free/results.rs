@@ -1,7 +1,8 @@
 use std::sync::Arc;
 
-use crate::study::{Study, StudyError};
+use crate::study::{Quantity, Study, StudyError};
 
+use super::quantities::QUANTITIES;
 use super::{ModelFreeAnalysis, ModelFreeAnswer, ModelFreeSetup, analyse_model_free, run_analysed};
 
 /// The study of the model-free bench.
@@ -22,6 +23,7 @@ pub struct Results {
 impl Study for ModelFreeStudy {
     type Setup = ModelFreeSetup;
     type Results = Results;
+    const QUANTITIES: &'static [Quantity<Results>] = QUANTITIES;
 
     fn setup_of(results: &Results) -> &Arc<ModelFreeSetup> {
         &results.setup

@@ -5,6 +5,7 @@ mod first_steps;
 mod guaranteed_margins;
 mod prepared;
 mod published;
+mod quantities;
 mod results;
 mod run;
 mod setup;

@@ -1,7 +1,8 @@
 use std::sync::Arc;
 
-use crate::study::{PinnedResults, Study, StudyError, update_pinned};
+use crate::study::{PinnedResults, Quantity, Study, StudyError, update_pinned};
 
+use super::quantities::QUANTITIES;
 use super::{Analysis, Prepared, Run, Setup, run};
 
 /// The study of the home bench.
@@ -24,6 +25,7 @@ pub struct Results {
 impl Study for QuadrupleTankStudy {
     type Setup = Setup;
     type Results = Results;
+    const QUANTITIES: &'static [Quantity<Results>] = QUANTITIES;
 
     fn setup_of(results: &Results) -> &Arc<Setup> {
         &results.setup

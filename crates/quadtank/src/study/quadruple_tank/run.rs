@@ -78,6 +78,12 @@ impl Run {
             linear,
         })
     }
+
+    /// Largest distance of a level (index 0 to 3) from that of the linear model (m).
+    pub fn largest_model_error(&self, level: usize) -> Option<f64> {
+        let levels = self.nonlinear.levels[level].iter().zip(&self.linear.levels[level]);
+        levels.map(|(nonlinear, linear)| (nonlinear - linear).abs()).reduce(f64::max)
+    }
 }
 
 #[cfg(test)]

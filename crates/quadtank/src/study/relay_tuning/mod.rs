@@ -8,6 +8,7 @@ mod mend;
 mod plant;
 mod plant_study;
 mod printed;
+mod quantities;
 mod results;
 mod rig;
 mod setup;

@@ -1,8 +1,9 @@
 use std::sync::Arc;
 
-use crate::study::{PinnedResults, Study, update_pinned};
+use crate::study::{PinnedResults, Quantity, Study, update_pinned};
 use crate::tuning::TuningError;
 
+use super::quantities::QUANTITIES;
 use super::{Designed, PlantStudy, Tested, TuningSetup};
 
 /// The study of the relay-tuning bench.
@@ -30,6 +31,7 @@ pub struct Results {
 impl Study for RelayTuningStudy {
     type Setup = TuningSetup;
     type Results = Results;
+    const QUANTITIES: &'static [Quantity<Results>] = QUANTITIES;
 
     fn setup_of(results: &Results) -> &Arc<TuningSetup> {
         &results.setup

@@ -1,0 +1,5 @@
+use crate::study::Quantity;
+
+use super::Results;
+
+pub const QUANTITIES: &[Quantity<Results>] = &[];
