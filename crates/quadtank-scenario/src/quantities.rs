@@ -105,6 +105,18 @@ impl Quantities {
     }
 }
 
+impl Document {
+    /// The name of its bench, as in the address of the page.
+    pub fn bench(&self) -> &'static str {
+        match self {
+            Self::Quadruple(_) => crate::Scenario::BENCH,
+            Self::Tuning(_) => crate::tuning::TuningScenario::BENCH,
+            Self::ModelFree(_) => crate::model_free::ModelFreeScenario::BENCH,
+            Self::LevelLoop(_) => crate::level_loop::LevelLoopScenario::BENCH,
+        }
+    }
+}
+
 impl fmt::Debug for Quantities {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Quantities").field("bench", &self.bench).finish_non_exhaustive()

@@ -1,0 +1,40 @@
+//! Lessons: what a student reads, is asked, and is marked for, as documents; all of it without a screen.
+//!
+//! A [`Lesson`] comes in by [`read_lesson`]. [`check`] marks an answer to a [`Task`], a [`Progress`] holds what a student has done
+//! so far, and a [`Report`] is what is handed in. [`audit`] says what is wrong with a lesson that somebody wrote. The format is
+//! described for its authors in `docs/lessons.md`.
+
+mod audit;
+mod bench;
+mod built_in;
+mod check;
+mod fingerprint;
+mod formula;
+mod lesson;
+mod markdown;
+mod progress;
+mod report;
+mod start;
+mod task;
+mod text;
+mod units;
+
+pub use audit::{Fault, FaultKind, audit};
+pub use bench::{BenchNames, bench_names};
+pub use built_in::LESSON_IDS;
+#[cfg(feature = "built-in")]
+pub use built_in::{BUILT_IN, built_in};
+pub use check::{Answer, Feedback, Goal, Values, Verdict, check, feedback_text, goals};
+pub use fingerprint::fingerprint;
+pub use formula::{Formula, NAMED_FORMULAS, named_formula, parse_formula};
+pub use lesson::{LESSON_LIMIT, Lesson, Start, Step, Variation, read_lesson};
+pub use markdown::{Block, LiveValue, Place, Span, parse_markdown};
+pub use progress::{Progress, Record, SUSPEND_LIMIT, points_of};
+pub use report::{Report, ReportError, TaskReport};
+pub use start::{StartError, shuffled, start_of, with_settings};
+pub use task::{
+    Achieve, Attempt, Choice, Choose, Condition, Explain, Mistake, MistakeKind, NumberTask, Of, Order, Predict, Task,
+    TaskKind, Tolerance,
+};
+pub use text::{Text, Tongue};
+pub use units::{UnitError, in_unit};
