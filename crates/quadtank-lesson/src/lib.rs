@@ -10,6 +10,7 @@ mod built_in;
 mod check;
 mod fingerprint;
 mod formula;
+mod glossary;
 mod lesson;
 mod markdown;
 mod progress;
@@ -27,11 +28,12 @@ pub use built_in::{BUILT_IN, built_in};
 pub use check::{Answer, Feedback, Goal, Values, Verdict, check, feedback_text, goals};
 pub use fingerprint::fingerprint;
 pub use formula::{Formula, NAMED_FORMULAS, named_formula, parse_formula};
+pub use glossary::TERMS;
 pub use lesson::{LESSON_LIMIT, Lesson, Start, Step, Variation, read_lesson};
 pub use markdown::{Block, LiveValue, Place, Span, parse_markdown};
 pub use progress::{Progress, Record, SUSPEND_LIMIT, points_of};
 pub use report::{Report, ReportError, TaskReport};
-pub use start::{StartError, shuffled, start_of, with_settings};
+pub use start::{StartError, shuffled, start_of, state_before, with_settings};
 pub use task::{
     Achieve, Attempt, Choice, Choose, Condition, Explain, Mistake, MistakeKind, NumberTask, Of, Order, Predict, Task,
     TaskKind, Tolerance,

@@ -1,7 +1,7 @@
 use quadtank_scenario::{Document, ScenarioError, document_from_link, published_document};
 use thiserror::Error;
 
-use super::{Lesson, Step};
+use super::{Lesson, Step, TaskKind};
 
 /// Why a step has no state to begin with.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -36,6 +36,24 @@ pub fn start_of(lesson: &Lesson, step: &Step, seed: u32) -> Result<Option<Docume
     }
     let settings: Vec<String> = start.set.iter().cloned().chain(variations(lesson, step, seed)).collect();
     Ok(Some(with_settings(&document, &settings)?))
+}
+
+/// The state when the first `tasks` tasks of a step are done, and the steps before it, with the solutions of the lesson.
+///
+/// # Errors
+/// [`StartError`] where the lesson asks for a state that there is not.
+pub fn state_before(lesson: &Lesson, step: usize, tasks: usize, seed: u32) -> Result<Document, StartError> {
+    let mut state = None;
+    for (index, played) in lesson.steps.iter().enumerate().take(step + 1) {
+        state = start_of(lesson, played, seed)?.or(state);
+        let done = if index == step { tasks } else { played.tasks.len() };
+        for task in played.tasks.iter().take(done) {
+            if let (TaskKind::Achieve(goal), Some(before)) = (&task.kind, &state) {
+                state = Some(with_settings(before, &goal.solution)?);
+            }
+        }
+    }
+    state.ok_or(StartError::NoState)
 }
 
 /// The settings that a student gets by the seed.

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use quadtank_scenario::{Document, Quantities, bench_of, quantities_of};
+use quadtank_scenario::{Document, Quantities, QuantityRow, bench_of, quantities_of};
 use serde_json::{Map, Value};
 
 use super::answers::{Fault, json};
@@ -17,15 +17,15 @@ pub fn only(document: &Document, names: &[String]) -> Result<String, Fault> {
     let quantities = Quantities::of(document);
     let value = |name: &String| match quantities.value(name) {
         Ok(value) => Ok((name.clone(), Value::from(value))),
-        Err(error) => Err(Fault::UnknownQuantity { near: near(name, &quantities), error }),
+        Err(error) => Err(Fault::UnknownQuantity { near: near(name, &quantities.rows()), error }),
     };
     json(&names.iter().map(value).collect::<Result<Map<_, _>, _>>()?)
 }
 
 /// The names that are most like one, best first.
-fn near(name: &str, quantities: &Quantities) -> Vec<&'static str> {
+pub fn near(name: &str, quantities: &[QuantityRow]) -> Vec<&'static str> {
     let likeness = |known: &'static str| (strsim::jaro_winkler(name, known), known);
-    let mut near: Vec<_> = quantities.rows().iter().map(|row| likeness(row.name)).collect();
+    let mut near: Vec<_> = quantities.iter().map(|row| likeness(row.name)).collect();
     near.retain(|(likeness, _)| *likeness >= ALIKE);
     near.sort_by(|one, other| other.0.total_cmp(&one.0));
     near.into_iter().take(SUGGESTED).map(|(_, known)| known).collect()
