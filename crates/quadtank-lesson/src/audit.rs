@@ -104,7 +104,11 @@ impl Values for Quantities {
 
 impl Audit<'_> {
     fn add(&mut self, place: &str, kind: FaultKind) {
-        self.faults.push(Fault { place: place.to_owned(), kind });
+        let fault = Fault { place: place.to_owned(), kind };
+        // The same name is wrong in every language, and for every student.
+        if !self.faults.contains(&fault) {
+            self.faults.push(fault);
+        }
     }
 
     fn unknown(&mut self, place: &str, what: &'static str, name: &str) {
@@ -268,7 +272,17 @@ impl Audit<'_> {
             let verdict = found.map(|found| check(task, &Answer::Number(found), &values));
             let expected = Some(super::Feedback::Mistake(index));
             if verdict.is_none_or(|verdict| verdict.is_right || verdict.feedback != expected) {
-                self.add(place, FaultKind::NoFeedback { index, seed: format!(" (seed {seed})") });
+                self.add(
+                    place,
+                    FaultKind::NoFeedback {
+                        index,
+                        seed: if self.lesson.steps.iter().all(|step| step.vary.is_empty()) {
+                            String::new()
+                        } else {
+                            format!(" (seed {seed})")
+                        },
+                    },
+                );
             }
         }
     }
