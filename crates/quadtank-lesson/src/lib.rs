@@ -20,12 +20,12 @@ mod task;
 mod text;
 mod units;
 
-pub use audit::{Fault, FaultKind, audit};
-pub use bench::{BenchNames, bench_names};
+pub use audit::{Fault, FaultKind, Instead, Named, audit};
+pub use bench::{BenchNames, bench_ids, bench_names};
 pub use built_in::LESSON_IDS;
 #[cfg(feature = "built-in")]
 pub use built_in::{BUILT_IN, built_in};
-pub use check::{Answer, Feedback, Goal, Values, Verdict, check, feedback_text, goals};
+pub use check::{Answer, Feedback, Goal, Values, Verdict, check, conditions_met, feedback_text, goals};
 pub use fingerprint::fingerprint;
 pub use formula::{Formula, NAMED_FORMULAS, named_formula, parse_formula};
 pub use glossary::TERMS;

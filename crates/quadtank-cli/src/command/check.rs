@@ -5,14 +5,15 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use quadtank_lesson::{
-    Fault as LessonFault, FaultKind, LESSON_IDS, LESSON_LIMIT, Lesson, Report, ReportError, StartError, TERMS, Tongue,
-    audit, bench_names, read_lesson,
+    Fault as LessonFault, FaultKind, LESSON_IDS, LESSON_LIMIT, Lesson, NAMED_FORMULAS, Named, Report, ReportError,
+    StartError, TERMS, Tongue, audit, bench_names, read_lesson,
 };
 use quadtank_scenario::quantities_of;
 use thiserror::Error;
 
 use super::files::{bytes_of, file_name, print, print_json};
-use super::{Failure, mark, message, quantities, told};
+use super::quantities::{near, suggested_quantities, suggestion};
+use super::{Failure, mark, message, told};
 
 /// What is checked.
 #[derive(Args)]
@@ -110,7 +111,7 @@ fn audit_all(files: &[PathBuf]) -> Result<(), Failure> {
     for (file, lesson) in &lessons {
         let faults = audit(lesson, &TERMS, &ids);
         for fault in &faults {
-            message::list(format!("{file}: {fault}{}", help(lesson, fault)));
+            message::list(format!("{file}: {fault}{}", help(lesson, &ids, fault)));
         }
         if faults.is_empty() {
             print(&format!("{file}: {}\n", summary(lesson)))?;
@@ -121,12 +122,22 @@ fn audit_all(files: &[PathBuf]) -> Result<(), Failure> {
     if is_faultless { Ok(()) } else { Err(Failure::Faults) }
 }
 
-/// What there is instead of a name that is unknown.
-fn help(lesson: &Lesson, fault: &LessonFault) -> String {
-    let (FaultKind::Unknown { what: "quantity", name }, Some(bench)) = (&fault.kind, bench_names(&lesson.bench)) else {
-        return String::new();
-    };
-    quantities::suggestion(&quantities::near(name, &quantities_of(bench.version)))
+/// Names that are like one that is unknown.
+fn help(lesson: &Lesson, lessons: &[&str], fault: &LessonFault) -> String {
+    let FaultKind::Unknown { what, name, .. } = &fault.kind else { return String::new() };
+    let formulas = || NAMED_FORMULAS.map(|(name, _)| name);
+    match what {
+        Named::Quantity => {
+            let rows = bench_names(&lesson.bench).map_or_else(Vec::new, |bench| quantities_of(bench.version));
+            suggested_quantities(&near(name, rows.iter().map(|row| row.name)))
+        }
+        Named::Word => suggestion(&near(name, TERMS)).unwrap_or_default(),
+        Named::Lesson => suggestion(&near(name, lessons.iter().copied())).unwrap_or_default(),
+        Named::Formula => {
+            suggestion(&near(name, formulas())).unwrap_or_else(|| format!("; there are {}", formulas().join(", ")))
+        }
+        Named::Bench | Named::Card | Named::Controls => String::new(),
+    }
 }
 
 fn summary(lesson: &Lesson) -> String {
