@@ -51,6 +51,9 @@ pub enum FaultKind {
         /// What it would be if it were.
         meant: &'static str,
     },
+    /// Markup where only words are read.
+    #[error("`{0}` stands inside bold words or the words of a link, where no other markup is read")]
+    Nested(String),
     /// A card is to be hidden that is not shown.
     #[error("`{0}` is revealed, but is not among the panels of the step")]
     NotShown(String),

@@ -48,13 +48,20 @@ impl Audit<'_> {
 
     fn span(&mut self, place: &str, span: Span) {
         match span {
-            Span::Plain(text) | Span::Bold(text) => self.plain(place, &text),
+            Span::Plain(text) => self.plain(place, &text),
+            Span::Bold(words) => self.words(place, &words),
             Span::Link(words, target) => {
-                self.plain(place, &words);
+                self.words(place, &words);
                 self.target(place, &target);
             }
             Span::Value(LiveValue { quantity, unit, .. }) => self.quantity(place, &quantity, &unit),
             Span::Formula(formula) => self.formula(place, &formula),
+        }
+    }
+
+    fn words(&mut self, place: &str, words: &str) {
+        if MARKS.iter().any(|(mark, _)| words.contains(mark)) {
+            self.add(place, FaultKind::Nested(words.chars().take(LONGEST_QUOTATION).collect()));
         }
     }
 
