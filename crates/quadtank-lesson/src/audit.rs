@@ -148,8 +148,11 @@ impl Audit<'_> {
             self.add(&format!("{place}.tolerance"), FaultKind::Tolerance);
         }
         for (index, mistake) in number.mistakes.iter().enumerate() {
-            if let MistakeKind::Quantity(name) = &mistake.is {
-                self.quantity(&format!("{place}.mistakes[{index}].is"), name, &number.unit);
+            match &mistake.is {
+                MistakeKind::Quantity(name) if self.unit_of(name).is_none() => {
+                    self.unknown(&format!("{place}.mistakes[{index}].is"), Named::Quantity, name, &[]);
+                }
+                _ => {}
             }
         }
     }

@@ -15,6 +15,8 @@ mod lesson;
 mod markdown;
 mod progress;
 mod report;
+#[cfg(test)]
+mod sample;
 mod start;
 mod task;
 mod text;

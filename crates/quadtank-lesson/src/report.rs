@@ -160,3 +160,133 @@ impl TaskReport {
         Some(Self { id, points, of, wrong, hints, solved: solved == 1, answer: None })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::sample::lesson;
+    use crate::{Record, Verdict};
+
+    /// The report of a student who made one mistake and took one hint.
+    fn report(name: &str) -> Report {
+        let lesson = lesson();
+        let mut progress = Progress::new(&lesson, 4_294_967_295);
+        progress.seconds = 372.4;
+        for (_, task) in lesson.tasks().filter(|(_, task)| task.id != "order") {
+            let mut record = Record { hints: u32::from(task.id == "zero"), ..Record::default() };
+            for is_right in [task.id != "zero", true] {
+                record.take(task, Answer::Number(0.5), Verdict { is_right, feedback: None });
+            }
+            progress.records.insert(task.id.clone(), record);
+        }
+        Report::of(&lesson, &progress, name)
+    }
+
+    /// What a code holds of a report.
+    fn without_answers(report: &Report) -> Report {
+        let tasks = report.tasks.iter().map(|task| TaskReport { answer: None, ..task.clone() });
+        Report { tasks: tasks.collect(), ..report.clone() }
+    }
+
+    #[test]
+    fn a_report_has_the_points_of_each_task_in_the_order_of_the_lesson() {
+        let report = report("Ana");
+        let points: Vec<_> = report.tasks.iter().map(|task| (task.id.as_str(), task.points, task.of)).collect();
+        let expected = [("guess", 0, 0), ("zero", 1, 3), ("left", 4, 4), ("sum", 1, 1), ("why", 1, 1), ("order", 0, 1)];
+        assert_eq!(points[..6], expected);
+        assert_eq!((report.score, report.seconds), (70, 372));
+        let [guess, zero, .., order, _] = &report.tasks[..] else { panic!() };
+        assert_eq!((zero.wrong, zero.hints, zero.solved), (1, 1, true));
+        assert_eq!((order.wrong, order.solved, &order.answer), (0, false, &None));
+        assert_eq!(guess.answer, Some(Answer::Number(0.5)));
+    }
+
+    #[test]
+    fn a_time_that_is_none_is_nothing() {
+        let lesson = lesson();
+        for (seconds, whole) in [(f64::NAN, 0), (-3.0, 0), (0.5, 1), (1e300, u32::MAX)] {
+            let progress = Progress { seconds, ..Progress::new(&lesson, 1) };
+            assert_eq!(Report::of(&lesson, &progress, "").seconds, whole);
+        }
+    }
+
+    #[test]
+    fn a_code_comes_back_without_the_answers() {
+        for name in ["", "Ana", "Jörg Müller-Lüdenscheidt", "João da Conceição", "李雷", "O'Neill: 100,5 %", "🙂"]
+        {
+            let report = report(name);
+            assert_eq!(Report::from_code(&report.to_code()), Ok(without_answers(&report)), "{name}");
+        }
+    }
+
+    #[test]
+    fn tabs_and_line_breaks_of_a_name_become_spaces() {
+        let code = report(" Ana\tMaria\nSilva ").to_code();
+        assert_eq!(Report::from_code(&code).unwrap().name, "Ana Maria Silva");
+    }
+
+    #[test]
+    fn a_long_name_is_cut() {
+        let report = report(&"ü".repeat(500));
+        assert_eq!(report.name.chars().count(), LONGEST_NAME);
+        assert_eq!(Report::from_code(&report.to_code()), Ok(without_answers(&report)));
+    }
+
+    #[test]
+    fn a_code_survives_mail() {
+        let report = report("Ana");
+        let code = report.to_code();
+        let (lines, _) = code.as_bytes().as_chunks::<20>();
+        let rest = &code[20 * lines.len()..];
+        let lines: Vec<_> = lines.iter().map(|line| std::str::from_utf8(line).unwrap()).chain([rest]).collect();
+        for mailed in [lines.join("\r\n"), format!("  {}\n\n", lines.join(" \n\t"))] {
+            assert_eq!(Report::from_code(&mailed), Ok(without_answers(&report)), "{mailed}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_code_is_told_from_a_damaged_one() {
+        for other in ["", "QL", "QL2-abc", "https://example.org/", &report("Ana").to_code()[1..]] {
+            assert_eq!(Report::from_code(other), Err(ReportError::NoCode), "{other}");
+        }
+        let code = report("Ana").to_code();
+        for damaged in
+            ["QL1-", "QL1-????", "QL1-YWJj", &code[..code.len() - 1], &format!("{code}A"), &code.to_uppercase()]
+        {
+            assert_eq!(Report::from_code(damaged), Err(ReportError::Damaged), "{damaged}");
+        }
+    }
+
+    #[test]
+    fn a_code_whose_sum_is_right_but_not_its_fields_is_damaged() {
+        for text in ["", "a", "a\tb\t1\t2\t3\tx:1\tname", "a\tb\t-1\t2\t3\t\tname", "a\tb\t1\t2\t3"] {
+            let payload = format!("{text}\t{:08x}", checksum(text.as_bytes()));
+            let code = format!("{MARK}{}", URL_SAFE_NO_PAD.encode(payload));
+            assert_eq!(Report::from_code(&code), Err(ReportError::Damaged), "{text:?}");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn every_changed_character_is_noticed(place in 4..200_usize, to in "[A-Za-z0-9_-]") {
+            let code = report("Ana").to_code();
+            let mut changed = code.clone();
+            changed.replace_range(place..=place, &to);
+            prop_assert!(changed == code || Report::from_code(&changed) == Err(ReportError::Damaged));
+        }
+
+        #[test]
+        fn any_name_comes_back(name in ".{0,100}") {
+            let report = report(&name);
+            let back = Report::from_code(&report.to_code()).unwrap();
+            prop_assert_eq!(back.name, report.name.replace(['\t', '\n'], " "));
+        }
+
+        #[test]
+        fn any_text_is_read_or_refused(code in "(QL1-)?.{0,200}") {
+            let _ = Report::from_code(&code);
+        }
+    }
+}

@@ -124,6 +124,9 @@ pub enum Tolerance {
 impl Tolerance {
     /// Whether `found` is close enough to `expected`.
     pub fn allows(self, found: f64, expected: f64) -> bool {
+        if !expected.is_finite() {
+            return false;
+        }
         // The last digit of a decimal fraction is rounded, so that a number at the very edge is inside.
         let rounding = 1e-9 * expected.abs();
         (found - expected).abs()
@@ -159,7 +162,7 @@ pub enum MistakeKind {
     MinusFrom(f64),
     /// This number, in the unit of the task.
     Value(f64),
-    /// Another quantity.
+    /// Another quantity: in the unit of the task where that fits it, else in its own.
     Quantity(String),
 }
 
@@ -232,6 +235,23 @@ impl TaskKind {
     /// Whether answers are marked.
     pub fn is_marked(&self) -> bool {
         !matches!(self, Self::Predict(_) | Self::Explain(_))
+    }
+
+    /// Its lists with their lengths.
+    pub(super) fn counts(&self) -> impl Iterator<Item = (&'static str, usize)> {
+        let counts = match self {
+            Self::Predict(predict) => vec![("predict.options", predict.options.len())],
+            Self::Choose(choose) => vec![("choose.options", choose.options.len())],
+            Self::Number(number) => vec![("number.mistakes", number.mistakes.len())],
+            Self::Achieve(goal) => vec![
+                ("achieve.conditions", goal.conditions.len()),
+                ("achieve.attempts", goal.attempts.len()),
+                ("achieve.attempts.when", goal.attempts.iter().map(|attempt| attempt.when.len()).max().unwrap_or(0)),
+            ],
+            Self::Order(order) => vec![("order.items", order.items.len())],
+            Self::Explain(_) => Vec::new(),
+        };
+        counts.into_iter()
     }
 
     /// Whether a wrong answer costs a point.
