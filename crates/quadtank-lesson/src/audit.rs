@@ -149,9 +149,7 @@ impl Audit<'_> {
         }
         for (index, mistake) in number.mistakes.iter().enumerate() {
             match &mistake.is {
-                MistakeKind::Quantity(name) if self.unit_of(name).is_none() => {
-                    self.unknown(&format!("{place}.mistakes[{index}].is"), Named::Quantity, name, &[]);
-                }
+                MistakeKind::Quantity(name) => self.known_quantity(&format!("{place}.mistakes[{index}].is"), name),
                 _ => {}
             }
         }
@@ -178,14 +176,16 @@ impl Audit<'_> {
     }
 
     fn quantity(&mut self, place: &str, name: &str, unit: &str) {
-        match self.unit_of(name) {
-            None if bench_names(&self.lesson.bench).is_some() => self.unknown(place, Named::Quantity, name, &[]),
-            None => {}
-            Some(si) => {
-                if let Err(error) = in_unit(1.0, si, unit) {
-                    self.add(place, FaultKind::Unit(error));
-                }
-            }
+        self.known_quantity(place, name);
+        if let Some(Err(error)) = self.unit_of(name).map(|si| in_unit(1.0, si, unit)) {
+            self.add(place, FaultKind::Unit(error));
+        }
+    }
+
+    /// Of a bench that is unknown all names are.
+    fn known_quantity(&mut self, place: &str, name: &str) {
+        if bench_names(&self.lesson.bench).is_some() && self.unit_of(name).is_none() {
+            self.unknown(place, Named::Quantity, name, &[]);
         }
     }
 
@@ -198,5 +198,139 @@ impl Audit<'_> {
     /// Whether a quantity exists and is measured in a unit.
     fn is_measured(&self, quantity: &str, unit: &str) -> bool {
         self.unit_of(quantity).is_some_and(|si| in_unit(1.0, si, unit).is_ok())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::{Value, json};
+
+    use crate::sample::faults;
+
+    /// The one thing that is wrong with a change.
+    fn fault(pointer: &str, value: Value) -> String {
+        let mut faults = faults(&[(pointer, value)]);
+        assert_eq!(faults.len(), 1, "{faults:?}");
+        faults.remove(0)
+    }
+
+    #[test]
+    fn the_small_lesson_has_no_fault() {
+        assert_eq!(faults(&[]), [""; 0]);
+    }
+
+    #[test]
+    fn names_that_lead_nowhere_are_told_with_those_that_there_are() {
+        let of = |pointer: &str, name: &str| fault(pointer, json!([name]));
+        assert_eq!(of("/prerequisites", "none"), "prerequisites[0]: unknown lesson `none`");
+        let cards = "there are process, valves, zeros, rga, controller, experiment, why, responses";
+        assert_eq!(of("/steps/1/panels", "valve"), format!("steps[1].panels: unknown card `valve`; {cards}"));
+        assert_eq!(of("/steps/0/reveal", "none"), format!("steps[0].reveal: unknown card `none`; {cards}"));
+        let controls = "there are preset, valves, voltages, pairing, gains, sampling, experiment";
+        assert_eq!(
+            of("/steps/0/lock", "zeros"),
+            format!("steps[0].lock: unknown group of controls `zeros`; {controls}")
+        );
+        let benches = "there are quadruple-tank, relay-tuning, model-free, level-loop";
+        assert_eq!(fault("/bench", json!("tanks")), format!("bench: unknown bench `tanks`; {benches}"));
+    }
+
+    #[test]
+    fn what_is_there_twice_is_told() {
+        let task = json!({ "id": "guess", "question": { "en": "?", "es": "?" }, "kind": { "explain": { "model": { "en": "x", "es": "x" } } } });
+        let twice = faults(&[("/steps/1/tasks/-", task)]);
+        assert_eq!(
+            twice,
+            ["steps[0].tasks[guess]: `guess` is there twice", "steps[1].tasks[guess]: `guess` is there twice"]
+        );
+        assert_eq!(fault("/languages", json!(["en", "en"])), "languages: `en` is there twice");
+        assert_eq!(fault("/steps/1/panels", json!(["zeros", "zeros"])), "steps[1].panels: `zeros` is there twice");
+    }
+
+    #[test]
+    fn only_cards_that_are_shown_are_revealed() {
+        let fault = fault("/steps/0/reveal", json!(["why"]));
+        assert_eq!(fault, "steps[0].reveal: `why` is revealed, but is not among the panels of the step");
+    }
+
+    #[test]
+    fn numbers_vary_in_a_step_with_a_start_and_among_some() {
+        let vary = json!([{ "path": "setup.valves[0]", "among": [0.3] }]);
+        assert_eq!(fault("/steps/1/vary", vary), "steps[1].vary: only a step with a `start` can vary a number");
+        let among = faults(&[("/steps/0/vary/0/among", json!([]))]);
+        assert_eq!(among[0], "steps[0].vary[0].among: 0 entries, at least 1 are needed");
+    }
+
+    #[test]
+    fn marked_tasks_and_they_alone_have_points() {
+        let points = "`choose`, `number`, `order` and `achieve` have points; `predict` and `explain` have 0";
+        assert_eq!(fault("/steps/0/tasks/0/points", json!(1)), format!("steps[0].tasks[guess].points: {points}"));
+        assert_eq!(fault("/steps/1/tasks/0/points", json!(0)), format!("steps[1].tasks[left].points: {points}"));
+    }
+
+    #[test]
+    fn a_choice_has_right_and_wrong_options() {
+        for correct in [json!([false, false]), json!([true, true])] {
+            let faults = faults(&[
+                ("/steps/1/tasks/2/kind/choose/options/0/correct", correct[0].clone()),
+                ("/steps/1/tasks/2/kind/choose/options/1/correct", correct[1].clone()),
+            ]);
+            assert_eq!(faults, ["steps[1].tasks[why].kind.choose.options: there must be right and wrong options"]);
+        }
+    }
+
+    #[test]
+    fn there_is_something_to_predict_to_order_and_to_reach() {
+        let text = json!({ "en": "x", "es": "x" });
+        let options = fault("/steps/0/tasks/0/kind/predict/options", json!([text]));
+        assert_eq!(options, "steps[0].tasks[guess].kind.predict.options: 1 entries, at least 2 are needed");
+        let items = fault("/steps/1/tasks/3/kind/order/items", json!([text]));
+        assert_eq!(items, "steps[1].tasks[order].kind.order.items: 1 entries, at least 2 are needed");
+        let conditions = fault("/steps/1/tasks/0/kind/achieve/conditions", json!([]));
+        assert_eq!(conditions, "steps[1].tasks[left].kind.achieve.conditions: 0 entries, at least 1 are needed");
+    }
+
+    #[test]
+    fn a_number_is_a_quantity_or_a_value_with_a_tolerance() {
+        let number = "steps[0].tasks[zero].kind.number";
+        let both = fault("/steps/0/tasks/1/kind/number/value", json!(0.1));
+        assert_eq!(both, format!("{number}: a number has either a `quantity` or a `value`"));
+        let none = faults(&[("/steps/0/tasks/1/kind/number/quantity", json!(null))]);
+        assert_eq!(none[0], both);
+        for tolerance in [json!({ "relative": 0 }), json!({ "absolute": -1 })] {
+            let faults = faults(&[("/steps/0/tasks/1/kind/number/tolerance", tolerance)]);
+            assert_eq!(faults[0], format!("{number}.tolerance: the tolerance must be more than 0"));
+        }
+    }
+
+    #[test]
+    fn quantities_and_their_units_are_known() {
+        let number = "steps[0].tasks[zero].kind.number";
+        let quantity = fault("/steps/0/tasks/1/kind/number/quantity", json!("zero.right"));
+        assert_eq!(quantity, format!("{number}.quantity: unknown quantity `zero.right`"));
+        let unit = fault("/steps/0/tasks/1/kind/number/unit", json!("cm"));
+        assert_eq!(
+            unit,
+            format!("{number}.quantity: the unit `cm` does not fit a quantity in `1/s`, but `1/s`, `1/min`")
+        );
+        let mistake = faults(&[("/steps/0/tasks/1/kind/number/mistakes/1/is/quantity", json!("zero.left"))]);
+        assert_eq!(mistake[0], format!("{number}.mistakes[1].is: unknown quantity `zero.left`"));
+        let goal = "steps[1].tasks[left].kind.achieve";
+        let condition = fault("/steps/1/tasks/0/kind/achieve/conditions/1/quantity", json!("none"));
+        assert_eq!(condition, format!("{goal}.conditions[1]: unknown quantity `none`"));
+        let when = fault("/steps/1/tasks/0/kind/achieve/attempts/0/when/0/unit", json!("s"));
+        assert_eq!(
+            when,
+            format!("{goal}.attempts[0].when[0]: the unit `s` does not fit a quantity in `1`, but `1`, `%`")
+        );
+    }
+
+    #[test]
+    fn conditions_have_bounds_between_which_something_is() {
+        let goal = "steps[1].tasks[left].kind.achieve";
+        let none = fault("/steps/1/tasks/0/kind/achieve/conditions/1/at_most", json!(null));
+        assert_eq!(none, format!("{goal}.conditions[1]: a condition needs `at_least`, `at_most` or both"));
+        let nothing = faults(&[("/steps/1/tasks/0/kind/achieve/conditions/1/at_least", json!(91))]);
+        assert_eq!(nothing[0], format!("{goal}.conditions[1]: `at_least` is more than `at_most`"));
     }
 }

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::{Lesson, Task, Values, read_lesson};
+use super::{LESSON_IDS, Lesson, TERMS, Task, Values, audit, read_lesson};
 
 /// Its file.
 pub const SMALL: &str = include_str!("../tests/data/small.json");
@@ -39,4 +39,10 @@ impl Values for Given<'_> {
     fn value(&self, name: &str) -> Option<(f64, &'static str)> {
         self.0.iter().find(|(known, ..)| *known == name).map(|&(_, value, unit)| (value, unit))
     }
+}
+
+/// What an audit says about the file with changes.
+pub fn faults(changes: &[(&str, Value)]) -> Vec<String> {
+    let lesson = read_lesson(changed(changes).as_bytes()).unwrap();
+    audit(&lesson, &TERMS, &LESSON_IDS).iter().map(ToString::to_string).collect()
 }

@@ -110,7 +110,60 @@ pub fn shuffled(count: usize, seed: u32, name: &str) -> Vec<usize> {
 
 #[cfg(test)]
 mod tests {
-    use super::shuffled;
+    use quadtank_scenario::{Document, Quantities, to_link};
+    use serde_json::json;
+
+    use super::{Lesson, StartError, shuffled, start_of, state_before, variant};
+    use crate::read_lesson;
+    use crate::sample::{changed, lesson};
+
+    /// The sum of the valves.
+    fn valves(state: &Document) -> f64 {
+        Quantities::of(state).value("valves.sum").unwrap().unwrap()
+    }
+
+    fn start(lesson: &Lesson, seed: u32) -> Result<Option<Document>, StartError> {
+        start_of(lesson, &lesson.steps[0], seed)
+    }
+
+    #[test]
+    fn a_step_begins_with_its_settings_and_with_the_numbers_of_the_student() {
+        let lesson = lesson();
+        let found: Vec<f64> = (0..30).map(|seed| valves(&start(&lesson, seed).unwrap().unwrap())).collect();
+        for value in [0.7, 0.75, 0.8] {
+            assert!(found.iter().any(|found| (found - value).abs() < 1e-12), "{value}: {found:?}");
+        }
+        for (one, valves_of_one) in found.iter().enumerate() {
+            for (other, valves_of_other) in found.iter().enumerate() {
+                let [one, other] = [one, other].map(|seed| variant(&lesson, u32::try_from(seed).unwrap()));
+                assert_eq!(one == other, valves_of_one == valves_of_other);
+            }
+        }
+        assert_eq!(start_of(&lesson, &lesson.steps[1], 0), Ok(None));
+    }
+
+    #[test]
+    fn a_link_is_a_state_with_or_without_its_address() {
+        let Some(Document::Quadruple(state)) = start(&lesson(), 3).unwrap() else { panic!() };
+        let link = to_link(&state).unwrap();
+        for link in [link.clone(), format!("https://example.org/?lang=en#{link}")] {
+            let file = changed(&[("/steps/0/start", json!({ "link": link })), ("/steps/0/vary", json!([]))]);
+            let found = start(&read_lesson(file.as_bytes()).unwrap(), 0).unwrap();
+            assert_eq!(found, Some(Document::Quadruple(state.clone())));
+        }
+    }
+
+    #[test]
+    fn the_state_before_a_task_is_that_of_the_solutions_before() {
+        let lesson = lesson();
+        let begin = valves(&start(&lesson, 5).unwrap().unwrap());
+        for (step, tasks, sum) in [(0, 0, begin), (0, 2, begin), (1, 0, begin), (1, 1, 1.3), (1, 5, 1.3), (9, 0, 1.3)] {
+            let found = valves(&state_before(&lesson, step, tasks, 5).unwrap());
+            assert!((found - sum).abs() < 1e-12, "{step} {tasks}: {found}");
+        }
+        let none = read_lesson(changed(&[("/steps/0/start", json!(null))]).as_bytes()).unwrap();
+        assert_eq!(state_before(&none, 1, 0, 5), Err(StartError::NoState));
+    }
 
     #[test]
     fn students_get_all_values_about_equally_often_and_always_the_same() {

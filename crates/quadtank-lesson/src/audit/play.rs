@@ -138,3 +138,159 @@ fn failing(conditions: &[Condition], values: &Quantities) -> String {
     });
     told.collect::<Vec<_>>().join(", ")
 }
+
+#[cfg(test)]
+mod tests {
+    use serde_json::{Value, json};
+
+    use crate::sample::faults;
+
+    /// The one thing that is wrong with a change.
+    fn fault(pointer: &str, value: Value) -> String {
+        let mut faults = faults(&[(pointer, value)]);
+        assert_eq!(faults.len(), 1, "{faults:?}");
+        faults.remove(0)
+    }
+
+    /// The same, which is wrong already for the first student.
+    fn first(pointer: &str, value: Value) -> String {
+        let fault = fault(pointer, value);
+        fault.strip_suffix(" (for the student with seed 0)").unwrap_or_else(|| panic!("{fault}")).to_owned()
+    }
+
+    #[test]
+    fn a_state_that_cannot_be_made_is_told() {
+        let preset = first("/steps/0/start/preset", json!("none"));
+        assert!(preset.starts_with("steps[0].start: unknown rig or case `none`;"), "{preset}");
+        let other = first("/steps/0/start/preset", json!("table-6-row-1"));
+        assert_eq!(other, "steps[0].start: the state is not one of the bench quadruple-tank");
+        let link = first("/steps/0/start", json!({ "link": "https://example.org/#s=damaged" }));
+        assert!(link.starts_with("steps[0].start: "), "{link}");
+        let both = first("/steps/0/start/link", json!("#s=x"));
+        assert_eq!(both, "steps[0].start: a start has either a `preset` or a `link`");
+        let neither = first("/steps/0/start/preset", json!(null));
+        assert_eq!(neither, "steps[0].start: a start has a `preset` or a `link`, which settings can change");
+        let setting = first("/steps/0/start/set/0", json!("setup.valves[1]=4"));
+        assert_eq!(setting, "steps[0].start: setup.valves[1]: 4 is outside 0 to 1");
+        let path = first("/steps/0/vary/0/path", json!("setup.valve[0]"));
+        assert!(path.starts_with("steps[0].start: setup.valve"), "{path}");
+    }
+
+    #[test]
+    fn the_first_step_says_a_state() {
+        let faults = faults(&[("/steps/0/start", json!(null)), ("/steps/0/vary", json!([]))]);
+        assert_eq!(faults, ["steps[0].start: no step up to this one says a state of the bench"]);
+    }
+
+    #[test]
+    fn settings_of_tasks_are_settings_of_the_bench() {
+        for (pointer, place) in [
+            ("/steps/0/tasks/1/kind/number/set", "steps[0].tasks[zero].kind.number.set"),
+            ("/steps/1/tasks/0/kind/achieve/attempts/0/set", "steps[1].tasks[left].kind.achieve.attempts[0].set"),
+        ] {
+            let fault = first(pointer, json!(["setup.valves[0]=2"]));
+            assert_eq!(fault, format!("{place}: this setting is refused: setup.valves[0]: 2 is outside 0 to 1"));
+        }
+        let solution = first("/steps/1/tasks/0/kind/achieve/solution", json!(["setup.none=2"]));
+        assert!(
+            solution.starts_with("steps[1].tasks[left].kind.achieve.solution: this setting is refused: setup.none: ")
+        );
+    }
+
+    #[test]
+    fn the_number_asked_for_exists() {
+        let fault = faults(&[
+            (
+                "/steps/0/tasks/1/kind/number",
+                json!({ "quantity": "rga.lambda11", "unit": "1", "tolerance": { "relative": 0.1 } }),
+            ),
+            ("/steps/0/tasks/1/kind/number/set", json!(["setup.valves[0]=0.5", "setup.valves[1]=0.5"])),
+        ]);
+        assert_eq!(
+            fault,
+            ["steps[0].tasks[zero].kind.number: the quantity has no value in this state (for the student with seed 0)"]
+        );
+    }
+
+    #[test]
+    fn a_mistake_that_does_not_get_its_feedback_is_told() {
+        let mistakes = "steps[0].tasks[zero].kind.number.mistakes";
+        let right = first("/steps/0/tasks/1/kind/number/mistakes/0/is", json!({ "times": 1.02 }));
+        assert_eq!(right, format!("{mistakes}[0]: does not get its feedback: it is right"));
+        let earlier = first("/steps/0/tasks/1/kind/number/mistakes/2/is", json!({ "times": -1.01 }));
+        assert_eq!(
+            earlier,
+            format!(
+                "{mistakes}[2]: does not get its feedback: entry 0 of the list, counted from 0, is recognised before"
+            )
+        );
+        let none = faults(&[
+            ("/steps/0/start/set/0", json!("setup.valves[1]=0.5")),
+            ("/steps/0/vary", json!([])),
+            ("/steps/0/start/set/-", json!("setup.valves[0]=0.5")),
+        ]);
+        assert!(
+            none.contains(&format!("{mistakes}[2]: does not get its feedback: there is no such number in this state"))
+        );
+    }
+
+    #[test]
+    fn a_number_of_the_present_state_is_that_after_the_solution() {
+        let mistake = json!([{ "is": { "value": 1.3 }, "feedback": { "en": "x", "es": "x" } }]);
+        let fault = first("/steps/1/tasks/1/kind/number/mistakes", mistake);
+        assert!(fault.ends_with("mistakes[0]: does not get its feedback: it is right"), "{fault}");
+    }
+
+    #[test]
+    fn a_goal_is_not_reached_at_the_beginning() {
+        let faults = faults(&[("/steps/1/tasks/0/kind/achieve/conditions/0/at_most", json!(10))]);
+        let place = "steps[1].tasks[left].kind.achieve";
+        let student = "(for the student with seed 0)";
+        assert_eq!(faults[0], format!("{place}: the goal is reached before anything is done {student}"));
+    }
+
+    #[test]
+    fn the_solution_reaches_the_goal() {
+        let fault = first("/steps/1/tasks/0/kind/achieve/solution", json!(["setup.valves[0]=0.95"]));
+        let place = "steps[1].tasks[left].kind.achieve.solution";
+        assert_eq!(fault, format!("{place}: the solution does not reach the goal: valves.gamma1 is 95.00000 %"));
+    }
+
+    #[test]
+    fn an_attempt_that_does_not_get_its_feedback_is_told() {
+        let attempts = "steps[1].tasks[left].kind.achieve.attempts";
+        let right = first(
+            "/steps/1/tasks/0/kind/achieve/attempts/0/set",
+            json!(["setup.valves[0]=0.7", "setup.valves[1]=0.6"]),
+        );
+        assert_eq!(right, format!("{attempts}[0]: does not get its feedback: it is right"));
+        let unknown = first("/steps/1/tasks/0/kind/achieve/attempts/0/set", json!(["setup.valves[0]=0.2"]));
+        assert_eq!(
+            unknown,
+            format!("{attempts}[0]: does not get its feedback: it is not recognised: valves.sum is 0.60000 1")
+        );
+        let second = json!({
+            "set": ["setup.valves[0]=0.5", "setup.valves[1]=0.49"],
+            "when": [{ "quantity": "valves.gamma1", "unit": "1", "at_least": 0.4 }],
+            "feedback": { "en": "x", "es": "x" }
+        });
+        let earlier = first("/steps/1/tasks/0/kind/achieve/attempts/-", second);
+        assert!(
+            earlier.starts_with(&format!("{attempts}[1]: does not get its feedback: entry 0 of the list")),
+            "{earlier}"
+        );
+    }
+
+    #[test]
+    fn every_value_that_varies_is_tried() {
+        let fault = fault("/steps/0/vary/0/among", json!([0.3, 0.35, 0.4, 0.45, 0.85]));
+        let (place, seed) = fault.split_once(" (for the student with seed ").unwrap_or_else(|| panic!("{fault}"));
+        assert!(place.contains("steps[") && seed != "0)", "{fault}");
+    }
+
+    #[test]
+    fn a_lesson_for_all_students_alike_names_none() {
+        let faults = faults(&[("/steps/0/vary", json!([])), ("/steps/1/tasks/0/kind/achieve/solution", json!([]))]);
+        assert_eq!(faults, ["steps[1].tasks[left].kind.achieve: the goal is reached before anything is done"]);
+    }
+}

@@ -165,3 +165,122 @@ fn kind_texts<'a>(place: &str, kind: &'a TaskKind) -> Vec<(String, &'a Text)> {
         TaskKind::Explain(explain) => vec![(format!("{place}.explain.model"), &explain.model)],
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use crate::sample::{faults, lesson};
+
+    /// What is wrong with the text of the second step.
+    fn told(text: &str) -> Vec<String> {
+        let place = "steps[1].text.en: ";
+        let told = faults(&[("/steps/1/text/en", json!(text))]);
+        told.into_iter()
+            .map(|fault| fault.strip_prefix(place).unwrap_or_else(|| panic!("{fault}")).to_owned())
+            .collect()
+    }
+
+    #[test]
+    fn every_text_is_there_in_every_language() {
+        let lesson = lesson();
+        let texts = super::texts(&lesson);
+        assert_eq!(texts.len(), 35);
+        let mut places: Vec<_> = texts.iter().map(|(place, _)| place).collect();
+        places.dedup();
+        assert_eq!(places.len(), texts.len());
+        let more = faults(&[("/languages", json!(["en", "pt-BR", "es"]))]);
+        assert_eq!(more.len(), texts.len());
+        assert!(more.iter().all(|fault| fault.ends_with(": no text in pt-BR")), "{more:?}");
+        let pointers = [
+            ("/title/es", "title"),
+            ("/outcomes/0/es", "outcomes[0]"),
+            ("/steps/0/after/es", "steps[0].after"),
+            ("/steps/0/tasks/1/hints/1/es", "steps[0].tasks[zero].hints[1]"),
+            (
+                "/steps/0/tasks/1/kind/number/mistakes/2/feedback/es",
+                "steps[0].tasks[zero].kind.number.mistakes[2].feedback",
+            ),
+            (
+                "/steps/1/tasks/0/kind/achieve/conditions/1/label/es",
+                "steps[1].tasks[left].kind.achieve.conditions[1].label",
+            ),
+            ("/steps/1/tasks/2/kind/choose/options/1/text/es", "steps[1].tasks[why].kind.choose.options[1].text"),
+            ("/steps/1/tasks/4/kind/explain/model/es", "steps[1].tasks[words].kind.explain.model"),
+        ];
+        for (pointer, place) in pointers {
+            for empty in [json!(null), json!(""), json!(" \n")] {
+                assert_eq!(faults(&[(pointer, empty)]), [format!("{place}: no text in es")]);
+            }
+        }
+    }
+
+    #[test]
+    fn a_text_may_have_all_markup_and_plain_signs() {
+        let all = "A [word](glossary:zero), [bench](bench:relay-tuning), [lesson](lesson:windup).\n\n1. **bold**\n2. {value:run.iae_sum|cm s|4}\n\n\
+                   $\\frac{γ_1}{2}$ 2 * 3 < 4 & 5 > 1 [1] (2) {3}";
+        assert_eq!(told(all), [""; 0]);
+    }
+
+    #[test]
+    fn links_lead_somewhere() {
+        assert_eq!(told("[x](glossary:zer)"), ["unknown word of the glossary `zer`"]);
+        assert_eq!(told("[x](lesson:none)"), ["unknown lesson `none`"]);
+        let benches = "quadruple-tank, relay-tuning, model-free, level-loop";
+        assert_eq!(told("[x](bench:none)"), [format!("unknown bench `none`; there are {benches}")]);
+        let link = "a link is [words](glossary:name), [words](bench:name) or [words](lesson:name)";
+        for broken in ["[x](https://example.org)", "[x](javascript:alert(1))", "[x](glossary)"] {
+            assert_eq!(told(&format!("See {broken}")), [format!("`{broken}` is no markup: {link}")]);
+        }
+    }
+
+    #[test]
+    fn values_and_formulas_exist() {
+        assert_eq!(told("{value:zero.right|1/s}"), ["unknown quantity `zero.right`"]);
+        assert_eq!(told("$\\value{zero.right}{1/s}$"), ["unknown quantity `zero.right`"]);
+        assert_eq!(told("$\\frac{1}{\\sqrt{x_{\\value{none}{1}}}}$"), ["unknown quantity `none`"]);
+        let unit = "the unit `m` does not fit a quantity in `1/s`, but `1/s`, `1/min`";
+        assert_eq!(told("{value:zero.rightmost|m}"), [unit]);
+        assert_eq!(told("{formula:zero-lines}"), ["unknown formula `zero-lines`"]);
+    }
+
+    #[test]
+    fn what_looks_like_markup_is_some() {
+        let begins = |text: &str, quoted: &str| {
+            let told = told(text);
+            assert_eq!(told.len(), 1, "{told:?}");
+            assert!(told[0].starts_with(&format!("`{quoted}` is no markup: ")), "{told:?}");
+        };
+        begins("See {value:zero.rightmost}.", "{value:zero.rightmost}.");
+        begins("{value:zero.rightmost|1/s|12}", "{value:zero.rightmost|1/s|12}");
+        begins("Costs 5 $ a day", "$ a day");
+        begins("$\\script$", "$\\script$");
+        begins("One **bold", "**bold");
+        begins(&format!("**{}", "x".repeat(100)), &format!("**{}", "x".repeat(38)));
+    }
+
+    #[test]
+    fn bold_words_and_words_of_a_link_have_no_markup_of_their_own() {
+        for (text, words) in [
+            ("**[zero](glossary:zero)**", "[zero](glossary:zero)"),
+            ("**{value:valves.sum|1}**", "{value:valves.sum|1}"),
+            ("[**zero**](glossary:zero)", "**zero**"),
+        ] {
+            let told = told(text);
+            assert_eq!(
+                told,
+                [format!("`{words}` stands inside bold words or the words of a link, where no other markup is read")]
+            );
+        }
+    }
+
+    #[test]
+    fn a_name_that_is_wrong_in_two_texts_is_told_for_each() {
+        let text = json!({ "en": "[x](glossary:no) [y](glossary:no)", "es": "[x](glossary:no)" });
+        let word = "unknown word of the glossary `no`";
+        assert_eq!(
+            faults(&[("/steps/1/tasks/1/question", text)]),
+            [format!("steps[1].tasks[sum].question.en: {word}"), format!("steps[1].tasks[sum].question.es: {word}")]
+        );
+    }
+}
