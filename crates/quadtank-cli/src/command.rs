@@ -7,6 +7,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use quadtank::literature::PresetId;
 use quadtank::study::quadruple_tank::setup_of;
 use quadtank::study::relay_tuning::TuningSetup;
+use quadtank_lesson::lesson_schema;
 use quadtank_scenario::level_loop::LevelLoopScenario;
 use quadtank_scenario::model_free::ModelFreeScenario;
 use quadtank_scenario::tuning::TuningScenario;
@@ -141,7 +142,7 @@ enum Command {
     /// faults. `--task ID` marks the answer on standard input: {"choice": 0}, {"number": 0.0248}, {"order": [0, 2, 1]},
     /// {"text": "…"}, or a document of the bench where a goal is to be reached. `--report CODE` prints what a code holds.
     Check(CheckOptions),
-    /// Print the JSON Schema of the scenario, or of what a command reports about it
+    /// Print the JSON Schema of the scenario, of what a command reports about it, or of a lesson
     Schema {
         /// Version of the document: 1 for the quadruple tank, 2 for relay tuning, 3 for model-free control, 4 for a level loop
         #[arg(
@@ -154,6 +155,9 @@ enum Command {
         /// The JSON that this command prints, in place of the scenario
         #[arg(long, value_enum, value_name = "COMMAND")]
         report: Option<report::Report>,
+        /// The lesson, in place of the scenario
+        #[arg(long, conflicts_with_all = ["version", "report"])]
+        lesson: bool,
     },
 }
 
@@ -268,8 +272,9 @@ fn execute(command: Command) -> Result<(), Failure> {
         Command::Presets { name: None } => print(&list_of_presets()),
         Command::Presets { name: Some(id) } => print_document(id.name(), to_json(&Scenario::from(setup_of(id)))),
         Command::Check(options) => check::run(&options),
-        Command::Schema { version, report: None } => print_json(&schema_of(version)),
-        Command::Schema { version, report: Some(report) } => {
+        Command::Schema { lesson: true, .. } => print_json(&lesson_schema()),
+        Command::Schema { version, report: None, .. } => print_json(&schema_of(version)),
+        Command::Schema { version, report: Some(report), .. } => {
             print_json(&report.schema(version).ok_or(Failure::NoReport { version })?)
         }
     }

@@ -33,14 +33,17 @@ struct Version {
 #[serde(deny_unknown_fields)]
 pub struct Lesson {
     /// Version of the format: 1.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1, max = 1)))]
     pub lesson: u32,
     /// Name in links and reports: lower-case letters, digits, hyphens.
+    #[cfg_attr(feature = "schema", schemars(regex(pattern = "^[a-z0-9-]{1,60}$")))]
     pub id: String,
     /// The bench beside it: `quadruple-tank`, `relay-tuning`, `model-free` or `level-loop`.
     pub bench: String,
     /// About how long it takes (min).
     pub minutes: u32,
     /// The languages in which every text is written.
+    #[cfg_attr(feature = "schema", schemars(length(min = 1)))]
     pub languages: Vec<Tongue>,
     /// What the list of lessons calls it.
     pub title: Text,
@@ -59,6 +62,7 @@ pub struct Lesson {
     #[serde(default)]
     pub source: String,
     /// The steps, 1 to 12.
+    #[cfg_attr(feature = "schema", schemars(length(min = 1, max = 12)))]
     pub steps: Vec<Step>,
 }
 
@@ -83,10 +87,11 @@ pub struct Step {
     /// Groups of controls that cannot be changed.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub lock: Vec<String>,
-    /// What is told, with markup (see [`parse_markdown`](super::parse_markdown)).
+    /// What is told, with the markup that `docs/lessons.md` describes.
     pub text: Text,
     /// What is asked.
     #[serde(default)]
+    #[cfg_attr(feature = "schema", schemars(length(max = 12)))]
     pub tasks: Vec<Task>,
     /// What is told when all tasks are answered.
     #[serde(default, skip_serializing_if = "Option::is_none")]

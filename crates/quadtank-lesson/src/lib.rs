@@ -17,6 +17,8 @@ mod progress;
 mod report;
 #[cfg(test)]
 mod sample;
+#[cfg(feature = "schema")]
+mod schema;
 mod start;
 mod task;
 mod text;
@@ -35,6 +37,8 @@ pub use lesson::{LESSON_LIMIT, Lesson, Start, Step, Variation, read_lesson};
 pub use markdown::{Block, LiveValue, Place, Span, parse_markdown};
 pub use progress::{Progress, Record, SUSPEND_LIMIT, points_of};
 pub use report::{Report, ReportError, TaskReport};
+#[cfg(feature = "schema")]
+pub use schema::lesson_schema;
 pub use start::{StartError, shuffled, start_of, state_before, with_settings};
 pub use task::{
     Achieve, Attempt, Choice, Choose, Condition, Explain, Mistake, MistakeKind, NumberTask, Of, Order, Predict, Task,

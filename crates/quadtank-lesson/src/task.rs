@@ -8,11 +8,13 @@ use super::Text;
 #[serde(deny_unknown_fields)]
 pub struct Task {
     /// Name in reports, unique in the lesson.
+    #[cfg_attr(feature = "schema", schemars(regex(pattern = "^[a-z0-9-]{1,40}$")))]
     pub id: String,
     /// The question.
     pub question: Text,
     /// What a right answer at once, without hints, is worth.
     #[serde(default)]
+    #[cfg_attr(feature = "schema", schemars(range(max = 100)))]
     pub points: u32,
     /// Hints, each of which costs a point.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
