@@ -31,10 +31,6 @@ fn tested(results: &Results) -> Option<ProcessModel> {
     Some(test(results)?.fit.as_ref().ok()?.model)
 }
 
-fn here(results: &Results) -> Option<ProcessModel> {
-    Some(plant(results)?.model)
-}
-
 fn matched(results: &Results) -> Option<ModelMatch> {
     ModelMatch::of(test(results)?, plant(results)?)
 }
@@ -130,10 +126,12 @@ pub const QUANTITIES: &[Quantity<Results>] = &[
     q("rest.travel", "1", "Travel X of the valve at rest, 0 to 1.", |r| Some(plant(r)?.rest.travel)),
     q("rest.opening", "1", "Opening f(X) of the valve at rest, 0 to 1.", |r| Some(plant(r)?.rest.opening)),
     q("rest.output", "signal", "Controller output at rest.", |r| Some(plant(r)?.rest.output)),
-    q("model.slope", "1/s", "Slope K/τ of the linear model at rest, by the half rule (Skogestad 2003).", |r| Some(here(r)?.slope())),
-    q("model.gain", "1", "Gain K of the linear model at rest, signal per signal; none for a tank that integrates.", |r| here(r)?.gain()),
-    q("model.time_constant", "s", "Time constant τ of the linear model at rest; none for a tank that integrates.", |r| here(r)?.time_constant_s()),
-    q("model.dead_time", "s", "Dead time θ of the linear model at rest, by the half rule.", |r| Some(here(r)?.dead_time_s())),
+    q("model.slope", "1/s", "Slope K/τ of the linear model at rest, lags of the instruments apart.", |r| Some(plant(r)?.gains.slope_gain())),
+    q("model.gain", "1", "Gain K of the linear model at rest, signal per signal; none for a tank that integrates.", |r| plant(r)?.gains.process_gain()),
+    q("model.time_constant", "s", "Time constant τ = R A of the tank at rest; none for a tank that integrates.", |r| plant(r)?.gains.time_constant()),
+    q("model.dead_time", "s", "Dead time θ that stands for the lags of the instruments in the rules, by the half rule (Skogestad 2003).", |r| Some(plant(r)?.model.dead_time_s())),
+    q("half_rule.slope", "1/s", "Slope K/τ of the model of the rules, with half of a lag in τ by the half rule.", |r| Some(plant(r)?.model.slope())),
+    q("half_rule.time_constant", "s", "Time constant of the model of the rules, by the half rule; none for a tank that integrates.", |r| plant(r)?.model.time_constant_s()),
     q("test.slope", "1/s", "Slope K/τ of the model that was read from the step test.", |r| Some(tested(r)?.slope())),
     q("test.gain", "1", "Gain K of the model of the step test, signal per signal; none for a ramp.", |r| tested(r)?.gain()),
     q("test.time_constant", "s", "Time constant τ of the model of the step test; none for a ramp.", |r| tested(r)?.time_constant_s()),
@@ -200,3 +198,53 @@ pub const QUANTITIES: &[Quantity<Results>] = &[
     q("run.overshoot", "1", "By how much the largest move exceeds the final one, as a share of it, for one step of the set-point at the start.", |r| Some(step(r)?.overshoot)),
     q("run.offset", "1", "Share of the step of the set-point that is missing at the end.", |r| Some(step(r)?.offset)),
 ];
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+    use crate::sim::level::LevelController;
+    use crate::study::Study;
+    use crate::study::level_loop::{LevelLoopSetup, LevelLoopStudy};
+
+    fn numbers<const N: usize>(setup: &LevelLoopSetup, names: [&str; N]) -> [f64; N] {
+        let results = LevelLoopStudy::update(setup, &[], None);
+        names.map(|name| Quantity::find(QUANTITIES, name).expect(name).value(&results).expect(name))
+    }
+
+    /// Andreis (2017), §4.2.7.1, and what is true where the loop works.
+    #[test]
+    fn the_test_of_the_source_is_another_plant() {
+        let names = ["test.slope", "test.suits", "model.slope", "model.time_constant", "test.inflow", "rest.outflow"];
+        let [tested, suits, slope, time_constant, there, here] = numbers(&LevelLoopSetup::default(), names);
+        assert!((tested - 0.0098).abs() < 1e-4 && (slope - 0.0231).abs() < 5e-5, "{tested} {slope}");
+        assert_eq!((suits, there, here), (0.0, 0.006, 0.017));
+        // τ = R A with R = 2 h/q of a square root.
+        assert_relative_eq!(time_constant, 2.0 * 1.0 / 0.017, max_relative = 1e-12);
+    }
+
+    #[test]
+    fn the_optimum_of_the_source_has_hardly_any_margin() {
+        let names = ["margins.gain", "closed_loop.is_stable", "assess.index", "loop.gain", "ultimate.gain"];
+        let mut setup = LevelLoopSetup::default();
+        let [current, ..] = numbers(&setup, names);
+        setup.controller = LevelController::pi(93.7, 2999.7);
+        let [margin, stable, index, gain, ultimate] = numbers(&setup, names);
+        assert!((margin - 1.06).abs() < 5e-3 && (current - 9.94).abs() < 5e-3, "{margin} {current}");
+        // The loop is its own reference.
+        assert_eq!((stable, index, gain), (1.0, 1.0, 93.7));
+        assert!((ultimate / gain - margin).abs() < 5e-3, "{ultimate}");
+    }
+
+    #[test]
+    fn the_index_of_the_other_objective_praises_the_wrong_loop() {
+        let mut setup = LevelLoopSetup::default();
+        let names = ["assess.index_level", "assess.index_outflow", "assess.variance_level", "assess.variance_outflow"];
+        let tight = numbers(&setup, names);
+        setup.controller = LevelController::pi(1.0, 2500.0);
+        let slack = numbers(&setup, names);
+        assert!(slack[0] < tight[0] && slack[1] > 1.0, "{tight:?} {slack:?}");
+        assert!(slack[2] > tight[2] && slack[3] < tight[3], "{tight:?} {slack:?}");
+    }
+}

@@ -185,3 +185,43 @@ pub const QUANTITIES: &[Quantity<Results>] = &[
     q("comparison.iae2", "m s", "∫ |r − h| dt of level 2 under the PI loops of the comparison.", |r| Some(compared(r, 1)?.iae)),
     q("comparison.time_at_limit", "s", "How long the outputs of both PI loops are at a limit, added.", |r| Some(compared(r, 0)?.saturated_s + compared(r, 1)?.saturated_s)),
 ];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::literature::junqueira::{PublishedExperiment, PublishedValves};
+    use crate::study::Study;
+    use crate::study::model_free::{ModelFreeSetup, ModelFreeStudy};
+
+    fn values<const N: usize>(setup: &ModelFreeSetup, names: [&str; N]) -> [Option<f64>; N] {
+        let results = ModelFreeStudy::update(setup, &[], None);
+        names.map(|name| Quantity::find(QUANTITIES, name).expect(name).value(&results))
+    }
+
+    /// Case b of Junqueira, Neves and Angelico: outputs settle while the upper tanks part.
+    #[test]
+    fn tracking_is_lost_when_the_zero_has_had_its_time() {
+        let mut setup = ModelFreeSetup::published(PublishedValves::B, PublishedExperiment::S3);
+        let names = ["run.lost_at", "level1.lost_at", "level2.lost_at", "verdict.is_lost", "run.overflows"];
+        assert_eq!(values(&setup, names), [Some(135.0), Some(135.0), None, Some(1.0), Some(1.0)]);
+        setup.experiment.set_point_steps[0].size = 0.01;
+        assert_eq!(values(&setup, ["run.lost_at", "set_point.step1"]), [Some(194.0), Some(0.01)]);
+        let names = ["zero.rightmost", "zero_dynamics.e_folding", "zero_dynamics.is_stable", "closed_loop.is_stable"];
+        let [zero, time, inside, outside] = values(&setup, names).map(Option::unwrap);
+        assert!(zero > 0.0 && (zero * time - 1.0).abs() < 1e-12);
+        assert_eq!([inside, outside], [0.0, 0.0]);
+    }
+
+    #[test]
+    fn equal_steps_hide_what_is_going_to_end_them() {
+        let names = ["verdict.is_leaving", "run.lost_at", "run.foretold_end", "level1.looks_settled"];
+        let hidden = ModelFreeSetup::published(PublishedValves::B, PublishedExperiment::S2);
+        let [leaving, lost, end, settled] = values(&hidden, names);
+        assert_eq!((leaving, lost, settled), (Some(1.0), None, Some(1.0)));
+        assert!(end.is_some_and(|end| (end - 1018.0).abs() < 1.0), "{end:?}");
+        let fine = ModelFreeSetup::published(PublishedValves::A, PublishedExperiment::S2);
+        let [settled, inside, end] =
+            values(&fine, ["verdict.is_settled", "zero_dynamics.is_stable", "run.foretold_end"]);
+        assert_eq!((settled, inside, end), (Some(1.0), Some(1.0), None));
+    }
+}

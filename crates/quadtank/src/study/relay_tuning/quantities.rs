@@ -273,3 +273,69 @@ pub const QUANTITIES: &[Quantity<Results>] = &[
     q("comparison.iae1", "output time", "∫ |r − y| dt of output 1 with what the response is compared with.", |r| Some(compared_output(r, 0)?.iae)),
     q("comparison.iae2", "output time", "∫ |r − y| dt of output 2 with what the response is compared with.", |r| Some(compared_output(r, 1)?.iae)),
 ];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::Study;
+    use crate::study::relay_tuning::{Element, RelayTuningStudy, TestKind, TuningPlant, TuningSetup};
+
+    fn numbers<const N: usize>(setup: &TuningSetup, names: [&str; N]) -> [f64; N] {
+        let results = RelayTuningStudy::update(setup, &[], None);
+        names.map(|name| Quantity::find(QUANTITIES, name).expect(name).value(&results).expect(name))
+    }
+
+    /// Campestrini (2006), §4.2: the column of Wood and Berry.
+    #[test]
+    fn the_column_has_a_corner_and_tests_that_are_not_critical() {
+        let mut setup = TuningSetup::default();
+        let [r2, slow, fast, count] =
+            numbers(&setup, ["corner.r2", "corner.slow_period", "corner.fast_period", "corner.count"]);
+        assert!((r2 - 0.201).abs() < 5e-4 && count == 1.0, "{r2}");
+        assert!((slow - 11.98).abs() < 5e-3 && (fast - 3.94).abs() < 5e-3, "{slow} {fast}");
+        let names = ["relay.is_unimodal", "relay.is_on_boundary", "relay.drive_ratio"];
+        assert_eq!(numbers(&setup, names), [1.0, 1.0, 1.0]);
+        setup.test.amplitudes = [1.0, 0.1];
+        assert_eq!(numbers(&setup, names), [1.0, 0.0, 0.1]);
+    }
+
+    /// One element 2 e^(−2 s)/(10 s + 1): its ultimate point is where atan(10 ω) + 2 ω = π.
+    #[test]
+    fn a_relay_reads_less_than_the_ultimate_gain() {
+        let element = |gain: f64, lag: f64, dead_time: f64| Element {
+            numerator: vec![gain],
+            denominator: vec![1.0, lag],
+            dead_time,
+        };
+        let nothing = element(0.0, 1.0, 0.0);
+        let plant =
+            TuningPlant::Elements([[element(2.0, 10.0, 2.0), nothing.clone()], [nothing, element(1.0, 1.0, 1.0)]]);
+        let mut setup = TuningSetup::on(plant);
+        setup.test.kind = TestKind::Single;
+        (setup.test.duration, setup.test.step) = (200.0, 0.05);
+        let names =
+            ["ultimate.frequency", "ultimate.gain", "relay.ultimate_gain", "relay.gain_error", "relay.amplitude"];
+        let [frequency, exact, read, error, amplitude] = numbers(&setup, names);
+        assert!(((10.0 * frequency).atan() + 2.0 * frequency - std::f64::consts::PI).abs() < 1e-6, "{frequency}");
+        assert!((exact - (1.0 + 100.0 * frequency * frequency).sqrt() / 2.0).abs() < 1e-6, "{exact}");
+        // The output is made of exponentials: its peak is 2 d (1 − e^(−θ/τ)).
+        assert!((amplitude - 2.0 * (1.0 - (-0.2_f64).exp())).abs() < 1e-3, "{amplitude}");
+        assert!(
+            (read - 4.0 / (std::f64::consts::PI * amplitude)).abs() < 1e-9 && (read / exact - 1.0 - error).abs() < 1e-9
+        );
+        assert!((error + 0.17).abs() < 0.01, "{error}");
+        setup.test.hysteresis[0] = 0.1;
+        let [with_hysteresis] = numbers(&setup, ["relay.gain_error"]);
+        assert!(with_hysteresis < error, "{with_hysteresis}");
+    }
+
+    #[test]
+    fn a_design_has_controllers_margins_and_a_response() {
+        let names = ["closed_loop.is_stable", "response.is_bounded", "margins.gain", "margins.distance", "output1.iae"];
+        let [stable, bounded, gain, distance, iae] = numbers(&TuningSetup::default(), names);
+        assert_eq!([stable, bounded], [1.0, 1.0]);
+        assert!(gain > 1.0 && (0.0..1.0).contains(&distance) && iae > 0.0, "{gain} {distance} {iae}");
+        let results = RelayTuningStudy::update(&TuningSetup::default(), &[], None);
+        assert_eq!(margins(&results), CriticalReading::of(&results).unwrap().margins);
+    }
+}
