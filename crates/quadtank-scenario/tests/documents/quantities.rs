@@ -7,9 +7,7 @@ use quadtank::literature::PresetId;
 use quadtank::literature::campestrini::PublishedCase;
 use quadtank::study::quadruple_tank::setup_of;
 use quadtank::study::relay_tuning::TuningSetup;
-use quadtank::study::{Study, UNITS, level_loop, model_free};
-use quadtank_scenario::level_loop::LevelLoopScenario;
-use quadtank_scenario::model_free::ModelFreeScenario;
+use quadtank::study::{Study, UNITS};
 use quadtank_scenario::tuning::TuningScenario;
 use quadtank_scenario::{BenchDocument, Document, Quantities, Scenario, bench_of, document_from_json, quantities_of};
 
@@ -67,10 +65,8 @@ fn a_name_that_means_the_same_has_the_same_unit_on_tank_benches() {
 #[test]
 fn published_documents_have_finite_numbers() {
     PresetId::ALL.into_iter().for_each(|id| assert_finite(&Scenario::from(setup_of(id))));
-    for (_, valves, experiment) in model_free::published() {
-        assert_finite(&ModelFreeScenario::from(model_free::ModelFreeSetup::published(valves, experiment)));
-    }
-    level_loop::published().for_each(|(.., setup)| assert_finite(&LevelLoopScenario::from(setup)));
+    super::model_free::published().for_each(|document| assert_finite(&document));
+    super::level_loop::published().for_each(|document| assert_finite(&document));
     PublishedCase::all().for_each(|case| assert_finite(&TuningScenario::from(TuningSetup::published(case))));
 }
 

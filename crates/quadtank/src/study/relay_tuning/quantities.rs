@@ -118,6 +118,11 @@ fn isa(results: &Results, index: usize) -> Option<IsaPid> {
     root(results)?.forms[index].isa
 }
 
+/// Infinite without integral action.
+fn integral_time(results: &Results, index: usize) -> Option<f64> {
+    Some(isa(results, index)?.integral_time).filter(|time| time.is_finite())
+}
+
 fn stability(of: LoopStability) -> Option<f64> {
     match of {
         LoopStability::NotComputed { .. } => None,
@@ -228,7 +233,7 @@ pub const QUANTITIES: &[Quantity<Results>] = &[
     q("corner.gain2", "input/output", "Gain of loop 2 at the first corner.", |r| Some(corner(r)?.points[0].gains[1])),
     q("corner.slow_period", "time", "The longer period of the first corner.", |r| Some(corner(r)?.points[0].period())),
     q("corner.fast_period", "time", "The shorter period of the first corner.", |r| Some(corner(r)?.points[1].period())),
-    q("critical.r2", "1", "Importance r2 = kc2 g22(0)/(kc1 g11(0)) of the critical point of the design.", |r| r.setup.importance().ok()),
+    q("critical.r2", "1", "Importance r2 = kc2 g22(0)/(kc1 g11(0)) of the critical point of the design.", |r| r.setup.importance().ok().filter(|r2| r2.is_finite())),
     q("critical.gain1", "input/output", "Gain kc1 of the critical point of the design.", |r| Some(design(r)?.critical_gains[0])),
     q("critical.gain2", "input/output", "Gain kc2 of the critical point of the design.", |r| Some(design(r)?.critical_gains[1])),
     q("critical.period", "time", "Period of the critical point of the design.", |r| Some(design(r)?.period())),
@@ -248,8 +253,8 @@ pub const QUANTITIES: &[Quantity<Results>] = &[
     q("placement.other_distance", "1", "Distance of the other locus from −1 at the critical frequency.", |r| Some(distance(placed(r)?.other))),
     q("loop1.gain", "input/output", "Proportional gain kp of controller 1 of the chosen root.", |r| Some(controller(r, 0)?.proportional)),
     q("loop2.gain", "input/output", "Proportional gain kp of controller 2 of the chosen root.", |r| Some(controller(r, 1)?.proportional)),
-    q("loop1.integral_time", "time", "Integral time Ti of controller 1 of the chosen root; none without integral or proportional part.", |r| Some(isa(r, 0)?.integral_time)),
-    q("loop2.integral_time", "time", "Integral time Ti of controller 2 of the chosen root; none without integral or proportional part.", |r| Some(isa(r, 1)?.integral_time)),
+    q("loop1.integral_time", "time", "Integral time Ti of controller 1 of the chosen root; none without integral or proportional part.", |r| integral_time(r, 0)),
+    q("loop2.integral_time", "time", "Integral time Ti of controller 2 of the chosen root; none without integral or proportional part.", |r| integral_time(r, 1)),
     q("loop1.derivative_time", "time", "Derivative time Td of controller 1 of the chosen root; 0 for PI.", |r| Some(isa(r, 0)?.derivative_time)),
     q("loop2.derivative_time", "time", "Derivative time Td of controller 2 of the chosen root; 0 for PI.", |r| Some(isa(r, 1)?.derivative_time)),
     q("closed_loop.is_stable", "yes/no", "Whether the linear loop with the chosen root is stable, without a decoupler; none where it is not computed.", |r| stability(root(r)?.stability)),
