@@ -31,7 +31,7 @@ pub use lesson::{LESSON_LIMIT, Lesson, Start, Step, Variation, read_lesson};
 pub use markdown::{Block, LiveValue, Place, Span, parse_markdown};
 pub use progress::{Progress, Record, SUSPEND_LIMIT, points_of};
 pub use report::{Report, ReportError, TaskReport};
-pub use start::{StartError, shuffled, start_of, with_settings};
+pub use start::{StartError, reference_state, shuffled, start_of, with_settings};
 pub use task::{
     Achieve, Attempt, Choice, Choose, Condition, Explain, Mistake, MistakeKind, NumberTask, Of, Order, Predict, Task,
     TaskKind, Tolerance,

@@ -38,6 +38,25 @@ pub fn start_of(lesson: &Lesson, step: &Step, seed: u32) -> Result<Option<Docume
     Ok(Some(with_settings(&document, &settings)?))
 }
 
+/// The state in which a step would begin after the solutions of all steps before; `None` where the lesson says no state.
+pub fn reference_state(lesson: &Lesson, index: usize, seed: u32) -> Option<Document> {
+    let mut present = None;
+    for (place, step) in lesson.steps.iter().enumerate().take(index + 1) {
+        if let Ok(Some(start)) = start_of(lesson, step, seed) {
+            present = Some(start);
+        }
+        if place == index {
+            break;
+        }
+        for task in &step.tasks {
+            if let (super::TaskKind::Achieve(goal), Some(state)) = (&task.kind, &present) {
+                present = with_settings(state, &goal.solution).ok().or(present);
+            }
+        }
+    }
+    present
+}
+
 /// The settings that a student gets by the seed.
 fn variations(lesson: &Lesson, step: &Step, seed: u32) -> Vec<String> {
     let place = |path: &str| format!("{} {path}", lesson.id);
