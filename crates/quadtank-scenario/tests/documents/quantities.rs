@@ -64,7 +64,9 @@ fn a_name_that_means_the_same_has_the_same_unit_on_tank_benches() {
 
 #[test]
 fn published_documents_have_finite_numbers() {
-    PresetId::ALL.into_iter().for_each(|id| assert_finite(&Scenario::from(setup_of(id))));
+    for id in PresetId::ALL {
+        assert_finite(&Scenario::from(setup_of(id)));
+    }
     super::model_free::published().for_each(|document| assert_finite(&document));
     super::level_loop::published().for_each(|document| assert_finite(&document));
     PublishedCase::all().for_each(|case| assert_finite(&TuningScenario::from(TuningSetup::published(case))));
