@@ -154,8 +154,9 @@ pub fn Glossary() -> impl IntoView {
     let sought = RwSignal::new(String::new());
     let found = Memo::new(move |_| {
         let (language, sought) = (lab.language.get(), plain(&sought.get()));
-        let mut found: Vec<usize> =
-            (0..TERMS.len()).filter(|&index| plain(&unmarked(&(TERMS[index].text)(language))).contains(&sought)).collect();
+        let mut found: Vec<usize> = (0..TERMS.len())
+            .filter(|&index| plain(&unmarked(&(TERMS[index].text)(language))).contains(&sought))
+            .collect();
         found.sort_by_key(|&index| plain(&TERMS[index].word(language)));
         found
     });

@@ -27,6 +27,8 @@ const MOST_MAGNIFIED: f64 = 2.0;
 pub enum Notice {
     /// The link or file was not usable; the bench shows what it showed before.
     Refused(ScenarioError),
+    /// A new edition of the site is at hand.
+    NewEdition,
     /// A lesson cannot be shown.
     NoLesson(LoadError),
     /// The browser could not read the file.
@@ -82,6 +84,8 @@ pub struct State {
     pub large: RwSignal<Option<&'static str>>,
     /// The page that is shown in place of the benches, if one is.
     pub side: RwSignal<Option<SidePage>>,
+    /// Whether the site works without a network.
+    pub offline: RwSignal<bool>,
     /// What a lesson shows of the bench beside it, while one is taken.
     pub stage: RwSignal<Option<Stage>>,
     /// How much of a bench is shown when the page begins, which says what a bench begins with.
@@ -143,6 +147,7 @@ impl Lab {
             presents: RwSignal::new(false),
             large: RwSignal::new(None),
             side: RwSignal::new(flags.page),
+            offline: RwSignal::new(false),
             stage: RwSignal::new(None),
             first_depth: depth,
             told_not_kept: StoredValue::new(false),

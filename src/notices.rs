@@ -8,8 +8,9 @@ use quadtank_scenario::document_from_link;
 use super::benches::{load, name_of};
 use super::errors::of_error;
 use super::keep;
-use super::lessons::LoadError;
 use super::lab::{Lab, Notice, use_lab};
+use super::lessons::LoadError;
+use super::offline;
 use super::texts::tr;
 
 /// How long a notice stays that needs no answer (ms): it lies over the page.
@@ -22,6 +23,13 @@ pub fn Notices() -> impl IntoView {
     let content = move |notice: Notice| {
         match notice {
         Notice::Refused(error) => view! { <div>{tr!(lab, refused.lead)} " " {of_error(lab, DisplayUnit::Cm, &error)}</div> }.into_any(),
+        Notice::NewEdition => view! {
+            <div>{tr!(lab, app.new_edition)}</div>
+            <button type="button" class="button small" data-testid="begin-anew" on:click=|_| offline::begin_anew()>
+                {tr!(lab, app.begin_anew)}
+            </button>
+        }
+        .into_any(),
         Notice::NoLesson(LoadError::Refused(error)) => {
             view! { <div>{tr!(lab, lesson.refused)} " " {of_error(lab, DisplayUnit::Cm, &error)}</div> }.into_any()
         }

@@ -8,13 +8,15 @@ use quadtank_lesson::LESSON_IDS;
 
 use super::benches::{BENCHES, BenchEntry};
 use super::depth::Depth;
+use super::glossary::Glossary;
 use super::handout::{self, Handout};
 use super::keep;
-use super::glossary::Glossary;
 use super::lab::{Lab, Notice, use_lab};
 use super::lessons::{self, Catalogue, Classroom, LessonPanel, SidePage, Teachers, use_classroom};
+use super::messages;
 use super::naming::{ExperimentName, NameFields};
 use super::notices::Notices;
+use super::offline;
 use super::share;
 use super::start::StartFlags;
 use super::stopped::Stopped;
@@ -47,6 +49,8 @@ pub fn Laboratory(
     let room = Classroom::new(lab);
     provide_context(room);
     lessons::begin_asked(lab, room);
+    messages::talk(lab, room);
+    offline::keep_site(lab);
     Effect::new(move || show_on_root("data-lesson", if lab.stage.with(Option::is_some) { "yes" } else { "no" }));
     Effect::new(move || show_on_root("data-theme", if lab.dark.get() { "dark" } else { "light" }));
     Effect::new(move || show_on_root("data-view", lab.shown_depth().name()));
@@ -288,6 +292,7 @@ fn Header() -> impl IntoView {
                         <SideLink page=SidePage::Teachers name=say!(lab, lesson.teachers) />
                     </p>
                     <p>{say!(lab, app.footer)}</p>
+                    <p hidden=move || !lab.offline.get() data-testid="offline">{say!(lab, app.offline)}</p>
                     <p>{say!(lab, app.keys)}</p>
                     <p>{say!(lab, app.links)}</p>
                     <p>{say!(lab, app.privacy)}</p>

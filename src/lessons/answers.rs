@@ -19,7 +19,12 @@ fn is_done(id: &str) -> Signal<bool> {
 
 /// The button that marks an answer.
 #[component]
-fn CheckButton(#[prop(into)] id: String, name: Signal<String>, disabled: Signal<bool>, on_check: Callback<()>) -> impl IntoView {
+fn CheckButton(
+    #[prop(into)] id: String,
+    name: Signal<String>,
+    disabled: Signal<bool>,
+    on_check: Callback<()>,
+) -> impl IntoView {
     view! {
         <button
             type="button"

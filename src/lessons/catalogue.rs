@@ -6,8 +6,8 @@ use leptos::prelude::*;
 use quadtank_lesson::{LESSON_IDS, Lesson};
 
 use super::classroom::{tongue, use_classroom};
-use super::{kept, load};
 use super::place::lesson_address;
+use super::{kept, load};
 use crate::lab::use_lab;
 use crate::texts::{say, tr};
 use crate::widgets::Tick;
@@ -66,7 +66,8 @@ fn LessonRow(id: &'static str, number: usize, lesson: Signal<Option<Arc<Lesson>>
     let content = move || {
         let lesson = lesson.get()?;
         let language = tongue(lab, &lesson);
-        let outcomes = lesson.outcomes.iter().map(|text| view! { <li>{text.shown(language).to_owned()}</li> }).collect_view();
+        let outcomes =
+            lesson.outcomes.iter().map(|text| view! { <li>{text.shown(language).to_owned()}</li> }).collect_view();
         Some(view! {
             <p>{lesson.summary.shown(language).to_owned()}</p>
             <ul class="outcomes">{outcomes}</ul>
@@ -102,7 +103,9 @@ pub fn OwnFile() -> impl IntoView {
     let on_file = move |_| {
         let Some(input) = picker.get_untracked() else { return };
         if let Some(file) = input.files().and_then(|files| files.get(0)) {
-            crate::share::read_file(lab, &file, quadtank_lesson::LESSON_LIMIT, move |bytes| super::begin_file(lab, room, &bytes));
+            crate::share::read_file(lab, &file, quadtank_lesson::LESSON_LIMIT, move |bytes| {
+                super::begin_file(lab, room, &bytes)
+            });
         }
         // The same file can then be opened again.
         input.set_value("");

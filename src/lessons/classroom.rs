@@ -5,14 +5,15 @@ use std::sync::Arc;
 
 use leptos::prelude::*;
 use quadtank_lesson::{
-    Answer, Feedback, Lesson, Of, Progress, Record, Step, Task, TaskKind, Tongue, Values, Verdict, check, start_of, with_settings,
+    Answer, Feedback, Lesson, Of, Progress, Record, Step, Task, TaskKind, Tongue, Values, Verdict, check, start_of,
+    with_settings,
 };
 use quadtank_scenario::{Document, Quantities};
 
 use super::course;
 use super::kept;
 use crate::benches::BenchEntry;
-use crate::lab::{Lab, Stage, use_lab};
+use crate::lab::{Lab, Stage};
 use crate::session::{Lock, Panel};
 use crate::share::show_address;
 
@@ -43,6 +44,8 @@ pub struct State {
     start: StoredValue<Option<Document>>,
     /// The state of the bench before the lesson, which comes back after it.
     before: StoredValue<Option<(&'static BenchEntry, Document)>>,
+    /// Whether the student has turned to another step.
+    turned: StoredValue<bool>,
     /// When the clock of the lesson was read last (s).
     read_at_s: StoredValue<f64>,
 }
@@ -72,6 +75,7 @@ impl Classroom {
             said: RwSignal::new(Vec::new()),
             start: StoredValue::new(None),
             before: StoredValue::new(None),
+            turned: StoredValue::new(false),
             read_at_s: StoredValue::new(0.0),
         })))
     }
@@ -142,6 +146,17 @@ impl Classroom {
             self.lab.stage.set(Some(stage));
         }
         self.lab.bench.set(bench);
+    }
+
+    /// Whether the student has turned to another step, who then begins to read at its title.
+    pub fn turned(self) -> bool {
+        self.turned.get_value()
+    }
+
+    /// Turns to another step.
+    pub fn turn_to(self, index: usize) {
+        self.turned.set_value(true);
+        self.open(index);
     }
 
     /// Brings the bench back into the state with which the step began.

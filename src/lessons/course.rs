@@ -90,7 +90,8 @@ pub fn commit(lesson: &Lesson, progress: &Progress) {
             let record = progress.record(&task.id);
             let objective = |field: &str| format!("cmi.objectives.{index}.{field}");
             set(&objective("id"), &task.id);
-            let score = (100 * points_of(task, &record)).checked_div(task.points).unwrap_or(100 * u32::from(record.solved));
+            let score =
+                (100 * points_of(task, &record)).checked_div(task.points).unwrap_or(100 * u32::from(record.solved));
             set(&objective("score.raw"), &score.to_string());
             let status = match (record.is_done(), record.solved) {
                 (true, true) => "completed",

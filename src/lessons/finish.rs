@@ -50,7 +50,8 @@ pub fn Finish(lesson: Arc<Lesson>) -> impl IntoView {
     let next = next_of(&lesson.id).map(|id| {
         view! { <a class="button strong" href=lesson_address(id) data-testid="lesson-on">{say!(lab, lesson.next_lesson)}</a> }
     });
-    let rows = lesson.tasks().map(|(step, task)| view! { <TaskLine lesson=Arc::clone(&lesson) task=task.clone() step /> });
+    let rows =
+        lesson.tasks().map(|(step, task)| view! { <TaskLine lesson=Arc::clone(&lesson) task=task.clone() step /> });
     let rows = rows.collect_view();
     view! {
         <aside class="lesson" aria-label=title data-testid="report">

@@ -24,7 +24,8 @@ pub use panel::LessonPanel;
 pub use place::{SidePage, lesson_address};
 pub use teachers::Teachers;
 
-use crate::lab::{Lab, Notice};
+use crate::lab::{Lab, Notice, use_lab};
+use crate::texts::say;
 
 /// Loads a lesson of the laboratory and begins it.
 pub fn begin(lab: Lab, room: Classroom, id: String, step: Option<usize>) {
@@ -61,6 +62,35 @@ pub fn begin_asked(lab: Lab, room: Classroom) {
     if let Some(id) = id {
         course::begin();
         begin(lab, room, id, step);
+    }
+}
+
+/// The way from a first visit to the first lesson, and to the page for teachers.
+#[component]
+pub fn FirstLesson() -> impl IntoView {
+    /// About how long the first lesson takes (min); its file says the same.
+    const MINUTES: u32 = 8;
+    let (lab, room) = (use_lab(), use_classroom());
+    let go = move |event: leptos::ev::MouseEvent| {
+        if !(event.ctrl_key() || event.meta_key() || event.shift_key()) {
+            event.prevent_default();
+            begin(lab, room, LESSON_IDS[0].to_owned(), None);
+        }
+    };
+    let to_teachers = move |event: leptos::ev::MouseEvent| {
+        event.prevent_default();
+        crate::share::go_to_page(lab, SidePage::Teachers);
+    };
+    let is_embed = lab.flags.with_value(|flags| flags.embed);
+    view! {
+        <p class="ways" hidden=is_embed>
+            <a class="button strong" href=lesson_address(LESSON_IDS[0]) data-testid="first-lesson" on:click=go>
+                {say!(lab, lesson.first, number = 1, minutes = MINUTES)}
+            </a>
+            <a class="button" href=SidePage::Teachers.address() data-testid="first-teachers" on:click=to_teachers>
+                {say!(lab, lesson.teachers)}
+            </a>
+        </p>
     }
 }
 

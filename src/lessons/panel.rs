@@ -44,8 +44,9 @@ fn StepPanel(lesson: Arc<Lesson>, step: Step, index: usize) -> impl IntoView {
     let (lab, room) = (use_lab(), use_classroom());
     let heading = NodeRef::<H2>::new();
     // Whoever goes on by keyboard or screen reader begins at the title of the step.
+    let turned = room.turned();
     Effect::new(move || {
-        if let Some(heading) = heading.get() {
+        if let Some(heading) = heading.get().filter(|_| turned) {
             let _ = heading.focus();
         }
     });
@@ -107,11 +108,11 @@ fn Dots(lesson: Arc<Lesson>, index: usize) -> impl IntoView {
 #[component]
 fn Turn(room: Classroom, lab: Lab, index: usize, count: usize, is_done: Signal<bool>) -> impl IntoView {
     let is_last = index + 1 == count;
-    let on = move |_| if is_last { room.at_end.set(true) } else { room.open(index + 1) };
+    let on = move |_| if is_last { room.at_end.set(true) } else { room.turn_to(index + 1) };
     let name = if is_last { say!(lab, lesson.finish) } else { say!(lab, lesson.next) };
     view! {
         <div class="turn">
-            <button type="button" class="button" data-testid="lesson-back" disabled={index == 0} on:click=move |_| room.open(index - 1)>
+            <button type="button" class="button" data-testid="lesson-back" disabled={index == 0} on:click=move |_| room.turn_to(index - 1)>
                 {say!(lab, lesson.back)}
             </button>
             <button type="button" class="button" data-testid="lesson-restart" on:click=move |_| room.start_over()>

@@ -71,7 +71,8 @@ fn Said(lesson: Arc<Lesson>, task: Arc<Task>) -> impl IntoView {
     let is_marked = task.kind.is_marked();
     let id = task.id.clone();
     let last = Memo::new(move |_| {
-        room.said.with(|said| said.iter().find(|(of, ..)| *of == id).map(|(_, feedback, is_right)| (*feedback, *is_right)))
+        room.said
+            .with(|said| said.iter().find(|(of, ..)| *of == id).map(|(_, feedback, is_right)| (*feedback, *is_right)))
     });
     let verdict = {
         let task = Arc::clone(&task);

@@ -95,7 +95,8 @@ fn report_table(lab: Lab, report: Report) -> impl IntoView {
 fn Answers() -> impl IntoView {
     let lab = use_lab();
     let lessons = load::all();
-    let section = move |index: usize| lessons.with(|lessons| lessons[index].clone()).map(|lesson| guide(lab, index, lesson));
+    let section =
+        move |index: usize| lessons.with(|lessons| lessons[index].clone()).map(|lesson| guide(lab, index, lesson));
     view! {
         <section>
             <h3>{say!(lab, lesson.list)}</h3>
@@ -119,9 +120,7 @@ fn guide(lab: Lab, index: usize, lesson: Arc<Lesson>) -> impl IntoView {
     let asked = RwSignal::new(false);
     let lesson = Arc::clone(&lesson);
     let about = Arc::clone(&lesson);
-    let answers = move || {
-        asked.get().then(|| view! { <ol>{answers_of(lab, &lesson)}</ol> })
-    };
+    let answers = move || asked.get().then(|| view! { <ol>{answers_of(lab, &lesson)}</ol> });
     let lesson = about;
     view! {
         <details data-testid=format!("guide-{}", lesson.id)>
