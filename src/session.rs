@@ -39,6 +39,11 @@ pub trait Bench: Sized + 'static {
     /// The parts of results, see [`part_of`].
     fn found(results: RwSignal<ResultsOf<Self>>) -> Self::Found;
 
+    /// How a unit of a quantity is written, where the document says it: what is not known to it is written as it is.
+    fn unit_name(_session: Session<Self>, unit: &str) -> String {
+        unit.to_owned()
+    }
+
     /// What is remembered besides.
     fn own(document: RwSignal<Self::Document>) -> Self::Own;
 

@@ -57,7 +57,7 @@ const policy = [
   "form-action 'none'",
 ].join('; ');
 
-let single = page.replace(/<link\b[^>]*\brel="(?:modulepreload|preload|stylesheet)"[^>]*>\s*/g, '');
+let single = page.replace(/<link\b[^>]*\brel="(?:modulepreload|preload|stylesheet|manifest)"[^>]*>\s*/g, '');
 single = replaceOnce(single, /<html(?=[\s>])/, () => '<html data-single');
 single = replaceOnce(single, /(?<=http-equiv="Content-Security-Policy" content=")[^"]*/, () => policy);
 single = replaceOnce(single, /(<link\b[^>]*\brel="icon"[^>]*\bhref=")([^"]+)/, (_, before, icon) => `${before}data:image/svg+xml;base64,${base64(icon)}`);

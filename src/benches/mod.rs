@@ -72,6 +72,8 @@ pub struct BenchEntry {
     pub entries: fn(Lab) -> Vec<Entry>,
     /// A quantity by its name, with its unit; follows the results of each frame.
     pub quantity: fn(Lab, &str) -> Option<(f64, &'static str)>,
+    /// How a unit of a quantity is written.
+    pub unit_name: fn(Lab, &str) -> String,
     /// The document.
     pub document: fn(Lab) -> Document,
     /// The document as a file has it.
@@ -112,6 +114,7 @@ impl BenchEntry {
             set_label: |lab, label| session::<B>(lab).document.update(|document| *document.label_mut() = label),
             entries: |lab| session::<B>(lab).document.with_untracked(entries),
             quantity: |lab, name| session::<B>(lab).quantity(name),
+            unit_name: |lab, unit| B::unit_name(session::<B>(lab), unit),
             document: |lab| session::<B>(lab).document.get_untracked().into(),
             json: |lab| session::<B>(lab).document.with_untracked(to_json),
             link: |lab| session::<B>(lab).document.with_untracked(to_link),

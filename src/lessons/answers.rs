@@ -6,7 +6,7 @@ use leptos::prelude::*;
 use quadtank_lesson::{Achieve, Answer, Feedback, NumberTask, Task, TaskKind, goals, shuffled};
 
 use super::classroom::{Present, use_classroom};
-use super::prose::{inline, written};
+use super::prose::{inline, unit_name, written};
 use super::task::kept_answer;
 use crate::lab::use_lab;
 use crate::texts::{say, tr};
@@ -101,7 +101,7 @@ pub fn NumberAnswer(task: Arc<Task>, number: NumberTask) -> impl IntoView {
         None => bad.set(true),
     });
     let disabled = Signal::derive(move || done.get() || text.with(|text| text.trim().is_empty()));
-    let unit = if number.unit == "1" { String::new() } else { number.unit };
+    let unit = move || unit_name(lab, &number.unit);
     let described = format!("{id}-bad");
     view! {
         <div class="number-answer">

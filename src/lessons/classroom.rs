@@ -184,7 +184,14 @@ impl Classroom {
 
     /// Marks an answer and keeps it.
     pub fn answer(self, task: &Task, answer: Answer) -> Verdict {
-        let verdict = untrack(|| self.marked(task, &answer));
+        let verdict = match &task.kind {
+            // The results on the screen may still be those of the state before, so a goal is marked on the document itself.
+            TaskKind::Achieve(_) => check(task, &answer, &self.values_of(Of::Present, &[])),
+            _ => untrack(|| self.marked(task, &answer)),
+        };
+        if matches!(task.kind, TaskKind::Achieve(_)) && !verdict.is_right {
+            return verdict;
+        }
         let feedback = (task.id.clone(), verdict.feedback, verdict.is_right);
         self.change(task, |record| record.take(task, answer, verdict));
         self.said.update(|said| {

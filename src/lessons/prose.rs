@@ -60,11 +60,17 @@ fn link(text: String, href: String) -> AnyView {
     view! { <a href=href target="_blank" rel="noopener">{text}</a> }.into_any()
 }
 
+/// How a unit is written; nothing for a ratio.
+pub fn unit_name(lab: Lab, unit: &str) -> String {
+    if matches!(unit, "1" | "yes/no") { String::new() } else { (lab.bench.get().unit_name)(lab, unit) }
+}
+
 /// A value with its unit as it is written; a dash where there is none.
 pub fn written(lab: Lab, value: Option<f64>, unit: &str, digits: u8) -> String {
     let Some(value) = value else { return "–".to_owned() };
     let number = lab.number_style().significant(value, usize::from(digits));
-    if matches!(unit, "1" | "yes/no") { number } else { format!("{number}\u{a0}{unit}") }
+    let unit = unit_name(lab, unit);
+    if unit.is_empty() { number } else { format!("{number}\u{a0}{unit}") }
 }
 
 fn live(LiveValue { quantity, unit, digits }: LiveValue) -> impl Fn() -> String {
