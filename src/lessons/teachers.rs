@@ -174,7 +174,7 @@ fn answers_of(lab: Lab, lesson: &Lesson) -> impl IntoView + use<> {
 /// The number that is right for the first student.
 fn number_answer(lab: Lab, lesson: &Lesson, step: usize, number: &quadtank_lesson::NumberTask) -> String {
     let varies = lesson.steps[step].vary.iter().any(|variation| variation.among.len() > 1);
-    let state = quadtank_lesson::reference_state(lesson, step, 0);
+    let state = quadtank_lesson::state_before(lesson, step, 0, 0).ok();
     let state = state.and_then(|state| quadtank_lesson::with_settings(&state, &number.set).ok());
     let value = match &state {
         Some(state) => number.answer(&quadtank_scenario::Quantities::of(state)),

@@ -1,43 +1,42 @@
-use std::fmt::Write as _;
-use std::fs::File;
-use std::io::{self, Read, Write as _};
+use std::io;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::error::ErrorKind;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use quadtank::literature::PresetId;
-use quadtank::literature::campestrini::PublishedCase;
-use quadtank::study::level_loop::LevelLoopSetup;
-use quadtank::study::model_free::ModelFreeSetup;
 use quadtank::study::quadruple_tank::setup_of;
 use quadtank::study::relay_tuning::TuningSetup;
 use quadtank_scenario::level_loop::LevelLoopScenario;
 use quadtank_scenario::model_free::ModelFreeScenario;
 use quadtank_scenario::tuning::TuningScenario;
 use quadtank_scenario::{
-    BenchDocument, DOCUMENT_LIMIT, Document, Scenario, ScenarioError, check_length, document_from_bytes,
-    level_loop_cases, model_free_cases, schema_of, to_json,
+    BenchDocument, DOCUMENT_LIMIT, Document, Scenario, ScenarioError, document_from_bytes, schema_of, to_json,
 };
-use serde::Serialize;
 use serde_json::Value;
 use thiserror::Error;
 
 mod andreis;
 mod answers;
+mod check;
+mod files;
 mod level_loop;
 mod level_plot;
+mod mark;
 mod message;
 mod model_free;
 mod plot;
+mod published;
 mod quantities;
 mod report;
 mod tune;
 
 use andreis::TableNumber;
 use answers::{Answers, Drawing, Fault};
+use check::{CheckFault, CheckOptions};
+use files::{bytes_of, file_name, is_standard_stream, print, print_json, write_file};
 use level_loop::SearchOptions;
+use published::{Case, case_of, list_of_cases, list_of_presets, preset_parser};
 
 /// The quadruple-tank laboratory without a screen.
 ///
@@ -136,6 +135,12 @@ enum Command {
         #[arg(long, value_parser = clap::value_parser!(u32).range(1..=4))]
         version: Option<u32>,
     },
+    /// Audit lessons, mark an answer to a task of one, or read the code of a report
+    ///
+    /// `--all` audits: a line on standard error for each fault, with its place, and a line on standard output for a lesson without
+    /// faults. `--task ID` marks the answer on standard input: {"choice": 0}, {"number": 0.0248}, {"order": [0, 2, 1]},
+    /// {"text": "…"}, or a document of the bench where a goal is to be reached. `--report CODE` prints what a code holds.
+    Check(CheckOptions),
     /// Print the JSON Schema of the scenario, or of what a command reports about it
     Schema {
         /// Version of the document: 1 for the quadruple tank, 2 for relay tuning, 3 for model-free control, 4 for a level loop
@@ -176,31 +181,6 @@ enum Format {
     Json,
 }
 
-fn preset_parser() -> impl TypedValueParser<Value = PresetId> {
-    PossibleValuesParser::new(PresetId::ALL.map(PresetId::name))
-        .try_map(|name| PresetId::from_name(&name).ok_or("unknown rig"))
-}
-
-/// A published case of any kind.
-#[derive(Clone, Debug)]
-enum Case {
-    Tuning(PublishedCase),
-    ModelFree(Box<ModelFreeSetup>),
-    LevelLoop(Box<LevelLoopSetup>),
-}
-
-fn case_of(name: &str) -> Result<Case, &'static str> {
-    let model_free = || model_free_cases().find(|(known, ..)| known == name);
-    let level_loop = || level_loop_cases().find(|(known, ..)| known == name);
-    PublishedCase::from_name(name)
-        .map(Case::Tuning)
-        .or_else(|| {
-            model_free().map(|(_, valves, run)| Case::ModelFree(Box::new(ModelFreeSetup::published(valves, run))))
-        })
-        .or_else(|| level_loop().map(|(.., setup)| Case::LevelLoop(Box::new(setup))))
-        .ok_or("unknown case; `quadtank cases` lists them")
-}
-
 /// Why a command was not carried out.
 #[derive(Debug, Error)]
 enum Failure {
@@ -210,6 +190,11 @@ enum Failure {
         "schema: tune reports on relay-tuning sessions and level loops, versions 2 and 4; this is version {version}"
     )]
     NoReport { version: u32 },
+    #[error("{0}")]
+    Check(#[from] CheckFault),
+    /// The faults of lessons, each of which is told by then.
+    #[error("the lesson has faults")]
+    Faults,
     #[error("{file}: {error}")]
     File { file: String, error: io::Error },
 }
@@ -232,7 +217,9 @@ pub fn main() -> ExitCode {
     match execute(cli.command) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            message::tell(&failure);
+            if !matches!(failure, Failure::Faults) {
+                message::tell(&failure);
+            }
             failure.exit_code()
         }
     }
@@ -280,6 +267,7 @@ fn execute(command: Command) -> Result<(), Failure> {
         }
         Command::Presets { name: None } => print(&list_of_presets()),
         Command::Presets { name: Some(id) } => print_document(id.name(), to_json(&Scenario::from(setup_of(id)))),
+        Command::Check(options) => check::run(&options),
         Command::Schema { version, report: None } => print_json(&schema_of(version)),
         Command::Schema { version, report: Some(report) } => {
             print_json(&report.schema(version).ok_or(Failure::NoReport { version })?)
@@ -309,84 +297,11 @@ fn told<T>(file: &Path, result: Result<T, impl Into<Fault>>) -> Result<T, Failur
     result.map_err(|fault| Failure::Document { file: file_name(file), fault: fault.into() })
 }
 
-/// Reads a document from a file or from standard input. A file that is too long is refused by its size; of what has no size,
-/// such as a pipe, not more is read than a document may have, and a byte that tells that there is more.
+/// Reads a document from a file or from standard input.
 fn document(file: &Path) -> Result<Document, Failure> {
-    let failed = |error| Failure::File { file: file_name(file), error };
-    let mut bytes = Vec::new();
-    let limit = DOCUMENT_LIMIT as u64 + 1;
-    if is_standard_stream(file) {
-        io::stdin().lock().take(limit).read_to_end(&mut bytes).map_err(failed)?;
-    } else {
-        let opened = File::open(file).map_err(failed)?;
-        let length = opened.metadata().map_err(failed)?.len();
-        told(file, check_length(usize::try_from(length).unwrap_or(usize::MAX)))?;
-        opened.take(limit).read_to_end(&mut bytes).map_err(failed)?;
-    }
-    told(file, document_from_bytes(&bytes))
-}
-
-/// Writes to standard output. A reader that has seen enough (`quadtank … | head`) is no failure.
-fn print(text: &str) -> Result<(), Failure> {
-    let mut output = io::stdout().lock();
-    match output.write_all(text.as_bytes()).and_then(|()| output.flush()) {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(cannot_print(error)),
-        _ => Ok(()),
-    }
-}
-
-fn cannot_print(error: io::Error) -> Failure {
-    Failure::File { file: "standard output".to_owned(), error }
-}
-
-fn write_file(file: &Path, text: &str) -> Result<(), Failure> {
-    std::fs::write(file, text).map_err(|error| Failure::File { file: file_name(file), error })
-}
-
-fn is_standard_stream(file: &Path) -> bool {
-    file.as_os_str() == "-"
-}
-
-fn file_name(file: &Path) -> String {
-    if is_standard_stream(file) { "standard input".to_owned() } else { file.display().to_string() }
-}
-
-fn print_json<T: Serialize>(value: &T) -> Result<(), Failure> {
-    let text = serde_json::to_string_pretty(value).map_err(|error| cannot_print(error.into()))?;
-    print(&(text + "\n"))
+    told(file, document_from_bytes(&bytes_of(file, DOCUMENT_LIMIT)?))
 }
 
 fn print_document(name: &str, text: Result<String, ScenarioError>) -> Result<(), Failure> {
     print(&(told(Path::new(name), text)? + "\n"))
-}
-
-fn list_of_presets() -> String {
-    PresetId::ALL.map(PresetId::preset).iter().fold(String::new(), |mut list, preset| {
-        let [gamma_1, gamma_2] = preset.plant.valves;
-        let name = preset.id.name();
-        // Writing to a String cannot fail.
-        let _ = writeln!(list, "{name:<33} γ = {gamma_1:.2}, {gamma_2:.2}   {}, {}", preset.source, preset.table);
-        list
-    })
-}
-
-fn list_of_cases() -> String {
-    let tuning = PublishedCase::all().fold(String::new(), |mut list, case| {
-        let place = match case.table {
-            0 => "§6.4, solvents column".to_owned(),
-            88 => "eq. 88".to_owned(),
-            table => format!("Table {table}, row {}", case.row),
-        };
-        // Writing to a String cannot fail.
-        let _ = writeln!(list, "{:<16} Campestrini (2006), {place}", case.name());
-        list
-    });
-    let both = model_free_cases().fold(tuning, |mut list, (name, valves, experiment)| {
-        let _ = writeln!(list, "{name:<16} Junqueira, Neves and Angelico, case {valves:?}, experiment {experiment:?}");
-        list
-    });
-    level_loop_cases().fold(both, |mut list, (name, place, _)| {
-        let _ = writeln!(list, "{name:<24} {place}");
-        list
-    })
 }

@@ -2,6 +2,7 @@
 //! compares both.
 
 /// What a lesson may name of a bench.
+#[derive(Clone, Copy, Debug)]
 pub struct BenchNames {
     /// Its name.
     pub id: &'static str,
@@ -52,6 +53,11 @@ const BENCHES: [BenchNames; 4] = [
         locks: &["plant", "test", "experiment", "objective", "gains"],
     },
 ];
+
+/// The names of all benches.
+pub fn bench_ids() -> [&'static str; BENCHES.len()] {
+    BENCHES.map(|bench| bench.id)
+}
 
 /// What a lesson may name of the bench with an id.
 pub fn bench_names(id: &str) -> Option<&'static BenchNames> {

@@ -1,3 +1,4 @@
+use quadtank_scenario::Quantities;
 use serde::{Deserialize, Serialize};
 
 use super::{Achieve, Condition, Mistake, MistakeKind, NumberTask, Task, TaskKind, Text, in_unit};
@@ -27,6 +28,13 @@ pub trait Values {
     fn shown(&self, name: &str, unit: &str) -> Option<f64> {
         let (value, si) = self.value(name)?;
         in_unit(value, si, unit).ok()
+    }
+}
+
+impl Values for Quantities {
+    fn value(&self, name: &str) -> Option<(f64, &'static str)> {
+        let unit = self.rows().into_iter().find(|row| row.name == name)?.unit;
+        Some((Quantities::value(self, name).ok()??, unit))
     }
 }
 
@@ -84,7 +92,12 @@ pub fn check(task: &Task, answer: &Answer, values: &impl Values) -> Verdict {
 
 /// How far each condition of a goal is met.
 pub fn goals(achieve: &Achieve, values: &impl Values) -> Vec<Goal> {
-    achieve.conditions.iter().map(|condition| condition.goal(values)).collect()
+    conditions_met(&achieve.conditions, values)
+}
+
+/// How far each of some conditions is met.
+pub fn conditions_met(conditions: &[Condition], values: &impl Values) -> Vec<Goal> {
+    conditions.iter().map(|condition| condition.goal(values)).collect()
 }
 
 /// The text of a feedback.
@@ -118,15 +131,17 @@ impl NumberTask {
         Verdict { is_right: false, feedback: self.mistakes.iter().position(is_this).map(Feedback::Mistake) }
     }
 
-    /// The wrong number that a mistake leads to, in the unit of the task.
+    /// The wrong number that a mistake leads to, in the unit of the task; none where there is no such number.
     pub fn mistaken(&self, mistake: &Mistake, answer: Option<f64>, values: &impl Values) -> Option<f64> {
-        match &mistake.is {
-            MistakeKind::Times(factor) => Some(answer? * factor),
-            MistakeKind::Inverse(dividend) => Some(dividend / answer?),
-            MistakeKind::MinusFrom(whole) => Some(whole - answer?),
-            MistakeKind::Value(value) => Some(*value),
-            MistakeKind::Quantity(name) => values.shown(name, &self.unit),
-        }
+        let wrong = match &mistake.is {
+            MistakeKind::Times(factor) => answer? * factor,
+            MistakeKind::Inverse(dividend) => dividend / answer?,
+            MistakeKind::MinusFrom(whole) => whole - answer?,
+            MistakeKind::Value(value) => *value,
+            MistakeKind::Quantity(name) => values.shown(name, &self.unit)?,
+        };
+        // There is no inverse of 0.
+        wrong.is_finite().then_some(wrong)
     }
 }
 

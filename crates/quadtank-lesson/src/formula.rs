@@ -1,4 +1,4 @@
-//! Formulas in the texts of lessons: a few commands of TeX, read into a tree that the page shows as MathML.
+//! Formulas in the texts of lessons: a few commands of TeX, read into a tree that the page shows as `MathML`.
 
 /// A part of a formula.
 #[derive(Clone, Debug, PartialEq)]

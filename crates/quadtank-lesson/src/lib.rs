@@ -10,6 +10,7 @@ mod built_in;
 mod check;
 mod fingerprint;
 mod formula;
+mod glossary;
 mod lesson;
 mod markdown;
 mod progress;
@@ -19,19 +20,20 @@ mod task;
 mod text;
 mod units;
 
-pub use audit::{Fault, FaultKind, audit};
-pub use bench::{BenchNames, bench_names};
+pub use audit::{Fault, FaultKind, Instead, Named, audit};
+pub use bench::{BenchNames, bench_ids, bench_names};
 pub use built_in::LESSON_IDS;
 #[cfg(feature = "built-in")]
 pub use built_in::{BUILT_IN, built_in};
-pub use check::{Answer, Feedback, Goal, Values, Verdict, check, feedback_text, goals};
+pub use check::{Answer, Feedback, Goal, Values, Verdict, check, conditions_met, feedback_text, goals};
 pub use fingerprint::fingerprint;
 pub use formula::{Formula, NAMED_FORMULAS, named_formula, parse_formula};
+pub use glossary::TERMS;
 pub use lesson::{LESSON_LIMIT, Lesson, Start, Step, Variation, read_lesson};
 pub use markdown::{Block, LiveValue, Place, Span, parse_markdown};
 pub use progress::{Progress, Record, SUSPEND_LIMIT, points_of};
 pub use report::{Report, ReportError, TaskReport};
-pub use start::{StartError, reference_state, shuffled, start_of, with_settings};
+pub use start::{StartError, shuffled, start_of, state_before, with_settings};
 pub use task::{
     Achieve, Attempt, Choice, Choose, Condition, Explain, Mistake, MistakeKind, NumberTask, Of, Order, Predict, Task,
     TaskKind, Tolerance,

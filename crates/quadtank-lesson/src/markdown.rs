@@ -51,7 +51,7 @@ pub struct LiveValue {
     pub quantity: String,
     /// The unit in which it is shown.
     pub unit: String,
-    /// Significant digits.
+    /// Significant digits, 1 to 9.
     pub digits: u8,
 }
 
@@ -107,18 +107,15 @@ fn spans(text: &str) -> Vec<Span> {
     let mut plain = String::new();
     let mut rest = text;
     while let Some(first) = rest.chars().next() {
-        match marked(rest) {
-            Some((span, length)) => {
-                if !plain.is_empty() {
-                    spans.push(Span::Plain(std::mem::take(&mut plain)));
-                }
-                spans.push(span);
-                rest = &rest[length..];
+        if let Some((span, length)) = marked(rest) {
+            if !plain.is_empty() {
+                spans.push(Span::Plain(std::mem::take(&mut plain)));
             }
-            None => {
-                plain.push(first);
-                rest = &rest[first.len_utf8()..];
-            }
+            spans.push(span);
+            rest = &rest[length..];
+        } else {
+            plain.push(first);
+            rest = &rest[first.len_utf8()..];
         }
     }
     if !plain.is_empty() {
@@ -156,7 +153,8 @@ fn marked(text: &str) -> Option<(Span, usize)> {
 fn live_value(inside: &str) -> Option<LiveValue> {
     let mut parts = inside.split('|');
     let (quantity, unit) = (parts.next()?.to_owned(), parts.next()?.to_owned());
-    let digits = parts.next().map_or(Some(3), |digits| digits.parse().ok())?;
+    let digits =
+        parts.next().map_or(Some(3), |digits| digits.parse().ok().filter(|digits| (1..=9).contains(digits)))?;
     parts.next().is_none().then_some(LiveValue { quantity, unit, digits })
 }
 

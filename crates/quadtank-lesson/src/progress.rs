@@ -101,7 +101,7 @@ impl Progress {
     /// Points so far, of 100.
     pub fn score(&self, lesson: &Lesson) -> u32 {
         let (points, of) = (self.points(lesson), lesson.points());
-        if of == 0 { 100 } else { (100 * points + of / 2) / of }
+        (100 * points + of / 2).checked_div(of).unwrap_or(100)
     }
 
     /// Whether all tasks of a step are done.

@@ -82,7 +82,7 @@ impl Report {
             fingerprint: progress.fingerprint.clone(),
             name: name.trim().chars().take(LONGEST_NAME).collect(),
             seed: progress.seed,
-            seconds: progress.seconds.round() as u32,
+            seconds: whole(progress.seconds),
             score: progress.score(lesson),
             tasks: tasks.collect(),
         }
@@ -138,6 +138,12 @@ impl Report {
             name: next()?.to_owned(),
         })
     }
+}
+
+/// A time in whole seconds.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a cast saturates, and makes 0 of NaN")]
+fn whole(seconds: f64) -> u32 {
+    seconds.round() as u32
 }
 
 impl TaskReport {

@@ -1,19 +1,25 @@
 use quadtank_scenario::{Document, ScenarioError, document_from_link, published_document};
 use thiserror::Error;
 
-use super::{Lesson, Step};
+use super::{Lesson, Step, TaskKind, Variation};
 
 /// Why a step has no state to begin with.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum StartError {
     /// No published rig or case has this name.
-    #[error("unknown rig or case `{0}`")]
+    #[error("unknown rig or case `{0}`; `quadtank presets` and `quadtank cases` list them")]
     UnknownPreset(String),
     /// Neither the step nor one before it says a state.
     #[error("no step up to this one says a state of the bench")]
     NoState,
+    /// A start has settings only.
+    #[error("a start has a `preset` or a `link`, which settings can change")]
+    NoSource,
+    /// A start says two states.
+    #[error("a start has either a `preset` or a `link`")]
+    TwoStates,
     /// The state is that of another bench.
-    #[error("the state is one of another bench than `{0}`")]
+    #[error("the state is not one of the bench {0}")]
     OtherBench(String),
     /// The state is not allowed.
     #[error("{0}")]
@@ -29,7 +35,8 @@ pub fn start_of(lesson: &Lesson, step: &Step, seed: u32) -> Result<Option<Docume
     let document = match (&start.preset, &start.link) {
         (Some(name), None) => published_document(name).ok_or_else(|| StartError::UnknownPreset(name.clone()))?,
         (None, Some(link)) => document_from_link(link.rsplit_once('#').map_or(link.as_str(), |(_, state)| state))?,
-        _ => return Err(StartError::NoState),
+        (Some(_), Some(_)) => return Err(StartError::TwoStates),
+        (None, None) => return Err(StartError::NoSource),
     };
     if document.bench() != lesson.bench {
         return Err(StartError::OtherBench(lesson.bench.clone()));
@@ -38,34 +45,41 @@ pub fn start_of(lesson: &Lesson, step: &Step, seed: u32) -> Result<Option<Docume
     Ok(Some(with_settings(&document, &settings)?))
 }
 
-/// The state in which a step would begin after the solutions of all steps before; `None` where the lesson says no state.
-pub fn reference_state(lesson: &Lesson, index: usize, seed: u32) -> Option<Document> {
-    let mut present = None;
-    for (place, step) in lesson.steps.iter().enumerate().take(index + 1) {
-        if let Ok(Some(start)) = start_of(lesson, step, seed) {
-            present = Some(start);
-        }
-        if place == index {
-            break;
-        }
-        for task in &step.tasks {
-            if let (super::TaskKind::Achieve(goal), Some(state)) = (&task.kind, &present) {
-                present = with_settings(state, &goal.solution).ok().or(present);
+/// The state when the first `tasks` tasks of a step are done, and the steps before it, with the solutions of the lesson.
+///
+/// # Errors
+/// [`StartError`] where the lesson asks for a state that there is not.
+pub fn state_before(lesson: &Lesson, step: usize, tasks: usize, seed: u32) -> Result<Document, StartError> {
+    let mut state = None;
+    for (index, played) in lesson.steps.iter().enumerate().take(step + 1) {
+        state = start_of(lesson, played, seed)?.or(state);
+        let done = if index == step { tasks } else { played.tasks.len() };
+        for task in played.tasks.iter().take(done) {
+            if let (TaskKind::Achieve(goal), Some(before)) = (&task.kind, &state) {
+                state = Some(with_settings(before, &goal.solution)?);
             }
         }
     }
-    present
+    state.ok_or(StartError::NoState)
 }
 
 /// The settings that a student gets by the seed.
 fn variations(lesson: &Lesson, step: &Step, seed: u32) -> Vec<String> {
-    let place = |path: &str| format!("{} {path}", lesson.id);
-    let chosen = |path: &str, count: usize| shuffled(count, seed, &place(path)).first().copied();
-    let setting = |variation: &super::Variation| {
-        let value = variation.among.get(chosen(&variation.path, variation.among.len())?)?;
+    let setting = |variation: &Variation| {
+        let value = variation.among.get(chosen(lesson, variation, seed)?)?;
         Some(format!("{}={value}", variation.path))
     };
     step.vary.iter().filter_map(setting).collect()
+}
+
+/// Which of the values of a variation a student gets.
+fn chosen(lesson: &Lesson, variation: &Variation, seed: u32) -> Option<usize> {
+    shuffled(variation.among.len(), seed, &format!("{} {}", lesson.id, variation.path)).first().copied()
+}
+
+/// Which of all the numbers that vary a student gets: equal for students with the same lesson.
+pub(super) fn variant(lesson: &Lesson, seed: u32) -> Vec<Option<usize>> {
+    lesson.steps.iter().flat_map(|step| &step.vary).map(|variation| chosen(lesson, variation, seed)).collect()
 }
 
 /// A document with settings such as `setup.valves[0]=0.4`.

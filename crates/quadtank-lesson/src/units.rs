@@ -6,7 +6,7 @@ use thiserror::Error;
 
 /// A unit that does not fit a quantity.
 #[derive(Clone, Debug, PartialEq, Error)]
-#[error("unit {unit} does not fit a quantity in {si}")]
+#[error("the unit `{unit}` does not fit a quantity in `{si}`, but {}", fitting(si))]
 pub struct UnitError {
     /// The unit asked for.
     pub unit: String,
@@ -34,6 +34,12 @@ const UNITS: [(&str, &str, f64); 17] = [
     ("cm/s", "m/s", 0.01),
     ("cm/V", "m/V", 0.01),
 ];
+
+/// The units that fit a quantity, for an error.
+fn fitting(si: &str) -> String {
+    let others = UNITS.iter().filter(|(_, base, _)| *base == si).map(|(unit, ..)| *unit);
+    [si].into_iter().chain(others).map(|unit| format!("`{unit}`")).collect::<Vec<_>>().join(", ")
+}
 
 /// A value of a quantity, which has the unit `si`, in another unit.
 ///

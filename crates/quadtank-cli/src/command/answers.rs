@@ -45,7 +45,7 @@ pub enum Fault {
     NoTuning,
     #[error("level_loop.test: {0}")]
     StepTest(#[from] StepTestFault),
-    #[error("{error}{}", quantities::suggestion(near))]
+    #[error("{error}{}", quantities::suggested_quantities(near))]
     UnknownQuantity { error: UnknownQuantity, near: Vec<&'static str> },
     #[error("{0}")]
     Json(#[from] serde_json::Error),

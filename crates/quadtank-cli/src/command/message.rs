@@ -15,6 +15,11 @@ pub fn tell(message: impl Display) {
     let _ = writeln!(io::stderr(), "{}", one_line(&format!("quadtank: {message}")));
 }
 
+/// Writes one line to standard error that is an item of a list: without `quadtank: `, so that it begins with a file.
+pub fn list(item: impl Display) {
+    let _ = writeln!(io::stderr(), "{}", one_line(&item.to_string()));
+}
+
 /// A text as one line of at most 300 characters without control characters, so that nothing of a document or of a file name
 /// acts on the terminal: what is not printable (line breaks, escape sequences, marks of direction, characters without width)
 /// is written as an escape such as `\u{1b}`. Of a longer text the middle is left out: it begins with the field and ends with

@@ -17,28 +17,31 @@ pub fn only(document: &Document, names: &[String]) -> Result<String, Fault> {
     let quantities = Quantities::of(document);
     let value = |name: &String| match quantities.value(name) {
         Ok(value) => Ok((name.clone(), Value::from(value))),
-        Err(error) => Err(Fault::UnknownQuantity { near: near(name, &quantities), error }),
+        Err(error) => {
+            Err(Fault::UnknownQuantity { near: near(name, quantities.rows().iter().map(|row| row.name)), error })
+        }
     };
     json(&names.iter().map(value).collect::<Result<Map<_, _>, _>>()?)
 }
 
 /// The names that are most like one, best first.
-fn near(name: &str, quantities: &Quantities) -> Vec<&'static str> {
-    let likeness = |known: &'static str| (strsim::jaro_winkler(name, known), known);
-    let mut near: Vec<_> = quantities.rows().iter().map(|row| likeness(row.name)).collect();
+pub fn near<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
+    let likeness = |known: &'a str| (strsim::jaro_winkler(name, known), known);
+    let mut near: Vec<_> = known.into_iter().map(likeness).collect();
     near.retain(|(likeness, _)| *likeness >= ALIKE);
     near.sort_by(|one, other| other.0.total_cmp(&one.0));
     near.into_iter().take(SUGGESTED).map(|(_, known)| known).collect()
 }
 
-/// What a message about an unknown name says of those that are like it.
-pub fn suggestion(near: &[&str]) -> String {
+/// What a message about an unknown name says of those that are like it, if there are any.
+pub fn suggestion(near: &[&str]) -> Option<String> {
     let names: Vec<String> = near.iter().map(|name| format!("`{name}`")).collect();
-    if names.is_empty() {
-        "; `quadtank quantities` lists them".to_owned()
-    } else {
-        format!("; near: {}", names.join(", "))
-    }
+    (!names.is_empty()).then(|| format!("; near: {}", names.join(", ")))
+}
+
+/// The same of a quantity, or where to find its name.
+pub fn suggested_quantities(near: &[&str]) -> String {
+    suggestion(near).unwrap_or_else(|| "; `quadtank quantities` lists them".to_owned())
 }
 
 /// The tables of the benches with documents of a version, or of all of them.
