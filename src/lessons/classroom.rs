@@ -107,7 +107,7 @@ impl Classroom {
         let kept = self.start.with_value(Option::is_some);
         // A step that keeps the state of the one before has none when the lesson begins with it.
         let start = match start_of(&lesson, step, seed) {
-            Ok(None) if !kept => quadtank_lesson::state_before(&lesson, index, 0, seed).map(Some),
+            Ok(None) if !kept => quadtank_lesson::state_before(&lesson, index, 0, seed).ok(),
             start => start.ok().flatten(),
         };
         self.said.set(Vec::new());
