@@ -155,7 +155,9 @@ pub fn GoalList(task: Arc<Task>, goal: Achieve, labels: Vec<Signal<String>>) -> 
         if verdict.is_right {
             room.answer(&task, Answer::Bench);
         } else {
-            room.say_in_passing(&task.id, verdict.feedback.filter(|said| matches!(said, Feedback::Attempt(_))));
+            let said =
+                verdict.feedback.filter(|said| matches!(said, Feedback::Attempt(_)) && untrack(|| room.has_tried()));
+            room.say_in_passing(&task.id, said);
         }
     });
     let row = |(index, (condition, label)): (usize, (quadtank_lesson::Condition, Signal<String>))| {

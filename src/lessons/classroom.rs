@@ -225,6 +225,12 @@ impl Classroom {
         Quantities::of(&with_settings(&state, settings).unwrap_or(state))
     }
 
+    /// Whether the bench is not any more in the state with which the step began.
+    pub fn has_tried(self) -> bool {
+        let present = (self.lab.bench.get_untracked().document)(self.lab);
+        self.start.with_value(|start| start.as_ref() != Some(&present))
+    }
+
     /// Says something about a task without marking it, or nothing any more.
     pub fn say_in_passing(self, id: &str, feedback: Option<Feedback>) {
         let is_said = |said: &Vec<(String, Option<Feedback>, bool)>| {

@@ -83,6 +83,8 @@ fn Said(lesson: Arc<Lesson>, task: Arc<Task>) -> impl IntoView {
                 (false, ..) => tr!(lab, lesson.recorded),
                 (true, true, _) => tr!(lab, lesson.right),
                 (true, false, true) => tr!(lab, lesson.solution_shown),
+                // A remark while the student tries is no verdict.
+                (true, false, false) if record.wrong == 0 => return None,
                 (true, false, false) => tr!(lab, lesson.wrong),
             })
         }

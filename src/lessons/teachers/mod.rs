@@ -1,9 +1,13 @@
 //! The page for who teaches.
 
+mod builder;
+
 use std::sync::Arc;
 
 use leptos::prelude::*;
 use quadtank_lesson::{LESSON_IDS, Lesson, Report, TaskKind};
+
+use builder::Builder;
 
 use super::catalogue::OwnFile;
 use super::classroom::tongue;
@@ -16,17 +20,19 @@ use crate::texts::{say, tr};
 #[component]
 pub fn Teachers() -> impl IntoView {
     let lab = use_lab();
+    let lessons = load::all();
     view! {
         <main class="side-page teachers" id="bench" tabindex="-1" data-testid="teachers">
             <h2>{say!(lab, lesson.teachers)}</h2>
             <p class="lead">{say!(lab, lesson.teachers_lead)}</p>
+            <Builder lessons />
             <ReadCode />
             <section>
                 <h3>{say!(lab, lesson.own)}</h3>
                 <p>{say!(lab, lesson.own_lead)}</p>
                 <OwnFile />
             </section>
-            <Answers />
+            <Answers lessons />
         </main>
     }
 }
@@ -92,9 +98,8 @@ fn report_table(lab: Lab, report: Report) -> impl IntoView {
 
 /// The lessons with outcomes, misconceptions and, behind a click, their answers.
 #[component]
-fn Answers() -> impl IntoView {
+fn Answers(lessons: RwSignal<Vec<Option<Arc<Lesson>>>>) -> impl IntoView {
     let lab = use_lab();
-    let lessons = load::all();
     let section =
         move |index: usize| lessons.with(|lessons| lessons[index].clone()).map(|lesson| guide(lab, index, lesson));
     view! {
