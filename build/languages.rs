@@ -23,4 +23,5 @@ pub struct Language {
 pub const LANGUAGES: &[Language] = &[
     Language { tag: "en", name: "English", decimal: '.', plural: &[("one", "1")] },
     Language { tag: "pt-BR", name: "Português", decimal: ',', plural: &[("one", "0 | 1")] },
+    Language { tag: "es", name: "Español", decimal: ',', plural: &[("one", "1")] },
 ];

@@ -38,6 +38,10 @@ pub fn keep(lab: Lab) {
 
 /// Keeps what is shown: as a step, in the address, in the browser.
 fn settle(lab: Lab) {
+    // What is done in a lesson belongs to the lesson: its address and its progress.
+    if lab.stage.with_untracked(Option::is_some) {
+        return;
+    }
     let bench = lab.bench.get_untracked();
     (bench.record)(lab);
     let is_kept = show_address(&share::kept_reference(lab, bench));

@@ -9,6 +9,7 @@ use super::canvas;
 use super::depth::Depth;
 use super::format::NumberStyle;
 use super::frames::FrameScheduler;
+use super::lessons::{LoadError, SidePage};
 use super::session::{Bench, Lock, Panel, Session};
 use super::start::StartFlags;
 use super::texts::Language;
@@ -26,6 +27,10 @@ const MOST_MAGNIFIED: f64 = 2.0;
 pub enum Notice {
     /// The link or file was not usable; the bench shows what it showed before.
     Refused(ScenarioError),
+    /// A new edition of the site is at hand.
+    NewEdition,
+    /// A lesson cannot be shown.
+    NoLesson(LoadError),
     /// The browser could not read the file.
     NotRead,
     /// Parts of the address were not understood: which.
@@ -77,6 +82,12 @@ pub struct State {
     presents: RwSignal<bool>,
     /// The card that fills the window, by its name, where one does.
     pub large: RwSignal<Option<&'static str>>,
+    /// The page that is shown in place of the benches, if one is.
+    pub side: RwSignal<Option<SidePage>>,
+    /// Whether the site works without a network.
+    pub offline: RwSignal<bool>,
+    /// What a lesson shows of the bench beside it, while one is taken.
+    pub stage: RwSignal<Option<Stage>>,
     /// How much of a bench is shown when the page begins, which says what a bench begins with.
     pub first_depth: Depth,
     /// Whether it was said that nothing is kept.
@@ -87,6 +98,17 @@ pub struct State {
     figures: StoredValue<Vec<Figure>>,
     /// Owns what stays when benches change.
     owner: Owner,
+}
+
+/// What a lesson shows of a bench.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Stage {
+    /// The bench.
+    pub bench: &'static str,
+    /// The cards that are shown.
+    pub panels: Vec<&'static str>,
+    /// The groups of controls that are disabled.
+    pub locks: Vec<&'static str>,
 }
 
 /// A picture of the page, for who shows it elsewhere.
@@ -124,6 +146,9 @@ impl Lab {
             depth: RwSignal::new(depth),
             presents: RwSignal::new(false),
             large: RwSignal::new(None),
+            side: RwSignal::new(flags.page),
+            offline: RwSignal::new(false),
+            stage: RwSignal::new(None),
             first_depth: depth,
             told_not_kept: StoredValue::new(false),
             flags: StoredValue::new(flags),
@@ -205,13 +230,19 @@ impl Lab {
     /// Whether a card is shown.
     pub fn shows(self, panel: Panel) -> bool {
         debug_assert!(self.benches.iter().any(|bench| bench.panels.contains(&panel)), "no bench lists {panel:?}");
-        self.flags.with_value(|flags| flags.shows(panel))
+        match self.stage.with_untracked(|stage| stage.as_ref().map(|stage| stage.panels.contains(&panel.0))) {
+            Some(is_shown) => is_shown,
+            None => self.flags.with_value(|flags| flags.shows(panel)),
+        }
     }
 
     /// Whether a group of controls is disabled.
     pub fn locks(self, lock: Lock) -> bool {
         debug_assert!(self.benches.iter().any(|bench| bench.locks.contains(&lock)), "no bench lists {lock:?}");
-        self.flags.with_value(|flags| flags.locks(lock))
+        match self.stage.with_untracked(|stage| stage.as_ref().map(|stage| stage.locks.contains(&lock.0))) {
+            Some(is_locked) => is_locked,
+            None => self.flags.with_value(|flags| flags.locks(lock)),
+        }
     }
 
     /// Takes a picture up until the view that makes it goes.
@@ -240,6 +271,10 @@ impl Lab {
 
     /// How much of the bench is shown.
     pub fn shown_depth(self) -> Depth {
+        // The cards of a lesson are chosen by its step.
+        if self.stage.with(Option::is_some) {
+            return Depth::Full;
+        }
         self.bench.get().depth(self.depth.get())
     }
 

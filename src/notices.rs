@@ -9,6 +9,8 @@ use super::benches::{load, name_of};
 use super::errors::of_error;
 use super::keep;
 use super::lab::{Lab, Notice, use_lab};
+use super::lessons::LoadError;
+use super::offline;
 use super::texts::tr;
 
 /// How long a notice stays that needs no answer (ms): it lies over the page.
@@ -21,6 +23,18 @@ pub fn Notices() -> impl IntoView {
     let content = move |notice: Notice| {
         match notice {
         Notice::Refused(error) => view! { <div>{tr!(lab, refused.lead)} " " {of_error(lab, DisplayUnit::Cm, &error)}</div> }.into_any(),
+        Notice::NewEdition => view! {
+            <div>{tr!(lab, app.new_edition)}</div>
+            <button type="button" class="button small" data-testid="begin-anew" on:click=|_| offline::begin_anew()>
+                {tr!(lab, app.begin_anew)}
+            </button>
+        }
+        .into_any(),
+        Notice::NoLesson(LoadError::Refused(error)) => {
+            view! { <div>{tr!(lab, lesson.refused)} " " {of_error(lab, DisplayUnit::Cm, &error)}</div> }.into_any()
+        }
+        Notice::NoLesson(LoadError::Unknown(id)) => view! { <div>{tr!(lab, lesson.unknown, id = id)}</div> }.into_any(),
+        Notice::NoLesson(LoadError::NotArrived(name)) => view! { <div>{tr!(lab, lesson.not_arrived, name = name)}</div> }.into_any(),
         Notice::NotRead => view! { <div>{tr!(lab, refused.not_read)}</div> }.into_any(),
         Notice::NotUnderstood(names) => view! { <div>{tr!(lab, app.not_understood, names = names.join(", "))}</div> }.into_any(),
         Notice::Copied => view! { <div>{tr!(lab, app.copied)}</div> }.into_any(),
@@ -64,7 +78,7 @@ pub fn Notices() -> impl IntoView {
     view! {
         <div role="status" aria-live="polite" class="notices">
             {move || lab.notice.get().map(|notice| {
-                let is_bad = matches!(notice, Notice::Refused(_) | Notice::NotRead | Notice::NotUnderstood(_) | Notice::NotKept);
+                let is_bad = matches!(notice, Notice::Refused(_) | Notice::NoLesson(_) | Notice::NotRead | Notice::NotUnderstood(_) | Notice::NotKept);
                 let class = if is_bad { "notice" } else { "notice good" };
                 view! {
                     <div class=class data-testid="notice">

@@ -4,7 +4,7 @@ use std::ops::Deref;
 use std::sync::Arc;
 
 use leptos::prelude::*;
-use quadtank::study::Study;
+use quadtank::study::{Quantity, Study};
 use quadtank_scenario::BenchDocument;
 
 use super::depth::Depth;
@@ -38,6 +38,11 @@ pub trait Bench: Sized + 'static {
 
     /// The parts of results, see [`part_of`].
     fn found(results: RwSignal<ResultsOf<Self>>) -> Self::Found;
+
+    /// How a unit of a quantity is written, where the document says it: what is not known to it is written as it is.
+    fn unit_name(_session: Session<Self>, unit: &str) -> String {
+        unit.to_owned()
+    }
 
     /// What is remembered besides.
     fn own(document: RwSignal<Self::Document>) -> Self::Own;
@@ -190,6 +195,13 @@ impl<B: Bench> Session<B> {
     /// Changes the setup.
     pub fn edit(self, change: impl FnOnce(&mut SetupOf<B>)) {
         self.document.update(|document| change(document.setup_mut()));
+    }
+
+    /// A quantity by its name and its unit, of the results of the last frame; follows them.
+    pub fn quantity(self, name: &str) -> Option<(f64, &'static str)> {
+        let quantity = Quantity::find(B::Study::QUANTITIES, name)?;
+        let value = self.results.with(|results| quantity.value(results))?;
+        Some((value, quantity.unit))
     }
 
     /// A part of the setup, for controls.

@@ -5,14 +5,28 @@ use leptos::prelude::*;
 use super::benches::BenchEntry;
 use super::download::{copy, download_text};
 use super::lab::{Lab, Notice};
+use super::lessons::SidePage;
 use super::naming::file_name;
 use super::start::StartFlags;
-use quadtank_scenario::{Document, ScenarioError, check_length, document_from_bytes, document_from_link};
+use quadtank_scenario::{DOCUMENT_LIMIT, Document, ScenarioError, document_from_bytes, document_from_link};
 
 /// What stands before the link text in the fragment of an address.
 const PREFIX: &str = "lab=";
 /// A reference to this page without its query.
 pub const BARE: &str = "?";
+
+/// Shows a page beside the benches, which Back leaves.
+pub fn go_to_page(lab: Lab, page: SidePage) {
+    let here = lab.bench.get_untracked();
+    if lab.side.get_untracked().is_none() {
+        show_address(&kept_reference(lab, here));
+    }
+    if let Ok(history) = window().history() {
+        let reference = query_with("", &[("page", page.name()), ("bench", here.id)]);
+        let _ = history.push_state_with_url(&leptos::wasm_bindgen::JsValue::NULL, "", Some(&reference));
+    }
+    lab.side.set(Some(page));
+}
 
 /// The document in the fragment of the address, if there is one.
 pub fn from_address() -> Option<Result<Document, ScenarioError>> {
@@ -100,9 +114,10 @@ pub fn show_address(address: &str) -> bool {
 
 /// Shows another bench. It is a step of the browser's history, so that Back comes back to this one.
 pub fn go_to(lab: Lab, bench: &'static BenchEntry) {
-    if lab.bench.get_untracked() == bench {
+    if lab.bench.get_untracked() == bench && lab.side.get_untracked().is_none() {
         return;
     }
+    lab.side.set(None);
     let here = lab.bench.get_untracked();
     show_address(&kept_reference(lab, here));
     let nothing = leptos::wasm_bindgen::JsValue::NULL;
@@ -115,6 +130,7 @@ pub fn go_to(lab: Lab, bench: &'static BenchEntry) {
 /// Shows what the address asks for after a step in the browser's history.
 pub fn follow_address(lab: Lab) {
     let flags = StartFlags::parse(&search(), lab.benches);
+    lab.side.set(flags.page);
     if let Some(depth) = flags.view {
         lab.depth.set(depth);
     }
@@ -143,13 +159,19 @@ pub fn save(lab: Lab) {
 /// Opens an experiment from a file. One that is too long is refused by its size.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of bytes")]
 pub fn open_file(lab: Lab, file: &web_sys::File) {
-    if let Err(error) = check_length(file.size() as usize) {
-        return lab.notice.set(Some(Notice::Refused(error)));
+    read_file(lab, file, DOCUMENT_LIMIT, move |bytes| lab.open(document_from_bytes(&bytes)));
+}
+
+/// Reads a file of at most `limit` bytes, and hands them to `then`.
+pub fn read_file(lab: Lab, file: &web_sys::File, limit: usize, then: impl FnOnce(Vec<u8>) + 'static) {
+    let length = file.size() as usize;
+    if length > limit {
+        return lab.notice.set(Some(Notice::Refused(ScenarioError::TooLong { length, max: limit })));
     }
     let bytes = wasm_bindgen_futures::JsFuture::from(file.array_buffer());
     leptos::task::spawn_local(async move {
         match bytes.await {
-            Ok(buffer) => lab.open(document_from_bytes(&js_sys::Uint8Array::new(&buffer).to_vec())),
+            Ok(buffer) => then(js_sys::Uint8Array::new(&buffer).to_vec()),
             Err(_) => lab.notice.set(Some(Notice::NotRead)),
         }
     });

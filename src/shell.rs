@@ -4,14 +4,19 @@ use leptos::ev;
 use leptos::html::Input;
 use leptos::prelude::*;
 use leptos::wasm_bindgen::JsCast;
+use quadtank_lesson::LESSON_IDS;
 
 use super::benches::{BENCHES, BenchEntry};
 use super::depth::Depth;
+use super::glossary::Glossary;
 use super::handout::{self, Handout};
 use super::keep;
 use super::lab::{Lab, Notice, use_lab};
+use super::lessons::{self, Catalogue, Classroom, LessonPanel, SidePage, Teachers, use_classroom};
+use super::messages;
 use super::naming::{ExperimentName, NameFields};
 use super::notices::Notices;
+use super::offline;
 use super::share;
 use super::start::StartFlags;
 use super::stopped::Stopped;
@@ -41,6 +46,12 @@ pub fn Laboratory(
 ) -> impl IntoView {
     let lab = start(benches);
     provide_context(lab);
+    let room = Classroom::new(lab);
+    provide_context(room);
+    lessons::begin_asked(lab, room);
+    messages::talk(lab, room);
+    offline::keep_site(lab);
+    Effect::new(move || show_on_root("data-lesson", if lab.stage.with(Option::is_some) { "yes" } else { "no" }));
     Effect::new(move || show_on_root("data-theme", if lab.dark.get() { "dark" } else { "light" }));
     Effect::new(move || show_on_root("data-view", lab.shown_depth().name()));
     Effect::new(move || show_on_root("data-present", if lab.is_presenting() { "yes" } else { "no" }));
@@ -57,6 +68,8 @@ pub fn Laboratory(
             close_menus(None);
         }
     });
+    // What was done is handed over also when the page goes.
+    let on_hide = window_event_listener(ev::pagehide, move |_| room.close());
     let on_key = window_event_listener(ev::keydown, move |event| match event.key().as_str() {
         "Escape" => {
             close_menus(None);
@@ -68,6 +81,7 @@ pub fn Laboratory(
     });
     on_cleanup(move || {
         on_address.remove();
+        on_hide.remove();
         on_press.remove();
         on_click.remove();
         on_key.remove();
@@ -91,11 +105,76 @@ pub fn Laboratory(
                 {say!(lab, app.end_presenting)}
             </button>
             <Notices />
-            {benches.iter().map(|bench| view! { <KeptBench bench /> }).collect_view()}
+            <LessonHeader />
+            <div class="desk" hidden=move || lab.side.get().is_some()>
+                <LessonPanel />
+                {benches.iter().map(|bench| view! { <KeptBench bench /> }).collect_view()}
+            </div>
+            {move || lab.side.get().map(side_page)}
             {embed.then(|| view! { <EmbedFooter /> })}
             <Handout />
         </div>
     }
+}
+
+/// The page that is shown in place of the benches.
+fn side_page(page: SidePage) -> AnyView {
+    match page {
+        SidePage::Lessons => view! { <Catalogue /> }.into_any(),
+        SidePage::Glossary => view! { <Glossary /> }.into_any(),
+        SidePage::Teachers => view! { <Teachers /> }.into_any(),
+    }
+}
+
+/// A link to a page beside the benches.
+#[component]
+fn SideLink(page: SidePage, name: Signal<String>) -> impl IntoView {
+    let lab = use_lab();
+    let go = move |event: ev::MouseEvent| {
+        if !(event.ctrl_key() || event.meta_key() || event.shift_key()) {
+            event.prevent_default();
+            share::go_to_page(lab, page);
+        }
+    };
+    view! {
+        <a
+            class="button"
+            href=page.address()
+            data-testid=format!("to-{}", page.name())
+            aria-current=move || (lab.side.get() == Some(page)).then_some("page")
+            on:click=go
+        >
+            {name}
+        </a>
+    }
+}
+
+/// The header during a lesson: which one, points, and the way out.
+#[component]
+fn LessonHeader() -> impl IntoView {
+    let (lab, room) = (use_lab(), use_classroom());
+    let content = move || {
+        let lesson = room.lesson.get()?;
+        let number = LESSON_IDS.iter().position(|id| *id == lesson.id);
+        let which = move || number.map(|index| tr!(lab, lesson.number, number = index + 1, count = LESSON_IDS.len()));
+        let (of, count, minutes) = (lesson.points(), lesson.steps.len(), lesson.minutes as usize);
+        let state = move || {
+            let (points, step) = room.progress.with(|p| p.as_ref().map_or((0, 0), |p| (p.points(&lesson), p.step)));
+            let left = (minutes * (count - step.min(count))).div_ceil(count);
+            tr!(lab, lesson.state_of_play, points = points, of = of, minutes = left)
+        };
+        Some(view! {
+            <header class="top lesson-top">
+                <span class="brand">{say!(lab, app.title)}</span>
+                <span class="remark">{which}</span>
+                <span class="spacer"></span>
+                <span class="remark" data-testid="lesson-points">{state}</span>
+                <LanguageChoice />
+                <button type="button" class="button" data-testid="leave-lesson" on:click=move |_| room.leave()>{say!(lab, lesson.leave)}</button>
+            </header>
+        })
+    };
+    content
 }
 
 /// A bench, made when it is shown first and hidden while another one is. It stays, because signals that outlive a view keep
@@ -110,13 +189,12 @@ fn KeptBench(bench: &'static BenchEntry) -> impl IntoView {
             seen.set(true);
         }
     });
-    let class = if lab.flags.with_value(|f| f.panels.is_empty()) {
-        bench.class.to_owned()
-    } else {
-        format!("{} chosen", bench.class)
-    };
+    let has_choice = lab.flags.with_value(|f| !f.panels.is_empty());
+    // A step of a lesson may show other cards; they are made anew then.
+    let stage = Memo::new(move |_| lab.stage.get().filter(|stage| stage.bench == bench.id));
     let content = move || {
-        let class = class.clone();
+        let is_chosen = has_choice || stage.with(Option::is_some);
+        let class = if is_chosen { format!("{} chosen", bench.class) } else { bench.class.to_owned() };
         // The id is that of the bench that is shown.
         seen.get().then(|| {
             view! {
@@ -187,6 +265,7 @@ fn Header() -> impl IntoView {
             <button type="button" class="button skip" data-testid="skip" on:click=|_| focus_bench()>{say!(lab, app.skip)}</button>
             <h1>{say!(lab, app.title)}</h1>
             <BenchMenu />
+            <SideLink page=SidePage::Lessons name=say!(lab, lesson.lessons) />
             <ExperimentName />
             <span class="spacer"></span>
             <DepthSwitch />
@@ -208,7 +287,12 @@ fn Header() -> impl IntoView {
             <details class="menu about">
                 <summary>{say!(lab, app.about)}</summary>
                 <div>
+                    <p class="links">
+                        <SideLink page=SidePage::Glossary name=say!(lab, lesson.glossary) />
+                        <SideLink page=SidePage::Teachers name=say!(lab, lesson.teachers) />
+                    </p>
                     <p>{say!(lab, app.footer)}</p>
+                    <p hidden=move || !lab.offline.get() data-testid="offline">{say!(lab, app.offline)}</p>
                     <p>{say!(lab, app.keys)}</p>
                     <p>{say!(lab, app.links)}</p>
                     <p>{say!(lab, app.privacy)}</p>

@@ -2,11 +2,13 @@
 //!
 //! `embed=1` hides the header and packs the bench; `panels=valves,zeros` shows only these cards; `lock=valves,gains` disables
 //! these controls; `lang=TAG` and `theme=light|dark` choose without being remembered; `preset=NAME` loads a
-//! published rig; `bench=NAME` shows that bench; `view=explore`, `lab` or `full` says how much of it. A bench lists its own cards and controls. What is not
+//! published rig; `bench=NAME` shows that bench; `lesson=ID` and `step=N` begin a lesson; `page=lessons`, `glossary` or `teachers` shows that page; `origins=https://…` names the pages around a frame
+//! that may talk with it; `view=explore`, `lab` or `full` says how much of it. A bench lists its own cards and controls. What is not
 //! understood has no effect, and the page names it.
 
 use super::benches::BenchEntry;
 use super::depth::Depth;
+use super::lessons::SidePage;
 use super::session::{Lock, Panel};
 use super::texts::Language;
 use quadtank::literature::PresetId;
@@ -42,6 +44,14 @@ pub struct StartFlags {
     pub dark: Option<bool>,
     /// Rig to begin with.
     pub preset: Option<PresetId>,
+    /// The lesson to begin.
+    pub lesson: Option<String>,
+    /// Its step, from 0.
+    pub step: Option<usize>,
+    /// The page to show in place of a bench.
+    pub page: Option<SidePage>,
+    /// The origins of pages that may hear and say something, see [`messages`](super::messages).
+    pub origins: Vec<String>,
     /// What was not understood, fit to be shown.
     pub unknown: Vec<String>,
 }
@@ -91,6 +101,23 @@ impl StartFlags {
             "view" => {
                 self.view = Depth::of_name(value);
                 self.view.is_some()
+            }
+            "lesson" => {
+                self.lesson = Some(value.to_owned()).filter(|id| !id.is_empty());
+                self.lesson.is_some()
+            }
+            "step" => {
+                self.step = value.parse::<usize>().ok().and_then(|step| step.checked_sub(1));
+                self.step.is_some()
+            }
+            "origins" => {
+                self.origins =
+                    value.split(',').map(str::trim).filter(|origin| !origin.is_empty()).map(str::to_owned).collect();
+                self.origins.iter().all(|origin| origin.starts_with("https://") || origin.starts_with("http://"))
+            }
+            "page" => {
+                self.page = SidePage::of_name(value);
+                self.page.is_some()
             }
             "preset" => {
                 self.preset = PresetId::ALL.into_iter().find(|id| id.name() == value);

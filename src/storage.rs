@@ -16,6 +16,9 @@ pub const DEPTH: Preference = Preference("quadtank-depth");
 /// The link of the last experiment.
 pub const LAST: Preference = Preference("quadtank-last");
 
+/// Whether the progress in lessons may be kept: `yes` or `no`.
+pub const LESSONS_KEPT: Preference = Preference("quadtank-lessons-kept");
+
 impl Preference {
     /// What was remembered, if anything.
     pub fn read(self) -> Option<String> {

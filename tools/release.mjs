@@ -1,5 +1,6 @@
 // The step between Trunk and a static host: the page gets its content security policy and must not break it.
-import { readFileSync, writeFileSync } from 'node:fs';
+import { createHash } from 'node:crypto';
+import { readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { SITE_POLICY, fail, inlineParts, withPolicy } from './html.mjs';
 
 const PAGE = 'dist/index.html';
@@ -8,4 +9,17 @@ const html = readFileSync(PAGE, 'utf8');
 const inline = inlineParts(html);
 if (inline.length > 0) fail(`${PAGE} has inline parts that its policy refuses: ${inline.join(' ')}`);
 writeFileSync(PAGE, withPolicy(html, SITE_POLICY));
+
+// The service worker learns what the site has; the edition is named after all of it.
+const OFFLINE = 'dist/offline.js';
+const files = readdirSync('dist', { recursive: true, withFileTypes: true })
+  .filter((entry) => entry.isFile() && !['offline.js', 'quadtank.html', 'embed.js'].includes(entry.name))
+  .map((entry) => `${entry.parentPath.slice('dist'.length + 1)}/${entry.name}`.replace(/^\//, ''))
+  .sort();
+const edition = createHash('sha256');
+for (const file of files) edition.update(readFileSync(`dist/${file}`));
+const worker = readFileSync(OFFLINE, 'utf8')
+  .replace('@EDITION@', edition.digest('hex').slice(0, 12))
+  .replace("['@FILES@']", JSON.stringify(['./', ...files.filter((file) => file !== 'index.html')]));
+writeFileSync(OFFLINE, worker);
 console.log('build: the site is in dist/');

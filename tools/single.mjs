@@ -1,7 +1,7 @@
 // The whole laboratory as one file, dist/quadtank.html, made of the site in dist/. It opens by double click and in
 // <iframe sandbox="allow-scripts">, where nothing beside it can be loaded; so all of it is inside, and a policy names
 // each part by its hash.
-import { existsSync, readFileSync, writeFileSync } from 'node:fs';
+import { existsSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { fail, hashOf, replaceOnce } from './html.mjs';
 
 const SITE = 'dist';
@@ -42,6 +42,12 @@ const sheets = [...page.matchAll(/<link\b[^>]*\brel="stylesheet"[^>]*\bhref="([^
 const style = inside('style', sheets.map(([, href]) => read(href)).join('\n'));
 if (/url\(|@import/.test(style)) fail('the style sheets load something; the single file cannot');
 
+/** The lessons, which the site loads one by one. */
+const lessons = readdirSync(`${SITE}/lessons`)
+  .sort()
+  .map((name) => `<script type="application/json" id="lesson-${name.slice(3, -5)}">${read(`lessons/${name}`).replaceAll('<', '\\u003c')}</script>`)
+  .join('');
+
 const policy = [
   "default-src 'none'",
   `script-src ${hashOf(script)} 'wasm-unsafe-eval'`,
@@ -51,7 +57,7 @@ const policy = [
   "form-action 'none'",
 ].join('; ');
 
-let single = page.replace(/<link\b[^>]*\brel="(?:modulepreload|preload|stylesheet)"[^>]*>\s*/g, '');
+let single = page.replace(/<link\b[^>]*\brel="(?:modulepreload|preload|stylesheet|manifest)"[^>]*>\s*/g, '');
 single = replaceOnce(single, /<html(?=[\s>])/, () => '<html data-single');
 single = replaceOnce(single, /(?<=http-equiv="Content-Security-Policy" content=")[^"]*/, () => policy);
 single = replaceOnce(single, /(<link\b[^>]*\brel="icon"[^>]*\bhref=")([^"]+)/, (_, before, icon) => `${before}data:image/svg+xml;base64,${base64(icon)}`);
@@ -60,7 +66,7 @@ single = replaceOnce(single, /<\/head>/, (end) => `<style>${style}</style>${end}
 single = replaceOnce(
   single,
   /<\/body>/,
-  (end) => `<script type="text/plain" id="wasm">${base64(wasm)}</script><script type="module">${script}</script>${end}`,
+  (end) => `${lessons}<script type="text/plain" id="wasm">${base64(wasm)}</script><script type="module">${script}</script>${end}`,
 );
 
 const loaded = single.replace(/<(script|style)\b[^>]*>[^]*?<\/\1>/g, '').match(/<(?:link|script|img)\b[^>]*\b(?:href|src)="(?!data:)[^"]*"/);

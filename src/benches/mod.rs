@@ -70,6 +70,12 @@ pub struct BenchEntry {
     pub set_label: fn(Lab, Label),
     /// All numbers and choices of its setup.
     pub entries: fn(Lab) -> Vec<Entry>,
+    /// A quantity by its name, with its unit; follows the results of each frame.
+    pub quantity: fn(Lab, &str) -> Option<(f64, &'static str)>,
+    /// How a unit of a quantity is written.
+    pub unit_name: fn(Lab, &str) -> String,
+    /// The document.
+    pub document: fn(Lab) -> Document,
     /// The document as a file has it.
     pub json: fn(Lab) -> Result<String, ScenarioError>,
     /// The document as a link has it.
@@ -107,6 +113,9 @@ impl BenchEntry {
             label: |lab| session::<B>(lab).document.with(|document| document.label().clone()),
             set_label: |lab, label| session::<B>(lab).document.update(|document| *document.label_mut() = label),
             entries: |lab| session::<B>(lab).document.with_untracked(entries),
+            quantity: |lab, name| session::<B>(lab).quantity(name),
+            unit_name: |lab, unit| B::unit_name(session::<B>(lab), unit),
+            document: |lab| session::<B>(lab).document.get_untracked().into(),
             json: |lab| session::<B>(lab).document.with_untracked(to_json),
             link: |lab| session::<B>(lab).document.with_untracked(to_link),
         }

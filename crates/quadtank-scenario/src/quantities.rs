@@ -51,27 +51,30 @@ pub(super) fn rows_of<S: Study>() -> Vec<QuantityRow> {
 
 /// The results of a document, to be asked for quantities. The document is computed once; what takes a search of its own is
 /// computed when it is asked for.
-pub struct Quantities {
-    bench: &'static str,
-    results: Box<dyn Results>,
-}
+pub struct Quantities(Box<dyn Results>);
 
 /// Results whose type the bench knows.
 trait Results {
-    /// A quantity; `None` for a name that is not in the table.
-    fn value(&self, name: &str) -> Option<Option<f64>>;
+    fn bench(&self) -> &'static str;
+    fn value(&self, name: &str) -> Result<Option<f64>, UnknownQuantity>;
     fn rows(&self) -> Vec<QuantityRow>;
 }
 
-struct ResultsOf<S: Study>(S::Results);
+/// The results of a document of a bench.
+struct ResultsOf<D: BenchDocument>(<D::Study as Study>::Results);
 
-impl<S: Study> Results for ResultsOf<S> {
-    fn value(&self, name: &str) -> Option<Option<f64>> {
-        Quantity::find(S::QUANTITIES, name).map(|quantity| quantity.value(&self.0))
+impl<D: BenchDocument> Results for ResultsOf<D> {
+    fn bench(&self) -> &'static str {
+        D::BENCH
+    }
+
+    fn value(&self, name: &str) -> Result<Option<f64>, UnknownQuantity> {
+        let unknown = || UnknownQuantity { name: name.to_owned(), bench: D::BENCH };
+        Quantity::find(D::Study::QUANTITIES, name).map(|quantity| quantity.value(&self.0)).ok_or_else(unknown)
     }
 
     fn rows(&self) -> Vec<QuantityRow> {
-        rows_of::<S>()
+        rows_of::<D::Study>()
     }
 }
 
@@ -87,8 +90,7 @@ impl Quantities {
     }
 
     fn computed<D: BenchDocument>(document: &D) -> Self {
-        let results = D::Study::update(document.setup(), &[], None);
-        Self { bench: D::BENCH, results: Box::new(ResultsOf::<D::Study>(results)) }
+        Self(Box::new(ResultsOf::<D>(D::Study::update(document.setup(), &[], None))))
     }
 
     /// The quantity with this name; `None` where it does not exist for this document.
@@ -96,12 +98,12 @@ impl Quantities {
     /// # Errors
     /// [`UnknownQuantity`] for a name that the bench does not have.
     pub fn value(&self, name: &str) -> Result<Option<f64>, UnknownQuantity> {
-        self.results.value(name).ok_or_else(|| UnknownQuantity { name: name.to_owned(), bench: self.bench })
+        self.0.value(name)
     }
 
     /// All quantities of the bench, in the order of their table.
     pub fn rows(&self) -> Vec<QuantityRow> {
-        self.results.rows()
+        self.0.rows()
     }
 }
 
@@ -119,6 +121,6 @@ impl Document {
 
 impl fmt::Debug for Quantities {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Quantities").field("bench", &self.bench).finish_non_exhaustive()
+        f.debug_struct("Quantities").field("bench", &self.0.bench()).finish_non_exhaustive()
     }
 }

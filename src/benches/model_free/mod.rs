@@ -22,7 +22,7 @@ use session::Session;
 
 /// What is shown at the chosen depth.
 fn cards(session: Session) -> impl IntoView {
-    let is_first = Memo::new(move |_| session.lab.depth.get() == Depth::Explore);
+    let is_first = Memo::new(move |_| session.lab.shown_depth() == Depth::Explore);
     move || if is_first.get() { view! { <explore::Explore /> }.into_any() } else { all_cards(session).into_any() }
 }
 

@@ -15,6 +15,7 @@ use crate::texts::{say, terms, tr};
 use crate::widgets::{
     Card, ChartCanvas, ChartMenu, DataTable, Readout, Sentence, Text, TimeAxis, TimeSurface, ZoomButtons, unmarked,
 };
+use quadtank::control::LoopMode;
 use quadtank::sim::{EventKind, LoopMetrics, NoResponse, Settling};
 use quadtank::study::quadruple_tank::Run;
 use quadtank::study::{StudyError, StudyFault};
@@ -194,6 +195,11 @@ fn of_steps(session: Session, run: &Run) -> Vec<String> {
         return vec![why(session, 0, reason)];
     }
     let has_load = session.throttled.setup.with(|s| !s.experiment.load_steps.is_empty());
+    let is_manual =
+        session.throttled.setup.with(|s| s.controller.loops.iter().all(|l| !matches!(l.mode, LoopMode::Automatic)));
+    if reasons == [Some(NoResponse::NoStep); 2] && is_manual {
+        return vec![tr!(lab, responses.sentence_manual)];
+    }
     if reasons == [Some(NoResponse::NoStep); 2] {
         return vec![if has_load { tr!(lab, responses.load_alone) } else { tr!(lab, responses.sentence_still) }];
     }

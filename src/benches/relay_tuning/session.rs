@@ -85,6 +85,18 @@ impl Bench for RelayTuning {
         Own { case, guide: Guide::new() }
     }
 
+    /// Units of time are those of the plant; those of input and output are the plant's own and have no name.
+    fn unit_name(session: Session, unit: &str) -> String {
+        let time = session.throttled.setup.with(|setup| time_unit(&setup.plant));
+        match unit {
+            "time" => time.to_owned(),
+            "rad/time" => format!("rad/{time}"),
+            "input" | "output" | "input/output" | "output/input" => String::new(),
+            "output time" => time.to_owned(),
+            other => other.to_owned(),
+        }
+    }
+
     fn title(lab: Lab) -> String {
         tr!(lab, app.relay_tuning)
     }

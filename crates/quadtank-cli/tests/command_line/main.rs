@@ -5,6 +5,7 @@ mod elements;
 mod level_loop;
 mod model_free;
 mod quadruple;
+mod quantities;
 mod reports;
 mod schema;
 mod set;

@@ -16,7 +16,7 @@ use super::bounded_work::draw::Draw;
 
 const DICTIONARY: &str = include_str!("../../src/dictionary-4.jsonl");
 
-fn published() -> impl Iterator<Item = LevelLoopScenario> {
+pub fn published() -> impl Iterator<Item = LevelLoopScenario> {
     let cases = LevelPresetId::ALL.into_iter().flat_map(|id| PublishedDisturbance::ALL.map(|of| (id, of)));
     cases.map(|(id, disturbance)| LevelLoopScenario::from(published_setup(id, disturbance)))
 }

@@ -14,6 +14,7 @@ mod noise;
 mod nothing_ignored;
 mod parameters;
 mod quadruple;
+mod quantities;
 mod random;
 mod rest;
 mod tuning;

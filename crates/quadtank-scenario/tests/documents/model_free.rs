@@ -6,7 +6,7 @@ use quadtank::study::model_free::ModelFreeSetup;
 use quadtank_scenario::model_free::ModelFreeScenario;
 use quadtank_scenario::{Document, LINK_LIMIT, document_from_json, document_from_link, limits, to_json, to_link};
 
-fn published() -> impl Iterator<Item = ModelFreeScenario> {
+pub fn published() -> impl Iterator<Item = ModelFreeScenario> {
     let cases = PublishedValves::ALL.into_iter().flat_map(|valves| PublishedExperiment::ALL.map(|run| (valves, run)));
     cases.map(|(valves, run)| ModelFreeScenario::from(ModelFreeSetup::published(valves, run)))
 }

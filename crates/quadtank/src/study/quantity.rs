@@ -14,9 +14,33 @@ pub struct Quantity<R: 'static> {
 }
 
 /// The units of quantities; `1` is a ratio, and of `yes/no` yes is 1 and no is 0.
-pub const UNITS: [&str; 19] = [
-    "1", "yes/no", "s", "1/s", "rad", "rad/s", "m", "m s", "m s²", "m² s", "m²", "V", "m³/s", "m⁶/s²", "signal",
-    "signal s", "unit", "unit s", "m/(s V)",
+///
+/// `signal` is the unit of the signals of a level loop. Plants of the relay-tuning bench have units of their own: `time`, `input` and
+/// `output`.
+pub const UNITS: [&str; 23] = [
+    "1",
+    "yes/no",
+    "s",
+    "1/s",
+    "rad",
+    "rad/s",
+    "m",
+    "m s",
+    "m s²",
+    "m²",
+    "m² s",
+    "m³/s",
+    "m⁶/s²",
+    "V",
+    "m/(s V)",
+    "signal",
+    "time",
+    "rad/time",
+    "input",
+    "output",
+    "output time",
+    "output/input",
+    "input/output",
 ];
 
 impl<R: 'static> Quantity<R> {

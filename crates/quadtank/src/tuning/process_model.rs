@@ -55,6 +55,22 @@ impl ProcessModel {
         }
     }
 
+    /// Gain K; `None` for an integrator.
+    pub fn gain(&self) -> Option<f64> {
+        match *self {
+            Self::SelfRegulating { gain, .. } => Some(gain),
+            Self::Integrating { .. } => None,
+        }
+    }
+
+    /// Time constant τ (s); `None` for an integrator.
+    pub fn time_constant_s(&self) -> Option<f64> {
+        match *self {
+            Self::SelfRegulating { time_constant_s, .. } => Some(time_constant_s),
+            Self::Integrating { .. } => None,
+        }
+    }
+
     /// Slope of the answer to a unit step (1/s): K/τ, or K'.
     pub fn slope(&self) -> f64 {
         match *self {

@@ -14,6 +14,13 @@ pub struct UltimatePoint {
     pub period: f64,
 }
 
+impl UltimatePoint {
+    /// Frequency (rad per unit of time).
+    pub fn frequency(&self) -> f64 {
+        TAU / self.period
+    }
+}
+
 /// A rule that makes controller settings of an ultimate point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]

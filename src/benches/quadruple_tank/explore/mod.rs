@@ -11,6 +11,7 @@ use super::replay::replay_changes;
 use super::rig::Rig;
 use super::session::{release_levels, use_session};
 use super::valves::ValveMapCard;
+use crate::lessons::FirstLesson;
 use crate::texts::{say, tr};
 use crate::widgets::{Card, marked};
 
@@ -24,7 +25,10 @@ pub fn Explore() -> impl IntoView {
     on_cleanup(move || release_levels(session));
     view! {
         <div class="explore">
-            <p class="lead">{move || marked(&tr!(lab, explore.lead))}</p>
+            <div class="lead">
+                <p>{move || marked(&tr!(lab, explore.lead))}</p>
+                <FirstLesson />
+            </div>
             <Card name="bigrig" title=say!(lab, explore.rig)>
                 <Rig />
                 <p class="hint">{say!(lab, explore.hint)}</p>

@@ -3,7 +3,7 @@
 use nalgebra::Matrix2;
 
 use crate::control::PidMatrix;
-use crate::linear::{Complex, Margins, TransferFunction, TransferMatrix};
+use crate::linear::{Complex, Margins, TransferFunction, TransferMatrix, locus_values};
 use crate::tuning::{
     Design, LimitCycle, Oscillation, TuningError, complete_response, limit_cycles, modulus_estimator, response_at,
     sine_test, with_integrator,
@@ -27,6 +27,15 @@ pub struct Recovered {
     pub exact: Matrix2<Complex>,
 }
 
+/// Where both characteristic loci are at the critical frequency.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlacedLoci {
+    /// The one that is nearest to the target.
+    pub placed: Complex,
+    /// The other one, which the placement of one locus leaves to itself.
+    pub other: Complex,
+}
+
 impl PlantStudy {
     /// How far from −1 the loci stay with a root; `None` where the search is beyond its bound on work.
     ///
@@ -34,6 +43,19 @@ impl PlantStudy {
     /// What is wrong with the plant.
     pub fn margins(&self, root: &DesignRoot) -> Result<Option<Margins>, TuningError> {
         Ok(Design::new(&self.plant, PidMatrix::decentralised(root.controllers))?.margins())
+    }
+
+    /// Where the loci are at a frequency with a root, derivative filters included, the one near `target` (real and imaginary part)
+    /// told from the other.
+    ///
+    /// # Errors
+    /// What is wrong with the plant.
+    pub fn placed_loci(&self, root: &DesignRoot, frequency: f64, target: [f64; 2]) -> Result<PlacedLoci, TuningError> {
+        let design = Design::new(&self.plant, PidMatrix::decentralised(root.controllers))?;
+        let [a, b] = locus_values(&design.ratio(frequency));
+        let off = |locus: Complex| (locus - Complex::new(target[0], target[1])).norm();
+        let (placed, other) = if off(a) <= off(b) { (a, b) } else { (b, a) };
+        Ok(PlacedLoci { placed, other })
     }
 
     /// All four responses at the ultimate frequency without a model (Campestrini 2006, eqs. 122 and 123): the first column by
@@ -100,6 +122,7 @@ mod tests {
     use super::super::{TestKind, Tested, TuningPlant, TuningSetup};
     use super::*;
     use crate::literature::campestrini::PublishedPlant;
+    use crate::tuning::{Action, PlacementMethod};
 
     fn study(setup: &TuningSetup) -> (PlantStudy, Oscillation) {
         let study = PlantStudy::of(&setup.plant).unwrap();
@@ -121,6 +144,24 @@ mod tests {
                 assert!((measured - exact).norm() < 5e-3 * exact.norm(), "{plant:?}: {measured} {exact}");
             }
         }
+    }
+
+    #[test]
+    fn placement_of_one_locus_leaves_the_other_to_itself() {
+        let setup = TuningSetup::on(TuningPlant::Published(PublishedPlant::WoodBerry));
+        let study = PlantStudy::of(&setup.plant).unwrap();
+        let target = Complex::new(setup.design.target[0], setup.design.target[1]);
+        let placed = |method: PlacementMethod| {
+            let mut setup = setup.clone();
+            (setup.design.method, setup.design.action) = (method, Action::Pi);
+            let design = study.design(&setup).unwrap().unwrap();
+            study.placed_loci(&design.roots[0], design.frequency, setup.design.target).unwrap()
+        };
+        let one = placed(PlacementMethod::OneLocus);
+        assert!((one.placed - target).norm() < 1e-9 && (one.other - target).norm() > 1e-2, "{one:?}");
+        // A double eigenvalue: rounding shows as its square root.
+        let both = placed(PlacementMethod::BothLoci);
+        assert!((both.placed - target).norm() < 1e-6 && (both.other - target).norm() < 1e-6, "{both:?}");
     }
 
     #[test]

@@ -17,7 +17,7 @@ mod steady_state;
 
 pub use critical_reading::CriticalReading;
 pub use design::{Comparison, ControllerForms, DesignRoot, Designed, StepResponse};
-pub use details::Recovered;
+pub use details::{PlacedLoci, Recovered};
 pub use element::{Element, ElementFault};
 pub use mend::Mend;
 pub use plant::TuningPlant;

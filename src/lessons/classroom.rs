@@ -1,0 +1,337 @@
+//! The lesson that is taken: its step, what was answered, and the bench beside it.
+
+use std::ops::Deref;
+use std::sync::Arc;
+
+use leptos::prelude::*;
+use quadtank_lesson::{
+    Answer, Feedback, Lesson, Of, Progress, Record, Step, Task, TaskKind, Tongue, Values, Verdict, check, start_of,
+    with_settings,
+};
+use quadtank_scenario::{Document, Quantities};
+
+use super::course;
+use super::kept;
+use crate::benches::BenchEntry;
+use crate::lab::{Lab, Stage};
+use crate::session::{Lock, Panel};
+use crate::share::show_address;
+
+/// The class room of this page. A handle of one pointer, as [`Lab`].
+#[derive(Clone, Copy)]
+pub struct Classroom(&'static State);
+
+impl Deref for Classroom {
+    type Target = State;
+
+    fn deref(&self) -> &State {
+        self.0
+    }
+}
+
+/// What the class room holds.
+pub struct State {
+    lab: Lab,
+    /// The lesson that is taken.
+    pub lesson: RwSignal<Option<Arc<Lesson>>>,
+    /// What was done in it.
+    pub progress: RwSignal<Option<Progress>>,
+    /// Whether the report is shown in place of a step.
+    pub at_end: RwSignal<bool>,
+    /// What was said last about each task of the open step.
+    pub said: RwSignal<Vec<(String, Option<Feedback>, bool)>>,
+    /// The state with which the step began.
+    start: StoredValue<Option<Document>>,
+    /// The state of the bench before the lesson, which comes back after it.
+    before: StoredValue<Option<(&'static BenchEntry, Document)>>,
+    /// Whether the student has turned to another step.
+    turned: StoredValue<bool>,
+    /// When the clock of the lesson was read last (s).
+    read_at_s: StoredValue<f64>,
+}
+
+/// The class room of this page.
+pub fn use_classroom() -> Classroom {
+    expect_context()
+}
+
+/// The bench as it stands, for tasks about it; follows its results.
+pub struct Present(pub Lab);
+
+impl Values for Present {
+    fn value(&self, name: &str) -> Option<(f64, &'static str)> {
+        (self.0.bench.get().quantity)(self.0, name)
+    }
+}
+
+impl Classroom {
+    /// A class room without a lesson.
+    pub fn new(lab: Lab) -> Self {
+        Self(Box::leak(Box::new(State {
+            lab,
+            lesson: RwSignal::new(None),
+            progress: RwSignal::new(None),
+            at_end: RwSignal::new(false),
+            said: RwSignal::new(Vec::new()),
+            start: StoredValue::new(None),
+            before: StoredValue::new(None),
+            turned: StoredValue::new(false),
+            read_at_s: StoredValue::new(0.0),
+        })))
+    }
+
+    /// Begins a lesson, or goes on with it at `step` or where it was left.
+    pub fn begin(self, lesson: Lesson, step: Option<usize>) {
+        let progress = course::resumed(&lesson)
+            .or_else(|| kept::read(&lesson))
+            .unwrap_or_else(|| Progress::new(&lesson, kept::new_seed()));
+        let step = step.filter(|step| *step < lesson.steps.len()).unwrap_or(progress.step);
+        if self.before.with_value(Option::is_none) {
+            let bench = self.lab.bench.get_untracked();
+            self.before.set_value(Some((bench, (bench.document)(self.lab))));
+        }
+        self.read_at_s.set_value(now_s());
+        batch(|| {
+            self.at_end.set(false);
+            self.progress.set(Some(progress));
+            self.lesson.set(Some(Arc::new(lesson)));
+        });
+        self.open(step);
+    }
+
+    /// Opens a step: brings the bench into its state, and shows its cards.
+    pub fn open(self, index: usize) {
+        let Some(lesson) = self.lesson.get_untracked() else { return };
+        let Some(step) = lesson.steps.get(index) else { return };
+        let seed = self.progress.with_untracked(|progress| progress.as_ref().map_or(0, |progress| progress.seed));
+        let kept = self.start.with_value(Option::is_some);
+        // A step that keeps the state of the one before has none when the lesson begins with it.
+        let start = match start_of(&lesson, step, seed) {
+            Ok(None) if !kept => quadtank_lesson::state_before(&lesson, index, 0, seed).ok(),
+            start => start.ok().flatten(),
+        };
+        self.said.set(Vec::new());
+        self.at_end.set(false);
+        self.progress.update(|progress| {
+            if let Some(progress) = progress {
+                progress.step = index;
+            }
+        });
+        if let Some(document) = start {
+            self.lab.open(Ok(document));
+        }
+        self.lab.large.set(None);
+        self.start.set_value(Some((self.lab.bench.get_untracked().document)(self.lab)));
+        self.set_stage(&lesson, step);
+        show_address(&format!("?lesson={}&step={}{}", lesson.id, index + 1, kept_flags(self.lab)));
+        self.keep();
+    }
+
+    /// Shows the cards of a step; those that give the answer away come when its tasks are done.
+    fn set_stage(self, lesson: &Lesson, step: &Step) {
+        let Some(bench) = self.lab.benches.iter().find(|bench| bench.id == lesson.bench) else { return };
+        let is_done = |task: &Task| self.record(&task.id).is_done();
+        let reveals = step.tasks.iter().all(is_done);
+        let is_shown = |panel: &&Panel| {
+            let has = |names: &[String]| names.iter().any(|name| name == panel.0);
+            has(&step.panels) && (reveals || !has(&step.reveal))
+        };
+        let is_locked = |lock: &&Lock| step.lock.iter().any(|name| name == lock.0);
+        let stage = Stage {
+            bench: bench.id,
+            panels: bench.panels.iter().filter(is_shown).map(|panel| panel.0).collect(),
+            locks: bench.locks.iter().filter(is_locked).map(|lock| lock.0).collect(),
+        };
+        if self.lab.stage.with_untracked(|shown| shown.as_ref() != Some(&stage)) {
+            self.lab.stage.set(Some(stage));
+        }
+        self.lab.bench.set(bench);
+    }
+
+    /// Whether the student has turned to another step, who then begins to read at its title.
+    pub fn turned(self) -> bool {
+        self.turned.get_value()
+    }
+
+    /// Turns to another step.
+    pub fn turn_to(self, index: usize) {
+        self.turned.set_value(true);
+        self.open(index);
+    }
+
+    /// Brings the bench back into the state with which the step began.
+    pub fn start_over(self) {
+        if let Some(document) = self.start.get_value() {
+            self.lab.open(Ok(document));
+        }
+    }
+
+    /// The step that is open, and its place.
+    pub fn step(self) -> Option<(usize, Step)> {
+        let index = self.progress.with(|progress| progress.as_ref().map(|progress| progress.step))?;
+        self.lesson.with(|lesson| Some((index, lesson.as_ref()?.steps.get(index)?.clone())))
+    }
+
+    /// What was done with a task; not followed.
+    fn record(self, task: &str) -> Record {
+        self.progress.with_untracked(|progress| progress.as_ref().map(|p| p.record(task)).unwrap_or_default())
+    }
+
+    /// What was done with a task.
+    pub fn followed_record(self, task: &str) -> Record {
+        self.progress.with(|progress| progress.as_ref().map(|p| p.record(task)).unwrap_or_default())
+    }
+
+    /// Marks an answer and keeps it.
+    pub fn answer(self, task: &Task, answer: Answer) -> Verdict {
+        let verdict = match &task.kind {
+            // The results on the screen may still be those of the state before, so a goal is marked on the document itself.
+            TaskKind::Achieve(_) => check(task, &answer, &self.values_of(Of::Present, &[])),
+            _ => untrack(|| self.marked(task, &answer)),
+        };
+        if matches!(task.kind, TaskKind::Achieve(_)) && !verdict.is_right {
+            return verdict;
+        }
+        let feedback = (task.id.clone(), verdict.feedback, verdict.is_right);
+        self.change(task, |record| record.take(task, answer, verdict));
+        self.said.update(|said| {
+            said.retain(|(id, ..)| *id != task.id);
+            said.push(feedback);
+        });
+        verdict
+    }
+
+    /// Marks an answer without taking it up; follows the bench where the task is about it.
+    pub fn marked(self, task: &Task, answer: &Answer) -> Verdict {
+        match &task.kind {
+            TaskKind::Number(number) if number.of == Of::Start || !number.set.is_empty() => {
+                check(task, answer, &self.values_of(number.of, &number.set))
+            }
+            _ => check(task, answer, &Present(self.lab)),
+        }
+    }
+
+    /// The right number of a task in its unit.
+    pub fn right_number(self, number: &quadtank_lesson::NumberTask) -> Option<f64> {
+        untrack(|| number.answer(&self.values_of(number.of, &number.set)))
+    }
+
+    fn values_of(self, of: Of, settings: &[String]) -> Quantities {
+        let present = || (self.lab.bench.get_untracked().document)(self.lab);
+        let state = match of {
+            Of::Start => self.start.get_value().unwrap_or_else(present),
+            Of::Present => present(),
+        };
+        Quantities::of(&with_settings(&state, settings).unwrap_or(state))
+    }
+
+    /// Whether the bench is not any more in the state with which the step began.
+    pub fn has_tried(self) -> bool {
+        let present = (self.lab.bench.get_untracked().document)(self.lab);
+        self.start.with_value(|start| start.as_ref() != Some(&present))
+    }
+
+    /// Says something about a task without marking it, or nothing any more.
+    pub fn say_in_passing(self, id: &str, feedback: Option<Feedback>) {
+        let is_said = |said: &Vec<(String, Option<Feedback>, bool)>| {
+            said.iter().find(|(of, ..)| of == id).and_then(|(_, feedback, _)| *feedback)
+        };
+        if self.said.with_untracked(is_said) != feedback {
+            self.said.update(|said| {
+                said.retain(|(of, ..)| of != id);
+                said.extend(feedback.map(|feedback| (id.to_owned(), Some(feedback), false)));
+            });
+        }
+    }
+
+    /// Brings the bench to a solution of a goal, which then gives no points.
+    pub fn show_solution(self, task: &Task) {
+        let TaskKind::Achieve(goal) = &task.kind else { return };
+        self.change(task, |record| record.shown = true);
+        if let Some(state) = self.start.get_value()
+            && let Ok(solved) = with_settings(&state, &goal.solution)
+        {
+            self.lab.open(Ok(solved));
+        }
+    }
+
+    /// Takes one more hint of a task.
+    pub fn take_hint(self, task: &Task) {
+        self.change(task, |record| record.hints = (record.hints + 1).min(task.hints.len() as u32));
+    }
+
+    fn change(self, task: &Task, change: impl FnOnce(&mut Record)) {
+        self.progress.update(|progress| {
+            if let Some(progress) = progress {
+                change(progress.records.entry(task.id.clone()).or_default());
+            }
+        });
+        if let (Some(lesson), Some((_, step))) = (self.lesson.get_untracked(), untrack(|| self.step())) {
+            self.set_stage(&lesson, &step);
+        }
+        self.keep();
+    }
+
+    /// Reads the clock and keeps what was done.
+    pub fn keep(self) {
+        let now = now_s();
+        let spent = (now - self.read_at_s.get_value()).clamp(0.0, 120.0);
+        self.read_at_s.set_value(now);
+        let Some(lesson) = self.lesson.get_untracked() else { return };
+        self.progress.update_untracked(|progress| {
+            if let Some(progress) = progress {
+                progress.seconds += spent;
+            }
+        });
+        self.progress.with_untracked(|progress| {
+            if let Some(progress) = progress {
+                kept::write(progress);
+                course::commit(&lesson, progress);
+            }
+        });
+    }
+
+    /// The page goes: what was done is handed over.
+    pub fn close(self) {
+        self.keep();
+        course::finish();
+    }
+
+    /// Leaves the lesson; the bench comes back as it was before.
+    pub fn leave(self) {
+        self.keep();
+        course::finish();
+        self.lab.stage.set(None);
+        self.lesson.set(None);
+        self.progress.set(None);
+        self.start.set_value(None);
+        if let Some((bench, document)) = self.before.try_update_value(Option::take).flatten() {
+            self.lab.open(Ok(document));
+            self.lab.bench.set(bench);
+            show_address(&crate::share::kept_reference(self.lab, bench));
+        }
+    }
+}
+
+/// The language in which a lesson is shown.
+pub fn tongue(lab: Lab, lesson: &Lesson) -> Tongue {
+    lesson.tongue(Tongue::of_tag(lab.language.get().tag()).unwrap_or(Tongue::En))
+}
+
+/// Language and theme of the address, and whether it is an embed, which an address keeps.
+fn kept_flags(lab: Lab) -> String {
+    lab.flags.with_value(|flags| {
+        let mut kept = String::new();
+        if flags.embed {
+            kept.push_str("&embed=1");
+        }
+        if let Some(language) = flags.language {
+            kept.push_str(&format!("&lang={}", language.tag()));
+        }
+        kept
+    })
+}
+
+fn now_s() -> f64 {
+    js_sys::Date::now() / 1000.0
+}

@@ -1,0 +1,134 @@
+//! The text and the tasks of a step, beside the bench.
+
+use std::sync::Arc;
+
+use leptos::html::H2;
+use leptos::prelude::*;
+use quadtank_lesson::{Lesson, Step};
+
+use super::classroom::{Classroom, tongue, use_classroom};
+use super::finish::Finish;
+use super::prose::Prose;
+use super::task::TaskView;
+use crate::lab::{Lab, use_lab};
+use crate::texts::{say, tr};
+
+/// The lesson that is taken; nothing without one.
+#[component]
+pub fn LessonPanel() -> impl IntoView {
+    let room = use_classroom();
+    let at = Memo::new(move |_| {
+        let step = room.progress.with(|progress| progress.as_ref().map(|progress| progress.step));
+        let id = room.lesson.with(|lesson| lesson.as_ref().map(|lesson| lesson.id.clone()));
+        (id, step, room.at_end.get())
+    });
+    move || {
+        let (_, step, at_end) = at.get();
+        let lesson = room.lesson.get_untracked()?;
+        let index = step?;
+        Some(match at_end {
+            true => view! { <Finish lesson /> }.into_any(),
+            false => view! { <StepPanel step=lesson.steps.get(index)?.clone() index lesson /> }.into_any(),
+        })
+    }
+}
+
+/// A text of a lesson in the language of the page.
+pub fn shown(lab: Lab, lesson: &Arc<Lesson>, text: quadtank_lesson::Text) -> Signal<String> {
+    let lesson = Arc::clone(lesson);
+    Signal::derive(move || text.shown(tongue(lab, &lesson)).to_owned())
+}
+
+#[component]
+fn StepPanel(lesson: Arc<Lesson>, step: Step, index: usize) -> impl IntoView {
+    let (lab, room) = (use_lab(), use_classroom());
+    let heading = NodeRef::<H2>::new();
+    // Whoever goes on by keyboard or screen reader begins at the title of the step.
+    let turned = room.turned();
+    Effect::new(move || {
+        if let Some(heading) = heading.get().filter(|_| turned) {
+            let _ = heading.focus();
+        }
+    });
+    let count = lesson.steps.len();
+    let is_done = Memo::new({
+        let lesson = Arc::clone(&lesson);
+        move |_| room.progress.with(|progress| progress.as_ref().is_some_and(|p| p.is_step_done(&lesson, index)))
+    });
+    let title = shown(lab, &lesson, step.title.clone());
+    let lesson_title = shown(lab, &lesson, lesson.title.clone());
+    let text = shown(lab, &lesson, step.text.clone());
+    let after = step.after.clone().map(|after| {
+        let after = shown(lab, &lesson, after);
+        view! { <div class="after" hidden=move || !is_done.get() data-testid="after"><Prose text=after /></div> }
+    });
+    let tasks = step.tasks.iter().cloned().map(|task| {
+        let lesson = Arc::clone(&lesson);
+        view! { <TaskView lesson task index /> }
+    });
+    view! {
+        <aside class="lesson" aria-label=lesson_title data-testid="lesson">
+            <div class="lesson-text">
+                <Dots lesson=Arc::clone(&lesson) index />
+                <p class="lesson-title">{lesson_title}</p>
+                <h2 tabindex="-1" node_ref=heading data-testid="step-title">
+                    {move || tr!(lab, lesson.step, number = index + 1, title = title.get())}
+                </h2>
+                <Prose text />
+                {tasks.collect_view()}
+                {after}
+            </div>
+            <Turn room lab index count is_done=is_done.into() />
+        </aside>
+    }
+}
+
+/// How far the lesson is, a mark for each step.
+#[component]
+fn Dots(lesson: Arc<Lesson>, index: usize) -> impl IntoView {
+    let (lab, room) = (use_lab(), use_classroom());
+    let count = lesson.steps.len();
+    let dots = (0..count).map(|step| {
+        let lesson = Arc::clone(&lesson);
+        let class = move || {
+            let done = room.progress.with(|progress| progress.as_ref().is_some_and(|p| p.is_step_done(&lesson, step)));
+            match (step == index, done) {
+                (true, _) => "here",
+                (false, true) => "done",
+                (false, false) => "",
+            }
+        };
+        view! { <i class=class></i> }
+    });
+    let name = move || tr!(lab, lesson.progress, number = index + 1, count = count);
+    view! { <div class="dots" role="img" aria-label=name>{dots.collect_view()}</div> }
+}
+
+/// Back, start over, and on.
+#[component]
+fn Turn(room: Classroom, lab: Lab, index: usize, count: usize, is_done: Signal<bool>) -> impl IntoView {
+    let is_last = index + 1 == count;
+    let on = move |_| if is_last { room.at_end.set(true) } else { room.turn_to(index + 1) };
+    let name = if is_last { say!(lab, lesson.finish) } else { say!(lab, lesson.next) };
+    view! {
+        <div class="turn">
+            <button type="button" class="button" data-testid="lesson-back" disabled={index == 0} on:click=move |_| room.turn_to(index - 1)>
+                {say!(lab, lesson.back)}
+            </button>
+            <button type="button" class="button" data-testid="lesson-restart" on:click=move |_| room.start_over()>
+                {say!(lab, lesson.start_over)}
+            </button>
+            <span class="spacer"></span>
+            <button
+                type="button"
+                class="button strong"
+                data-testid="lesson-next"
+                aria-disabled=move || (!is_done.get()).then_some("true")
+                title=move || if is_done.get() { String::new() } else { tr!(lab, lesson.answer_first) }
+                on:click=move |event| if is_done.get_untracked() { on(event) }
+            >
+                {name}
+            </button>
+        </div>
+    }
+}

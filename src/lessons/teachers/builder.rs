@@ -1,0 +1,193 @@
+//! Makes the address and the HTML of a bench or lesson in a course page.
+
+use std::sync::Arc;
+
+use leptos::prelude::*;
+use quadtank::literature::PresetId;
+use quadtank_lesson::{LESSON_IDS, Lesson};
+
+use crate::benches::{BenchEntry, name_of};
+use crate::download::copy;
+use crate::lab::{Lab, use_lab};
+use crate::lessons::classroom::tongue;
+use crate::lessons::place::absolute;
+use crate::session::{Lock, Panel};
+use crate::texts::{Language, say, tr};
+use crate::widgets::{Choice, Select};
+
+/// Height of a frame to begin with (CSS px).
+const USUAL_HEIGHT: &str = "720";
+
+/// What is embedded.
+#[derive(Clone, Copy, PartialEq)]
+enum Subject {
+    Lesson(&'static str),
+    Bench(&'static BenchEntry),
+}
+
+impl Subject {
+    fn name(self) -> String {
+        match self {
+            Self::Lesson(id) => format!("lesson-{id}"),
+            Self::Bench(bench) => format!("bench-{}", bench.id),
+        }
+    }
+}
+
+/// A lesson or a bench with its cards, locks and rig; language, height; what to paste, and how it looks.
+#[component]
+pub fn Builder(lessons: RwSignal<Vec<Option<Arc<Lesson>>>>) -> impl IntoView {
+    let lab = use_lab();
+    let subject = RwSignal::new(Subject::Lesson(LESSON_IDS[0]));
+    let language = RwSignal::new(lab.language.get_untracked());
+    let preset = RwSignal::new(None::<PresetId>);
+    let panels = RwSignal::new(Vec::<Panel>::new());
+    let locks = RwSignal::new(Vec::<Lock>::new());
+    let height = RwSignal::new(USUAL_HEIGHT.to_owned());
+    let previewed = RwSignal::new(None::<String>);
+    let name = move |subject: Subject| match subject {
+        Subject::Bench(bench) => (bench.title)(lab),
+        Subject::Lesson(id) => lessons.with(|lessons| title_of(lab, lessons, id)),
+    };
+    let subjects = Signal::derive(move || {
+        let of_lessons = LESSON_IDS.into_iter().map(Subject::Lesson);
+        let all = of_lessons.chain(lab.benches.iter().map(Subject::Bench));
+        all.map(|subject| Choice::new(subject, subject.name(), name(subject))).collect::<Vec<_>>()
+    });
+    let take = Callback::new(move |chosen: Subject| {
+        subject.set(chosen);
+        panels.set(Vec::new());
+        locks.set(Vec::new());
+        previewed.set(None);
+    });
+    let languages = Signal::derive(|| Language::ALL.map(|l| Choice::new(l, l.tag(), l.name())).to_vec());
+    let query = Memo::new(move |_| {
+        let mut query = format!("?embed=1&lang={}", language.get().tag());
+        match subject.get() {
+            Subject::Lesson(id) => query.push_str(&format!("&lesson={id}")),
+            Subject::Bench(bench) => {
+                query.push_str(&format!("&bench={}", bench.id));
+                query.extend(preset.get().map(|id| format!("&preset={}", id.name())));
+                query.push_str(&list("panels", panels.get().iter().map(|panel| panel.0)));
+                query.push_str(&list("lock", locks.get().iter().map(|lock| lock.0)));
+            }
+        }
+        query
+    });
+    let code = Memo::new(move |_| {
+        let height = height.get().parse::<u32>().unwrap_or(720).clamp(200, 3000);
+        let (address, title) =
+            (absolute(&query.get()).replace('&', "&amp;"), name(subject.get()).replace('"', "&quot;"));
+        format!(
+            "<iframe src=\"{address}\" title=\"{title}\" width=\"100%\" height=\"{height}\" style=\"border:0\" allow=\"clipboard-write\"></iframe>"
+        )
+    });
+    let copied = RwSignal::new(false);
+    let on_copy = move |_| copy(&code.get_untracked(), move |done| copied.set(done));
+    let choices = move || match subject.get() {
+        Subject::Lesson(_) => None,
+        Subject::Bench(bench) => Some(view! { <BenchChoices bench preset panels locks /> }),
+    };
+    let preview = move || {
+        previewed
+            .get()
+            .map(|address| view! { <iframe class="preview" title=say!(lab, lesson.preview) src=address></iframe> })
+    };
+    view! {
+        <section data-testid="builder">
+            <h3>{say!(lab, lesson.builder)}</h3>
+            <p>{say!(lab, lesson.builder_lead)}</p>
+            <div class="builder">
+                <Select id="builder-subject" name=say!(lab, lesson.what) choices=subjects chosen=subject on_choose=take disabled=false />
+                <Select
+                    id="builder-language"
+                    name=say!(lab, app.language)
+                    choices=languages
+                    chosen=language
+                    on_choose=Callback::new(move |chosen| language.set(chosen))
+                    disabled=false
+                />
+                <label>
+                    {say!(lab, lesson.height)} " "
+                    <input type="number" min="200" max="3000" step="20" class="text-field" data-testid="builder-height"
+                        prop:value=move || height.get() on:input=move |event| height.set(event_target_value(&event)) />
+                    " px"
+                </label>
+            </div>
+            {choices}
+            <textarea readonly rows="3" class="code" data-testid="builder-code" aria-label=say!(lab, lesson.embed) prop:value=move || code.get()></textarea>
+            <p class="links">
+                <button type="button" class="button strong" data-testid="builder-copy" on:click=on_copy>
+                    {move || if copied.get() { tr!(lab, lesson.copied) } else { tr!(lab, lesson.copy_html) }}
+                </button>
+                <button type="button" class="button" data-testid="builder-preview" on:click=move |_| previewed.set(Some(query.get_untracked()))>
+                    {say!(lab, lesson.preview)}
+                </button>
+                <a class="button" target="_blank" rel="noopener" href=move || query.get()>{say!(lab, lesson.open_alone)}</a>
+            </p>
+            {preview}
+        </section>
+    }
+}
+
+fn title_of(lab: Lab, lessons: &[Option<Arc<Lesson>>], id: &'static str) -> String {
+    let index = LESSON_IDS.iter().position(|known| *known == id).unwrap_or_default();
+    match &lessons[index] {
+        Some(lesson) => format!("{}. {}", index + 1, lesson.title.shown(tongue(lab, lesson))),
+        None => format!("{}. {id}", index + 1),
+    }
+}
+
+/// A flag with a list; nothing for an empty one.
+fn list<'a>(flag: &str, names: impl Iterator<Item = &'a str>) -> String {
+    let names: Vec<&str> = names.collect();
+    if names.is_empty() { String::new() } else { format!("&{flag}={}", names.join(",")) }
+}
+
+/// Rig, cards and locks of a bench.
+#[component]
+fn BenchChoices(
+    bench: &'static BenchEntry,
+    preset: RwSignal<Option<PresetId>>,
+    panels: RwSignal<Vec<Panel>>,
+    locks: RwSignal<Vec<Lock>>,
+) -> impl IntoView {
+    let lab = use_lab();
+    let rigs = Signal::derive(move || {
+        let none = Choice::new(None, "usual", tr!(lab, lesson.usual_rig));
+        let known = PresetId::ALL.into_iter().map(|id| Choice::new(Some(id), id.name(), name_of(lab, id)));
+        std::iter::once(none).chain(known).collect::<Vec<_>>()
+    });
+    // The other benches begin with a rig of their own.
+    let has_rigs = bench == &lab.benches[0];
+    let panel_boxes = bench.panels.iter().map(|&panel| boxed(panel.0, panel, panels)).collect_view();
+    let lock_boxes = bench.locks.iter().map(|&lock| boxed(lock.0, lock, locks)).collect_view();
+    view! {
+        {has_rigs.then(|| view! {
+            <Select id="builder-preset" name=say!(lab, lesson.rig) choices=rigs chosen=preset
+                on_choose=Callback::new(move |chosen| preset.set(chosen)) disabled=false />
+        })}
+        <fieldset class="boxes"><legend>{say!(lab, lesson.cards)}</legend>{panel_boxes}</fieldset>
+        <fieldset class="boxes"><legend>{say!(lab, lesson.locked)}</legend>{lock_boxes}</fieldset>
+    }
+}
+
+fn boxed<T: Copy + PartialEq + Send + Sync + 'static>(
+    name: &'static str,
+    item: T,
+    chosen: RwSignal<Vec<T>>,
+) -> impl IntoView {
+    let change = move |event| {
+        let ticked = event_target_checked(&event);
+        chosen.update(|chosen| {
+            chosen.retain(|other| *other != item);
+            chosen.extend(ticked.then_some(item));
+        });
+    };
+    view! {
+        <label class="check">
+            <input type="checkbox" data-testid=format!("box-{name}") prop:checked=move || chosen.with(|chosen| chosen.contains(&item)) on:change=change />
+            <code>{name}</code>
+        </label>
+    }
+}

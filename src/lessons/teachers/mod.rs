@@ -1,0 +1,190 @@
+//! The page for who teaches.
+
+mod builder;
+
+use std::sync::Arc;
+
+use leptos::prelude::*;
+use quadtank_lesson::{LESSON_IDS, Lesson, Report, TaskKind};
+
+use builder::Builder;
+
+use super::catalogue::OwnFile;
+use super::classroom::tongue;
+use super::load;
+use super::place::{absolute, lesson_address};
+use crate::lab::{Lab, use_lab};
+use crate::texts::{say, tr};
+
+/// Everything for a course: lessons with answers, embeds, codes of reports.
+#[component]
+pub fn Teachers() -> impl IntoView {
+    let lab = use_lab();
+    let lessons = load::all();
+    view! {
+        <main class="side-page teachers" id="bench" tabindex="-1" data-testid="teachers">
+            <h2>{say!(lab, lesson.teachers)}</h2>
+            <p class="lead">{say!(lab, lesson.teachers_lead)}</p>
+            <Builder lessons />
+            <ReadCode />
+            <section>
+                <h3>{say!(lab, lesson.own)}</h3>
+                <p>{say!(lab, lesson.own_lead)}</p>
+                <OwnFile />
+            </section>
+            <Answers lessons />
+        </main>
+    }
+}
+
+/// Reads the code of a report.
+#[component]
+fn ReadCode() -> impl IntoView {
+    let lab = use_lab();
+    let code = RwSignal::new(String::new());
+    let read = move || {
+        let code = code.get();
+        if code.trim().is_empty() {
+            return None;
+        }
+        Some(match Report::from_code(&code) {
+            Ok(report) => report_table(lab, report).into_any(),
+            Err(_) => view! { <p class="bad">{tr!(lab, lesson.bad_code)}</p> }.into_any(),
+        })
+    };
+    view! {
+        <section>
+            <h3>{say!(lab, lesson.read_code)}</h3>
+            <p>{say!(lab, lesson.read_code_lead)}</p>
+            <label>
+                {say!(lab, lesson.code)}
+                <textarea rows="2" data-testid="read-code" on:input=move |event| code.set(event_target_value(&event))></textarea>
+            </label>
+            <div role="status" data-testid="read-report">{read}</div>
+        </section>
+    }
+}
+
+fn report_table(lab: Lab, report: Report) -> impl IntoView {
+    let rows = report.tasks.into_iter().map(|task| {
+        view! {
+            <tr>
+                <th scope="row">{task.id}</th>
+                <td>{format!("{}/{}", task.points, task.of)}</td>
+                <td>{task.wrong}</td>
+                <td>{task.hints}</td>
+            </tr>
+        }
+    });
+    let minutes = report.seconds.div_ceil(60);
+    view! {
+        <p>
+            <b>{report.name}</b> " · " {report.lesson} " · "
+            {tr!(lab, lesson.report_line, score = report.score, minutes = minutes, seed = report.seed)}
+        </p>
+        <table class="plain">
+            <thead>
+                <tr>
+                    <th scope="col">{tr!(lab, lesson.task)}</th>
+                    <th scope="col">{tr!(lab, lesson.points)}</th>
+                    <th scope="col">{tr!(lab, lesson.wrong_answers)}</th>
+                    <th scope="col">{tr!(lab, lesson.hints)}</th>
+                </tr>
+            </thead>
+            <tbody>{rows.collect_view()}</tbody>
+        </table>
+    }
+}
+
+/// The lessons with outcomes, misconceptions and, behind a click, their answers.
+#[component]
+fn Answers(lessons: RwSignal<Vec<Option<Arc<Lesson>>>>) -> impl IntoView {
+    let lab = use_lab();
+    let section =
+        move |index: usize| lessons.with(|lessons| lessons[index].clone()).map(|lesson| guide(lab, index, lesson));
+    view! {
+        <section>
+            <h3>{say!(lab, lesson.list)}</h3>
+            {(0..LESSON_IDS.len()).map(|index| view! { <div>{move || section(index)}</div> }).collect_view()}
+        </section>
+    }
+}
+
+fn guide(lab: Lab, index: usize, lesson: Arc<Lesson>) -> impl IntoView {
+    let language = tongue(lab, &lesson);
+    let list = |texts: &[quadtank_lesson::Text]| {
+        texts.iter().map(|text| view! { <li>{text.shown(language).to_owned()}</li> }).collect_view()
+    };
+    let address = lesson_address(&lesson.id);
+    let embed = format!(
+        "<iframe src=\"{}\" width=\"100%\" height=\"720\" title=\"{}\"></iframe>",
+        absolute(&format!("{address}&embed=1&lang={}", lab.language.get().tag())),
+        lesson.title.shown(language),
+    );
+    // The numbers are computed when they are asked for.
+    let asked = RwSignal::new(false);
+    let lesson = Arc::clone(&lesson);
+    let about = Arc::clone(&lesson);
+    let answers = move || asked.get().then(|| view! { <ol>{answers_of(lab, &lesson)}</ol> });
+    let lesson = about;
+    view! {
+        <details data-testid=format!("guide-{}", lesson.id)>
+            <summary>
+                <b>{format!("{}. {}", index + 1, lesson.title.shown(language))}</b> " "
+                <span class="remark">{tr!(lab, lesson.minutes, minutes = lesson.minutes)}</span>
+            </summary>
+            <h4>{tr!(lab, lesson.outcomes)}</h4>
+            <ul>{list(&lesson.outcomes)}</ul>
+            <h4>{tr!(lab, lesson.misconceptions)}</h4>
+            <ul>{list(&lesson.misconceptions)}</ul>
+            <p class="remark">{lesson.source.clone()}</p>
+            <p><a href=address>{tr!(lab, lesson.open_lesson)}</a></p>
+            <h4>{tr!(lab, lesson.embed)}</h4>
+            <textarea readonly rows="2" class="code" aria-label=tr!(lab, lesson.embed) prop:value=embed></textarea>
+            <details on:toggle=move |_| asked.set(true)>
+                <summary>{tr!(lab, lesson.answers)}</summary>
+                {answers}
+            </details>
+        </details>
+    }
+}
+
+/// The tasks with their answers.
+fn answers_of(lab: Lab, lesson: &Lesson) -> impl IntoView + use<> {
+    let language = tongue(lab, lesson);
+    let answers = lesson.tasks().map(|(step, task)| {
+        let answer = match &task.kind {
+            TaskKind::Choose(choose) => {
+                let right = choose.options.iter().filter(|option| option.correct);
+                right.map(|option| option.text.shown(language).to_owned()).collect::<Vec<_>>().join(" / ")
+            }
+            TaskKind::Number(number) => number_answer(lab, lesson, step, number),
+            TaskKind::Achieve(goal) => goal.solution.join(", "),
+            TaskKind::Order(order) => {
+                order.items.iter().map(|item| item.shown(language).to_owned()).collect::<Vec<_>>().join(" → ")
+            }
+            TaskKind::Explain(explain) => explain.model.shown(language).to_owned(),
+            TaskKind::Predict(_) => return None,
+        };
+        Some(view! {
+            <li>
+                <p>{super::prose::inline(task.question.shown(language))}</p>
+                <p class="answer">{super::prose::inline(&answer)}</p>
+            </li>
+        })
+    });
+    answers.flatten().collect_view()
+}
+
+/// The number that is right for the first student.
+fn number_answer(lab: Lab, lesson: &Lesson, step: usize, number: &quadtank_lesson::NumberTask) -> String {
+    let varies = lesson.steps[step].vary.iter().any(|variation| variation.among.len() > 1);
+    let state = quadtank_lesson::state_before(lesson, step, 0, 0).ok();
+    let state = state.and_then(|state| quadtank_lesson::with_settings(&state, &number.set).ok());
+    let value = match &state {
+        Some(state) => number.answer(&quadtank_scenario::Quantities::of(state)),
+        None => number.value,
+    };
+    let written = super::prose::written(lab, value, &number.unit, 4);
+    if varies { tr!(lab, lesson.varies, value = written) } else { written }
+}

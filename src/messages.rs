@@ -1,0 +1,111 @@
+//! Messages between the laboratory in a frame and the page around it (`docs/embedding.md`).
+//!
+//! What the laboratory says goes only to the origins of the flag `origins`, and only what comes from them is heard. Its height and
+//! that it is ready tell nothing about a student, so they go to any parent.
+
+use js_sys::{Object, Reflect};
+use leptos::ev;
+use leptos::prelude::*;
+use leptos::wasm_bindgen::JsCast;
+use leptos::wasm_bindgen::JsValue;
+use leptos::wasm_bindgen::closure::Closure;
+use quadtank_scenario::document_from_link;
+
+use super::lab::Lab;
+use super::lessons::Classroom;
+
+/// The field that names the kind of a message.
+const KIND: &str = "quadtank";
+/// Any origin.
+const ANY: &str = "*";
+
+/// Begins to talk to the page around, where there is one.
+pub fn talk(lab: Lab, room: Classroom) {
+    if parent().is_none() {
+        return;
+    }
+    let on_message = window_event_listener(ev::message, move |event| hear(lab, &event));
+    on_cleanup(move || on_message.remove());
+    follow_height();
+    say_to(ANY, "ready", &[("version", env!("CARGO_PKG_VERSION").into())]);
+    Effect::new(move || {
+        let bench = lab.bench.get();
+        (bench.track)(lab);
+        if let Ok(link) = untrack(|| (bench.link)(lab)) {
+            tell(lab, "state", &[("state", link.into())]);
+        }
+    });
+    Effect::new(move || {
+        let said = room.said.get();
+        let Some(lesson) = room.lesson.get_untracked() else { return };
+        if let Some((task, _, is_right)) = said.last() {
+            let about =
+                [("lesson", lesson.id.clone().into()), ("task", task.clone().into()), ("right", (*is_right).into())];
+            tell(lab, "answer", &about);
+        }
+    });
+    Effect::new(move || {
+        let Some(lesson) = room.lesson.get() else { return };
+        let score =
+            room.progress.with(|progress| progress.as_ref().map(|p| (p.score(&lesson), p.is_complete(&lesson))));
+        if let Some((score, is_complete)) = score {
+            let about =
+                [("lesson", lesson.id.clone().into()), ("score", score.into()), ("complete", is_complete.into())];
+            tell(lab, "score", &about);
+        }
+    });
+}
+
+/// The page around, if there is one.
+fn parent() -> Option<web_sys::Window> {
+    let parent = window().parent().ok().flatten()?;
+    (parent != window()).then_some(parent)
+}
+
+/// Says something to the origins that the address allows.
+fn tell(lab: Lab, kind: &str, about: &[(&str, JsValue)]) {
+    lab.flags.with_value(|flags| flags.origins.iter().for_each(|origin| say_to(origin, kind, about)));
+}
+
+fn say_to(origin: &str, kind: &str, about: &[(&str, JsValue)]) {
+    let message = Object::new();
+    // A plain object takes every field.
+    let _ = Reflect::set(&message, &KIND.into(), &kind.into());
+    for (name, value) in about {
+        let _ = Reflect::set(&message, &(*name).into(), value);
+    }
+    if let Some(parent) = parent() {
+        let _ = parent.post_message(&message, origin);
+    }
+}
+
+/// Opens the state that an allowed page sends. Anything else is not for the laboratory.
+fn hear(lab: Lab, event: &web_sys::MessageEvent) {
+    if !lab.flags.with_value(|flags| flags.origins.contains(&event.origin())) {
+        return;
+    }
+    let field = |name: &str| Reflect::get(&event.data(), &name.into()).ok().and_then(|value| value.as_string());
+    if field(KIND).as_deref() == Some("open")
+        && let Some(state) = field("state")
+    {
+        lab.open(document_from_link(&state));
+    }
+}
+
+/// Tells the page around how high the content is, whenever that changes.
+fn follow_height() {
+    let Some(body) = document().body() else { return };
+    let last = StoredValue::new(0);
+    let tell = Closure::<dyn Fn()>::new(move || {
+        let height = document().body().map_or(0, |body| body.scroll_height());
+        if height != last.get_value() {
+            last.set_value(height);
+            say_to(ANY, "height", &[("height", height.into())]);
+        }
+    });
+    if let Ok(observer) = web_sys::ResizeObserver::new(tell.as_ref().unchecked_ref()) {
+        observer.observe(&body);
+    }
+    // It lives as long as the page.
+    tell.forget();
+}
