@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use quadtank_lesson::{
-    Fault as LessonFault, FaultKind, LESSON_IDS, LESSON_LIMIT, Lesson, NAMED_FORMULAS, Named, Report, ReportError,
-    StartError, TERMS, Tongue, audit, bench_names, read_lesson,
+    BUILT_IN, Fault as LessonFault, FaultKind, LESSON_IDS, LESSON_LIMIT, Lesson, NAMED_FORMULAS, Named, Report,
+    ReportError, StartError, TERMS, Tongue, audit, bench_names, read_lesson,
 };
 use quadtank_scenario::quantities_of;
 use thiserror::Error;
@@ -21,7 +21,7 @@ pub struct CheckOptions {
     /// Lesson files (JSON), or - for standard input
     #[arg(conflicts_with = "report", required_unless_present_any = ["report", "all"])]
     pub files: Vec<PathBuf>,
-    /// Audit the lessons: everything that an author has to mend, a line for each fault
+    /// Audit the lessons, without files those of the laboratory: everything that an author has to mend, a line for each fault
     #[arg(long, conflicts_with_all = ["report", "step", "task", "document"])]
     all: bool,
     /// The step of the task, from 1
@@ -94,12 +94,16 @@ pub fn lesson_of(file: &Path) -> Result<Lesson, Failure> {
     told(file, read_lesson(&bytes_of(file, LESSON_LIMIT)?))
 }
 
+/// Audits the lessons of files; without files those of the laboratory.
 fn audit_all(files: &[PathBuf]) -> Result<(), Failure> {
+    let given = files.iter().map(|file| (file_name(file), lesson_of(file)));
+    let built_in = LESSON_IDS.iter().zip(BUILT_IN).filter(|_| files.is_empty());
+    let built_in = built_in.map(|(id, text)| ((*id).to_owned(), told(Path::new(id), read_lesson(text.as_bytes()))));
     let mut lessons = Vec::new();
     let mut is_faultless = true;
-    for file in files {
-        match lesson_of(file) {
-            Ok(lesson) => lessons.push((file_name(file), lesson)),
+    for (name, lesson) in given.chain(built_in) {
+        match lesson {
+            Ok(lesson) => lessons.push((name, lesson)),
             Err(fault @ Failure::Document { .. }) => {
                 is_faultless = false;
                 message::list(fault);
@@ -108,13 +112,13 @@ fn audit_all(files: &[PathBuf]) -> Result<(), Failure> {
         }
     }
     let ids: Vec<&str> = LESSON_IDS.into_iter().chain(lessons.iter().map(|(_, lesson)| lesson.id.as_str())).collect();
-    for (file, lesson) in &lessons {
+    for (name, lesson) in &lessons {
         let faults = audit(lesson, &TERMS, &ids);
         for fault in &faults {
-            message::list(format!("{file}: {fault}{}", help(lesson, &ids, fault)));
+            message::list(format!("{name}: {fault}{}", help(lesson, &ids, fault)));
         }
         if faults.is_empty() {
-            print(&format!("{file}: {}\n", summary(lesson)))?;
+            print(&format!("{name}: {}\n", summary(lesson)))?;
         } else {
             is_faultless = false;
         }
