@@ -30,6 +30,7 @@ mod plot;
 mod published;
 mod quantities;
 mod report;
+mod scorm;
 mod tune;
 
 use andreis::TableNumber;
@@ -38,6 +39,7 @@ use check::{CheckFault, CheckOptions};
 use files::{bytes_of, file_name, is_standard_stream, print, print_json, write_file};
 use level_loop::SearchOptions;
 use published::{Case, case_of, list_of_cases, list_of_presets, preset_parser};
+use scorm::{ScormFault, ScormOptions};
 
 /// The quadruple-tank laboratory without a screen.
 ///
@@ -142,6 +144,10 @@ enum Command {
     /// faults. `--task ID` marks the answer on standard input: {"choice": 0}, {"number": 0.0248}, {"order": [0, 2, 1]},
     /// {"text": "…"}, or a document of the bench where a goal is to be reached. `--report CODE` prints what a code holds.
     Check(CheckOptions),
+    /// Pack a lesson for a learning management system (SCORM 1.2)
+    ///
+    /// The zip has the laboratory with the lesson in it, and a manifest. A system calls the lesson passed from 60 points of 100.
+    Scorm(ScormOptions),
     /// Print the JSON Schema of the scenario, of what a command reports about it, or of a lesson
     Schema {
         /// Version of the document: 1 for the quadruple tank, 2 for relay tuning, 3 for model-free control, 4 for a level loop
@@ -196,6 +202,8 @@ enum Failure {
     NoReport { version: u32 },
     #[error("{0}")]
     Check(#[from] CheckFault),
+    #[error("{0}")]
+    Scorm(#[from] ScormFault),
     /// The faults of lessons, each of which is told by then.
     #[error("the lesson has faults")]
     Faults,
@@ -272,6 +280,7 @@ fn execute(command: Command) -> Result<(), Failure> {
         Command::Presets { name: None } => print(&list_of_presets()),
         Command::Presets { name: Some(id) } => print_document(id.name(), to_json(&Scenario::from(setup_of(id)))),
         Command::Check(options) => check::run(&options),
+        Command::Scorm(options) => scorm::run(&options),
         Command::Schema { lesson: true, .. } => print_json(&lesson_schema()),
         Command::Schema { version, report: None, .. } => print_json(&schema_of(version)),
         Command::Schema { version, report: Some(report), .. } => {

@@ -148,9 +148,8 @@ impl Audit<'_> {
             self.add(&format!("{place}.tolerance"), FaultKind::Tolerance);
         }
         for (index, mistake) in number.mistakes.iter().enumerate() {
-            match &mistake.is {
-                MistakeKind::Quantity(name) => self.known_quantity(&format!("{place}.mistakes[{index}].is"), name),
-                _ => {}
+            if let MistakeKind::Quantity(name) = &mistake.is {
+                self.known_quantity(&format!("{place}.mistakes[{index}].is"), name);
             }
         }
     }

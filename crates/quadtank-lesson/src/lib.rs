@@ -19,6 +19,7 @@ mod report;
 mod sample;
 #[cfg(feature = "schema")]
 mod schema;
+mod scorm;
 mod start;
 mod task;
 mod text;
@@ -39,6 +40,7 @@ pub use progress::{Progress, Record, SUSPEND_LIMIT, points_of};
 pub use report::{Report, ReportError, TaskReport};
 #[cfg(feature = "schema")]
 pub use schema::lesson_schema;
+pub use scorm::{PageError, scorm_manifest, scorm_page};
 pub use start::{StartError, shuffled, start_of, state_before, with_settings};
 pub use task::{
     Achieve, Attempt, Choice, Choose, Condition, Explain, Mistake, MistakeKind, NumberTask, Of, Order, Predict, Task,

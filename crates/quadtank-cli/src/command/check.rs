@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use quadtank_lesson::{
-    BUILT_IN, Fault as LessonFault, FaultKind, LESSON_IDS, LESSON_LIMIT, Lesson, NAMED_FORMULAS, Named, Report,
-    ReportError, StartError, TERMS, Tongue, audit, bench_names, read_lesson,
+    Fault as LessonFault, FaultKind, LESSON_IDS, LESSON_LIMIT, Lesson, NAMED_FORMULAS, Named, Report, ReportError,
+    StartError, TERMS, Tongue, audit, bench_names, built_in, read_lesson,
 };
 use quadtank_scenario::quantities_of;
 use thiserror::Error;
@@ -18,7 +18,7 @@ use super::{Failure, mark, message, told};
 /// What is checked.
 #[derive(Args)]
 pub struct CheckOptions {
-    /// Lesson files (JSON), or - for standard input
+    /// Lesson files (JSON), - for standard input, or ids of lessons of the laboratory
     #[arg(conflicts_with = "report", required_unless_present_any = ["report", "all"])]
     pub files: Vec<PathBuf>,
     /// Audit the lessons, without files those of the laboratory: everything that an author has to mend, a line for each fault
@@ -89,21 +89,23 @@ fn report(code: &str) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The lesson of a file.
+/// The lesson of a file, or that of the laboratory with this id.
 pub fn lesson_of(file: &Path) -> Result<Lesson, Failure> {
-    told(file, read_lesson(&bytes_of(file, LESSON_LIMIT)?))
+    match file.to_str().and_then(built_in) {
+        Some(text) => told(file, read_lesson(text.as_bytes())),
+        None => told(file, read_lesson(&bytes_of(file, LESSON_LIMIT)?)),
+    }
 }
 
 /// Audits the lessons of files; without files those of the laboratory.
 fn audit_all(files: &[PathBuf]) -> Result<(), Failure> {
-    let given = files.iter().map(|file| (file_name(file), lesson_of(file)));
-    let built_in = LESSON_IDS.iter().zip(BUILT_IN).filter(|_| files.is_empty());
-    let built_in = built_in.map(|(id, text)| ((*id).to_owned(), told(Path::new(id), read_lesson(text.as_bytes()))));
+    let known = LESSON_IDS.map(PathBuf::from);
+    let files = if files.is_empty() { known.as_slice() } else { files };
     let mut lessons = Vec::new();
     let mut is_faultless = true;
-    for (name, lesson) in given.chain(built_in) {
-        match lesson {
-            Ok(lesson) => lessons.push((name, lesson)),
+    for file in files {
+        match lesson_of(file) {
+            Ok(lesson) => lessons.push((file_name(file), lesson)),
             Err(fault @ Failure::Document { .. }) => {
                 is_faultless = false;
                 message::list(fault);

@@ -30,8 +30,13 @@ pub fn bytes_of(file: &Path, limit: usize) -> Result<Vec<u8>, Failure> {
 
 /// Writes to standard output. A reader that has seen enough (`quadtank … | head`) is no failure.
 pub fn print(text: &str) -> Result<(), Failure> {
+    print_bytes(text.as_bytes())
+}
+
+/// The same of what is no text.
+pub fn print_bytes(bytes: &[u8]) -> Result<(), Failure> {
     let mut output = io::stdout().lock();
-    match output.write_all(text.as_bytes()).and_then(|()| output.flush()) {
+    match output.write_all(bytes).and_then(|()| output.flush()) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(cannot_print(error)),
         _ => Ok(()),
     }
@@ -41,8 +46,8 @@ fn cannot_print(error: io::Error) -> Failure {
     Failure::File { file: "standard output".to_owned(), error }
 }
 
-pub fn write_file(file: &Path, text: &str) -> Result<(), Failure> {
-    std::fs::write(file, text).map_err(|error| Failure::File { file: file_name(file), error })
+pub fn write_file(file: &Path, content: impl AsRef<[u8]>) -> Result<(), Failure> {
+    std::fs::write(file, content).map_err(|error| Failure::File { file: file_name(file), error })
 }
 
 pub fn is_standard_stream(file: &Path) -> bool {
