@@ -73,7 +73,7 @@ pub fn Finish(lesson: Arc<Lesson>) -> impl IntoView {
                     </button>
                     <button type="button" class="button" data-testid="report-json" on:click=save>{say!(lab, lesson.save_json)}</button>
                     <button type="button" class="button" data-testid="report-print" on:click=|_| { let _ = window().print(); }>
-                        {say!(lab, handout.print)}
+                        {say!(lab, lesson.print)}
                     </button>
                 </p>
             </div>
