@@ -26,7 +26,7 @@ pub fn talk(lab: Lab, room: Classroom) {
     }
     let on_message = window_event_listener(ev::message, move |event| hear(lab, &event));
     on_cleanup(move || on_message.remove());
-    follow_height();
+    follow_height(lab);
     say_to(ANY, "ready", &[("version", env!("CARGO_PKG_VERSION").into())]);
     Effect::new(move || {
         let bench = lab.bench.get();
@@ -93,10 +93,14 @@ fn hear(lab: Lab, event: &web_sys::MessageEvent) {
 }
 
 /// Tells the page around how high the content is, whenever that changes.
-fn follow_height() {
+fn follow_height(lab: Lab) {
     let Some(body) = document().body() else { return };
     let last = StoredValue::new(0);
     let tell = Closure::<dyn Fn()>::new(move || {
+        // A lesson fills the frame, however high it is: a frame that followed it would never stop growing.
+        if lab.stage.with_untracked(Option::is_some) {
+            return;
+        }
         let height = document().body().map_or(0, |body| body.scroll_height());
         if height != last.get_value() {
             last.set_value(height);

@@ -16,12 +16,7 @@ pub fn keep_site(lab: Lab) {
     if is_single || lab.flags.with_value(|flags| flags.embed) || !window().is_secure_context() {
         return;
     }
-    // Not there in a sandbox, and in private windows of some browsers.
-    let navigator = window().navigator();
-    if !js_sys::Reflect::has(&navigator, &"serviceWorker".into()).unwrap_or(false) {
-        return;
-    }
-    let workers = navigator.service_worker();
+    let Some(workers) = workers() else { return };
     let was_kept = workers.controller().is_some();
     spawn_local(async move {
         let Ok(registration) = JsFuture::from(workers.register(WORKER)).await else { return };
@@ -47,10 +42,16 @@ pub fn keep_site(lab: Lab) {
     });
 }
 
+/// What keeps the site. Not there in private windows of some browsers; in a sandbox the mere question is an error.
+fn workers() -> Option<web_sys::ServiceWorkerContainer> {
+    let navigator = window().navigator();
+    js_sys::Reflect::get(&navigator, &"serviceWorker".into()).ok()?.dyn_into().ok()
+}
+
 /// Begins with the new edition at once.
 pub fn begin_anew() {
     spawn_local(async move {
-        let workers = window().navigator().service_worker();
+        let Some(workers) = workers() else { return };
         let registration = JsFuture::from(workers.get_registration()).await;
         let waiting = registration
             .ok()

@@ -153,6 +153,7 @@ fn SideLink(page: SidePage, name: Signal<String>) -> impl IntoView {
 #[component]
 fn LessonHeader() -> impl IntoView {
     let (lab, room) = (use_lab(), use_classroom());
+    let embed = lab.flags.with_value(|flags| flags.embed);
     let content = move || {
         let lesson = room.lesson.get()?;
         let number = LESSON_IDS.iter().position(|id| *id == lesson.id);
@@ -160,7 +161,8 @@ fn LessonHeader() -> impl IntoView {
         let (of, count, minutes) = (lesson.points(), lesson.steps.len(), lesson.minutes as usize);
         let state = move || {
             let (points, step) = room.progress.with(|p| p.as_ref().map_or((0, 0), |p| (p.points(&lesson), p.step)));
-            let left = (minutes * (count - step.min(count))).div_ceil(count);
+            let is_over = room.progress.with(|p| p.as_ref().is_some_and(|p| p.is_complete(&lesson)));
+            let left = if is_over { 0 } else { (minutes * (count - step.min(count))).div_ceil(count) };
             tr!(lab, lesson.state_of_play, points = points, of = of, minutes = left)
         };
         Some(view! {
@@ -170,7 +172,8 @@ fn LessonHeader() -> impl IntoView {
                 <span class="spacer"></span>
                 <span class="remark" data-testid="lesson-points">{state}</span>
                 <LanguageChoice />
-                <button type="button" class="button" data-testid="leave-lesson" on:click=move |_| room.leave()>{say!(lab, lesson.leave)}</button>
+                // In a frame there is no laboratory to go back to.
+                <button type="button" class="button" data-testid="leave-lesson" hidden=embed on:click=move |_| room.leave()>{say!(lab, lesson.leave)}</button>
             </header>
         })
     };

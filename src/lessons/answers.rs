@@ -140,7 +140,11 @@ pub fn GoalList(task: Arc<Task>, goal: Achieve, labels: Vec<Signal<String>>) -> 
     let done = is_done(&task.id);
     let now = {
         let goal = goal.clone();
-        Memo::new(move |_| goals(&goal, &Present(lab)))
+        // What was reached stays as it was then, whatever the student tries afterwards.
+        Memo::new(move |before: Option<&Vec<quadtank_lesson::Goal>>| match before.filter(|_| done.get()) {
+            Some(reached) => reached.clone(),
+            None => goals(&goal, &Present(lab)),
+        })
     };
     let verdict = {
         let task = Arc::clone(&task);

@@ -1,5 +1,6 @@
 //! The lesson that is taken: its step, what was answered, and the bench beside it.
 
+use std::collections::BTreeMap;
 use std::ops::Deref;
 use std::sync::Arc;
 
@@ -42,6 +43,8 @@ pub struct State {
     pub said: RwSignal<Vec<(String, Option<Feedback>, bool)>>,
     /// The state with which the step began.
     start: StoredValue<Option<Document>>,
+    /// The states with which the steps began so far, by their places.
+    starts: StoredValue<BTreeMap<usize, Document>>,
     /// The state of the bench before the lesson, which comes back after it.
     before: StoredValue<Option<(&'static BenchEntry, Document)>>,
     /// Whether the student has turned to another step.
@@ -74,6 +77,7 @@ impl Classroom {
             at_end: RwSignal::new(false),
             said: RwSignal::new(Vec::new()),
             start: StoredValue::new(None),
+            starts: StoredValue::new(BTreeMap::new()),
             before: StoredValue::new(None),
             turned: StoredValue::new(false),
             read_at_s: StoredValue::new(0.0),
@@ -91,6 +95,8 @@ impl Classroom {
             self.before.set_value(Some((bench, (bench.document)(self.lab))));
         }
         self.read_at_s.set_value(now_s());
+        self.start.set_value(None);
+        self.starts.set_value(BTreeMap::new());
         batch(|| {
             self.at_end.set(false);
             self.progress.set(Some(progress));
@@ -106,11 +112,14 @@ impl Classroom {
         let seed = self.progress.with_untracked(|progress| progress.as_ref().map_or(0, |progress| progress.seed));
         let kept = self.start.with_value(Option::is_some);
         // A step that keeps the state of the one before has none when the lesson begins with it.
+        let known = self.starts.with_value(|starts| starts.get(&index).cloned());
         let start = match start_of(&lesson, step, seed) {
+            // Whoever goes back finds the state of then.
+            Ok(None) if known.is_some() => known,
             Ok(None) if !kept => quadtank_lesson::state_before(&lesson, index, 0, seed).ok(),
             start => start.ok().flatten(),
         };
-        self.said.set(Vec::new());
+        self.said.set(step.tasks.iter().filter_map(|task| self.said_before(task)).collect());
         self.at_end.set(false);
         self.progress.update(|progress| {
             if let Some(progress) = progress {
@@ -121,10 +130,25 @@ impl Classroom {
             self.lab.open(Ok(document));
         }
         self.lab.large.set(None);
-        self.start.set_value(Some((self.lab.bench.get_untracked().document)(self.lab)));
+        let present = (self.lab.bench.get_untracked().document)(self.lab);
+        self.starts.update_value(|starts| {
+            starts.insert(index, present.clone());
+        });
+        self.start.set_value(Some(present));
         self.set_stage(&lesson, step);
         show_address(&format!("?lesson={}&step={}{}", lesson.id, index + 1, kept_flags(self.lab)));
         self.keep();
+    }
+
+    /// What was said about a task that is done already.
+    fn said_before(self, task: &Task) -> Option<(String, Option<Feedback>, bool)> {
+        let record = self.record(&task.id);
+        let feedback = match (&task.kind, record.answer.as_ref().filter(|_| record.is_done())?) {
+            (TaskKind::Choose(_), Answer::Choice(index)) => Some(Feedback::Option(*index)),
+            (TaskKind::Explain(_), _) => Some(Feedback::Model),
+            _ => None,
+        };
+        Some((task.id.clone(), feedback, record.solved))
     }
 
     /// Shows the cards of a step; those that give the answer away come when its tasks are done.

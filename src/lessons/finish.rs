@@ -73,7 +73,7 @@ pub fn Finish(lesson: Arc<Lesson>) -> impl IntoView {
                     </button>
                     <button type="button" class="button" data-testid="report-json" on:click=save>{say!(lab, lesson.save_json)}</button>
                     <button type="button" class="button" data-testid="report-print" on:click=|_| { let _ = window().print(); }>
-                        {say!(lab, handout.print)}
+                        {say!(lab, lesson.print)}
                     </button>
                 </p>
             </div>
@@ -135,7 +135,11 @@ fn answer_words(lab: Lab, lesson: &Lesson, task: &Task, answer: &Answer) -> Stri
         (TaskKind::Choose(choose), Answer::Choice(index)) => {
             choose.options.get(*index).map(|option| option.text.shown(tongue).to_owned()).unwrap_or_default()
         }
-        (TaskKind::Number(number), Answer::Number(value)) => super::prose::written(lab, Some(*value), &number.unit, 6),
+        (TaskKind::Number(number), Answer::Number(value)) => {
+            // As it was typed, without digits of ours.
+            let typed = value.to_string().replace('.', &lab.number_style().decimal.to_string());
+            format!("{typed}\u{a0}{}", super::prose::unit_name(lab, &number.unit))
+        }
         (TaskKind::Order(_), Answer::Order(order)) => {
             order.iter().map(|index| (index + 1).to_string()).collect::<Vec<_>>().join(" – ")
         }

@@ -158,6 +158,12 @@ pub fn read_lesson(bytes: &[u8]) -> Result<Lesson, ScenarioError> {
         return Err(unknown(lesson.lesson));
     }
     is_id("id", &lesson.id, 60)?;
+    if super::bench_names(&lesson.bench).is_none() {
+        return refused(
+            "bench",
+            "there is no such bench; there are quadruple-tank, relay-tuning, model-free and level-loop",
+        );
+    }
     if lesson.steps.is_empty() {
         return refused("steps", "a lesson has at least one step");
     }

@@ -122,7 +122,7 @@ impl Bench for QuadrupleTank {
 
 /// Turns the valves. Explore holds the levels meanwhile, so that an overflow is not taken for the effect of the zero.
 pub fn turn_valves(session: Session, valves: [f64; 2]) {
-    let holds = session.lab.depth.get_untracked() == Depth::Explore && session.own.holds_levels.get_untracked();
+    let holds = untrack(|| session.lab.shown_depth()) == Depth::Explore && session.own.holds_levels.get_untracked();
     if !holds {
         release_levels(session);
     }
