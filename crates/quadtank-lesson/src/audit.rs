@@ -230,8 +230,6 @@ mod tests {
             of("/steps/0/lock", "zeros"),
             format!("steps[0].lock: unknown group of controls `zeros`; {controls}")
         );
-        let benches = "there are quadruple-tank, relay-tuning, model-free, level-loop";
-        assert_eq!(fault("/bench", json!("tanks")), format!("bench: unknown bench `tanks`; {benches}"));
     }
 
     #[test]

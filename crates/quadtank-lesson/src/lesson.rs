@@ -1,7 +1,7 @@
 use quadtank_scenario::{ScenarioError, read_json};
 use serde::{Deserialize, Serialize};
 
-use super::{Task, Text, Tongue};
+use super::{Task, Text, Tongue, bench_ids, bench_names};
 
 /// Longest lesson that is read (bytes): several times the longest of the laboratory.
 pub const LESSON_LIMIT: usize = 256 * 1024;
@@ -158,11 +158,9 @@ pub fn read_lesson(bytes: &[u8]) -> Result<Lesson, ScenarioError> {
         return Err(unknown(lesson.lesson));
     }
     is_id("id", &lesson.id, 60)?;
-    if super::bench_names(&lesson.bench).is_none() {
-        return refused(
-            "bench",
-            "there is no such bench; there are quadruple-tank, relay-tuning, model-free and level-loop",
-        );
+    if bench_names(&lesson.bench).is_none() {
+        let known = bench_ids().join(", ");
+        return refused("bench", &format!("`{}` is no bench; there are {known}", quoted(&lesson.bench)));
     }
     if lesson.steps.is_empty() {
         return refused("steps", "a lesson has at least one step");
@@ -196,6 +194,11 @@ fn unknown(version: u32) -> ScenarioError {
 
 fn refused<T>(path: &str, reason: &str) -> Result<T, ScenarioError> {
     Err(ScenarioError::Malformed { path: path.to_owned(), reason: reason.to_owned() })
+}
+
+/// The beginning of a name that may be long.
+fn quoted(name: &str) -> String {
+    name.chars().take(40).collect()
 }
 
 /// Ids stand in links, reports and codes.
@@ -319,6 +322,13 @@ mod tests {
         assert!(
             read_lesson(SMALL.replacen("\"minutes\": 5", &format!("\"minutes\": {nested}"), 1).as_bytes()).is_err()
         );
+    }
+
+    #[test]
+    fn the_bench_is_one_that_there_is() {
+        let benches = "there are quadruple-tank, relay-tuning, model-free, level-loop";
+        assert_eq!(error(&[("/bench", json!("tanks"))]), format!("bench: `tanks` is no bench; {benches}"));
+        assert!(error(&[("/bench", json!("x".repeat(5000)))]).len() < 200);
     }
 
     #[test]

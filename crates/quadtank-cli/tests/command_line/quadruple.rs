@@ -235,7 +235,7 @@ fn the_examples_of_the_readme_work() {
     let folder = folder("readme");
     let program = PathBuf::from(env!("CARGO_BIN_EXE_quadtank"));
     let path = format!("{}:{}", program.parent().unwrap().display(), std::env::var("PATH").unwrap_or_default());
-    for subcommand in ["analyse", "simulate", "plot", "presets", "schema"] {
+    for subcommand in ["analyse", "simulate", "plot", "presets", "schema", "check"] {
         let example = format!("quadtank {subcommand}");
         assert!(commands.iter().any(|command| command.contains(&example)), "no example of {example}");
     }
