@@ -109,6 +109,7 @@ fn lesson_link(lab: Lab, term: &'static Term) -> impl IntoView {
     }
 }
 
+#[allow(clippy::needless_pass_by_value, reason = "properties of components are owned")]
 /// A word in a text, which explains itself when it is pressed; `Esc` closes it.
 #[component]
 pub fn TermLink(

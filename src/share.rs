@@ -157,12 +157,12 @@ pub fn save(lab: Lab) {
 }
 
 /// Opens an experiment from a file. One that is too long is refused by its size.
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of bytes")]
 pub fn open_file(lab: Lab, file: &web_sys::File) {
     read_file(lab, file, DOCUMENT_LIMIT, move |bytes| lab.open(document_from_bytes(&bytes)));
 }
 
 /// Reads a file of at most `limit` bytes, and hands them to `then`.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of bytes")]
 pub fn read_file(lab: Lab, file: &web_sys::File, limit: usize, then: impl FnOnce(Vec<u8>) + 'static) {
     let length = file.size() as usize;
     if length > limit {

@@ -154,7 +154,7 @@ fn SideLink(page: SidePage, name: Signal<String>) -> impl IntoView {
 fn LessonHeader() -> impl IntoView {
     let (lab, room) = (use_lab(), use_classroom());
     let embed = lab.flags.with_value(|flags| flags.embed);
-    let content = move || {
+    move || {
         let lesson = room.lesson.get()?;
         let number = LESSON_IDS.iter().position(|id| *id == lesson.id);
         let which = move || number.map(|index| tr!(lab, lesson.number, number = index + 1, count = LESSON_IDS.len()));
@@ -176,8 +176,7 @@ fn LessonHeader() -> impl IntoView {
                 <button type="button" class="button" data-testid="leave-lesson" hidden=embed on:click=move |_| room.leave()>{say!(lab, lesson.leave)}</button>
             </header>
         })
-    };
-    content
+    }
 }
 
 /// A bench, made when it is shown first and hidden while another one is. It stays, because signals that outlive a view keep

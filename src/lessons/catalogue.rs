@@ -54,9 +54,10 @@ fn LessonRow(id: &'static str, number: usize, lesson: Signal<Option<Arc<Lesson>>
     let state = move || {
         let (lesson, progress) = (lesson.get()?, known.get()?);
         let points = progress.points(&lesson);
-        Some(match progress.is_complete(&lesson) {
-            true => tr!(lab, lesson.done, points = points, of = lesson.points()),
-            false => tr!(lab, lesson.going_on, step = progress.step + 1, count = lesson.steps.len()),
+        Some(if progress.is_complete(&lesson) {
+            tr!(lab, lesson.done, points = points, of = lesson.points())
+        } else {
+            tr!(lab, lesson.going_on, step = progress.step + 1, count = lesson.steps.len())
         })
     };
     let forget = move |_| {
@@ -104,7 +105,7 @@ pub fn OwnFile() -> impl IntoView {
         let Some(input) = picker.get_untracked() else { return };
         if let Some(file) = input.files().and_then(|files| files.get(0)) {
             crate::share::read_file(lab, &file, quadtank_lesson::LESSON_LIMIT, move |bytes| {
-                super::begin_file(lab, room, &bytes)
+                super::begin_file(lab, room, &bytes);
             });
         }
         // The same file can then be opened again.

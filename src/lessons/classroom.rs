@@ -281,7 +281,9 @@ impl Classroom {
 
     /// Takes one more hint of a task.
     pub fn take_hint(self, task: &Task) {
-        self.change(task, |record| record.hints = (record.hints + 1).min(task.hints.len() as u32));
+        self.change(task, |record| {
+            record.hints = (record.hints + 1).min(u32::try_from(task.hints.len()).unwrap_or(u32::MAX));
+        });
     }
 
     fn change(self, task: &Task, change: impl FnOnce(&mut Record)) {
@@ -350,7 +352,7 @@ fn kept_flags(lab: Lab) -> String {
             kept.push_str("&embed=1");
         }
         if let Some(language) = flags.language {
-            kept.push_str(&format!("&lang={}", language.tag()));
+            kept.extend(["&lang=", language.tag()]);
         }
         kept
     })

@@ -136,6 +136,7 @@ fn upwards(mut place: JsValue) -> Option<JsValue> {
 }
 
 /// A duration as SCORM 1.2 writes it: `HHHH:MM:SS.SS`.
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the time is clamped to 9,999 hours")]
 fn session_time(seconds: f64) -> String {
     let hundredths = (seconds.clamp(0.0, 9999.0 * 3600.0) * 100.0).round() as u64;
     let (minutes, rest) = (hundredths / 6000, hundredths % 6000);

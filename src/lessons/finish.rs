@@ -14,6 +14,7 @@ use crate::download::{copy, download_text};
 use crate::lab::{Lab, use_lab};
 use crate::texts::{say, tr};
 
+#[allow(clippy::needless_pass_by_value, reason = "properties of components are owned")]
 /// What a student sees when the last step is done.
 #[component]
 pub fn Finish(lesson: Arc<Lesson>) -> impl IntoView {

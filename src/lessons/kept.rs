@@ -34,7 +34,9 @@ pub fn agree(agrees: bool) {
         }
     });
     if !agrees {
-        quadtank_lesson::LESSON_IDS.iter().for_each(|id| remove(id));
+        for id in quadtank_lesson::LESSON_IDS {
+            remove(id);
+        }
     }
 }
 
@@ -80,6 +82,7 @@ fn remove(id: &str) {
 }
 
 /// A number from which the numbers of a new student follow.
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it lies between 0 and a million")]
 pub fn new_seed() -> u32 {
     (js_sys::Math::random() * 1e6) as u32
 }

@@ -26,9 +26,10 @@ pub fn LessonPanel() -> impl IntoView {
         let (_, step, at_end) = at.get();
         let lesson = room.lesson.get_untracked()?;
         let index = step?;
-        Some(match at_end {
-            true => view! { <Finish lesson /> }.into_any(),
-            false => view! { <StepPanel step=lesson.steps.get(index)?.clone() index lesson /> }.into_any(),
+        Some(if at_end {
+            view! { <Finish lesson /> }.into_any()
+        } else {
+            view! { <StepPanel step=lesson.steps.get(index)?.clone() index lesson /> }.into_any()
         })
     }
 }

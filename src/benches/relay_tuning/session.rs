@@ -89,10 +89,9 @@ impl Bench for RelayTuning {
     fn unit_name(session: Session, unit: &str) -> String {
         let time = session.throttled.setup.with(|setup| time_unit(&setup.plant));
         match unit {
-            "time" => time.to_owned(),
+            "time" | "output time" => time.to_owned(),
             "rad/time" => format!("rad/{time}"),
             "input" | "output" | "input/output" | "output/input" => String::new(),
-            "output time" => time.to_owned(),
             other => other.to_owned(),
         }
     }

@@ -64,9 +64,9 @@ pub fn Builder(lessons: RwSignal<Vec<Option<Arc<Lesson>>>>) -> impl IntoView {
     let query = Memo::new(move |_| {
         let mut query = format!("?embed=1&lang={}", language.get().tag());
         match subject.get() {
-            Subject::Lesson(id) => query.push_str(&format!("&lesson={id}")),
+            Subject::Lesson(id) => query.extend(["&lesson=", id]),
             Subject::Bench(bench) => {
-                query.push_str(&format!("&bench={}", bench.id));
+                query.extend(["&bench=", bench.id]);
                 query.extend(preset.get().map(|id| format!("&preset={}", id.name())));
                 query.push_str(&list("panels", panels.get().iter().map(|panel| panel.0)));
                 query.push_str(&list("lock", locks.get().iter().map(|lock| lock.0)));

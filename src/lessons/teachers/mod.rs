@@ -110,6 +110,7 @@ fn Answers(lessons: RwSignal<Vec<Option<Arc<Lesson>>>>) -> impl IntoView {
     }
 }
 
+#[allow(clippy::needless_pass_by_value, reason = "the answers are made later and hold the lesson")]
 fn guide(lab: Lab, index: usize, lesson: Arc<Lesson>) -> impl IntoView {
     let language = tongue(lab, &lesson);
     let list = |texts: &[quadtank_lesson::Text]| {
