@@ -200,7 +200,7 @@ fn KeptBench(bench: &'static BenchEntry) -> impl IntoView {
         // The id is that of the bench that is shown.
         seen.get().then(|| {
             view! {
-                <main class=class tabindex="-1" id=move || is_shown().then(|| "bench".to_owned())>{(bench.cards)(lab)}</main>
+                <main class=class tabindex="-1" id=move || (is_shown() && lab.side.get().is_none()).then(|| "bench".to_owned())>{(bench.cards)(lab)}</main>
             }
         })
     };
