@@ -5,9 +5,23 @@ use leptos::wasm_bindgen::closure::Closure;
 use leptos::wasm_bindgen::{JsCast, JsValue};
 use web_sys::{Blob, BlobPropertyBag, HtmlAnchorElement, HtmlCanvasElement, Url};
 
+/// Whether the page is the one-file build, which has nothing beside it to download.
+pub fn is_single_file() -> bool {
+    document().document_element().is_some_and(|root| root.has_attribute("data-single"))
+}
+
 /// Hands over a text as a file.
 pub fn download_text(name: &str, mime: &str, text: &str) {
-    let parts = js_sys::Array::of1(&JsValue::from_str(text));
+    download_part(name, mime, &JsValue::from_str(text));
+}
+
+/// Hands over bytes as a file.
+pub fn download_bytes(name: &str, mime: &str, bytes: &[u8]) {
+    download_part(name, mime, &js_sys::Uint8Array::from(bytes));
+}
+
+fn download_part(name: &str, mime: &str, part: &JsValue) {
+    let parts = js_sys::Array::of1(part);
     let kind = BlobPropertyBag::new();
     kind.set_type(mime);
     if let Ok(blob) = Blob::new_with_str_sequence_and_options(&parts, &kind) {

@@ -32,8 +32,8 @@ struct Backstage {
 }
 
 impl FrameScheduler {
-    /// From now on every change of `document` is computed, and texts follow.
-    pub fn follow<T: Send + Sync + 'static>(
+    /// From now on every change of `document`, which is computed as it stands, is computed, and texts follow.
+    pub fn follow<T: Clone + PartialEq + Send + Sync + 'static>(
         document: RwSignal<T>,
         compute: impl Fn() -> Option<Box<dyn FnOnce()>> + 'static,
         update_texts: impl Fn() + 'static,
@@ -42,14 +42,14 @@ impl FrameScheduler {
         let backstage =
             StoredValue::new_local(Backstage { stopwatch, compute, update_texts, next: None, after_texts: None });
         let scheduler = Self { backstage };
-        // The document as it stands is computed already.
-        let mut known = false;
+        // Effects run later than this: whoever made the document may have changed it by then.
+        let mut computed = Some(document.get_untracked());
         Effect::new(move || {
             document.track();
-            if known {
+            let is_computed = computed.take().is_some_and(|first| document.with_untracked(|now| *now == first));
+            if !is_computed {
                 scheduler.request_frame();
             }
-            known = true;
         });
     }
 

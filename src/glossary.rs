@@ -5,7 +5,7 @@ use leptos::prelude::*;
 use quadtank_lesson::LESSON_IDS;
 
 use super::lab::{Lab, use_lab};
-use super::lessons::lesson_address;
+use super::lessons::LessonLink;
 use super::texts::{Language, say, terms, tr};
 use super::widgets::{Text, marked, unmarked};
 
@@ -103,9 +103,9 @@ impl Term {
 /// The link from a word to its lesson.
 fn lesson_link(lab: Lab, term: &'static Term) -> impl IntoView {
     view! {
-        <a href=lesson_address(term.lesson_id()) class="to-lesson">
+        <LessonLink id=term.lesson_id() class="to-lesson" testid=format!("to-lesson-{}", term.key)>
             {move || tr!(lab, lesson.to_lesson, number = term.lesson)}
-        </a>
+        </LessonLink>
     }
 }
 

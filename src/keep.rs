@@ -71,8 +71,11 @@ fn offer_last(lab: Lab) {
     }
 }
 
-/// Undoes the last step of the bench that is shown, also one that has not settled yet.
+/// Undoes the last step of the bench that is shown, also one that has not settled yet. What is done in a lesson is no step.
 pub fn undo(lab: Lab) {
+    if lab.stage.with_untracked(Option::is_some) {
+        return;
+    }
     let bench = lab.bench.get_untracked();
     (bench.record)(lab);
     (bench.undo)(lab);
@@ -80,6 +83,9 @@ pub fn undo(lab: Lab) {
 
 /// Does again what was undone last.
 pub fn redo(lab: Lab) {
+    if lab.stage.with_untracked(Option::is_some) {
+        return;
+    }
     let bench = lab.bench.get_untracked();
     (bench.record)(lab);
     (bench.redo)(lab);

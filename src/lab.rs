@@ -105,7 +105,7 @@ pub struct State {
 pub struct Stage {
     /// The bench.
     pub bench: &'static str,
-    /// The cards that are shown.
+    /// The cards that are shown, in their order.
     pub panels: Vec<&'static str>,
     /// The groups of controls that are disabled.
     pub locks: Vec<&'static str>,
@@ -158,7 +158,7 @@ impl Lab {
     }
 
     /// Follows a document. The values of its controls are updated with its throttled texts.
-    pub(super) fn follow<T: Send + Sync + 'static>(
+    pub(super) fn follow<T: Clone + PartialEq + Send + Sync + 'static>(
         self,
         document: RwSignal<T>,
         compute: impl Fn() -> Option<Box<dyn FnOnce()>> + 'static,
@@ -225,6 +225,11 @@ impl Lab {
                 Some(other) => document = other,
             }
         }
+    }
+
+    /// The place of a card among those of a lesson, which says what the student sees first; nothing without a lesson.
+    pub fn place_of(self, panel: Panel) -> Option<usize> {
+        self.stage.with_untracked(|stage| stage.as_ref()?.panels.iter().position(|shown| *shown == panel.0))
     }
 
     /// Whether a card is shown.

@@ -14,6 +14,7 @@ mod format;
 mod frames;
 mod glossary;
 mod handout;
+mod header;
 mod history;
 mod keep;
 mod lab;

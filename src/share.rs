@@ -12,19 +12,15 @@ use quadtank_scenario::{DOCUMENT_LIMIT, Document, ScenarioError, document_from_b
 
 /// What stands before the link text in the fragment of an address.
 const PREFIX: &str = "lab=";
+/// Flags of what is shown in place of the benches, which an address of a bench has not.
+const ELSEWHERE: [&str; 3] = ["page", "lesson", "step"];
 /// A reference to this page without its query.
 pub const BARE: &str = "?";
 
 /// Shows a page beside the benches, which Back leaves.
 pub fn go_to_page(lab: Lab, page: SidePage) {
-    let here = lab.bench.get_untracked();
-    if lab.side.get_untracked().is_none() {
-        show_address(&kept_reference(lab, here));
-    }
-    if let Ok(history) = window().history() {
-        let reference = query_with("", &[("page", page.name()), ("bench", here.id)]);
-        let _ = history.push_state_with_url(&leptos::wasm_bindgen::JsValue::NULL, "", Some(&reference));
-    }
+    let bench = lab.bench.get_untracked().id;
+    go_on_to(lab, &query_with(&bench_flags(), &[("page", page.name()), ("bench", bench)]));
     lab.side.set(Some(page));
 }
 
@@ -45,7 +41,7 @@ pub fn address_of(lab: Lab) -> Result<String, ScenarioError> {
     let link = link_of(lab)?;
     let here = window().location().href().unwrap_or_default();
     let page = here.split(['?', '#']).next().unwrap_or_default();
-    let query = query_with(&search(), &shown(lab, lab.bench.get_untracked()));
+    let query = query_with(&bench_flags(), &shown(lab, lab.bench.get_untracked()));
     Ok(format!("{page}{query}#{PREFIX}{link}"))
 }
 
@@ -67,7 +63,7 @@ pub fn kept_reference(lab: Lab, bench: &BenchEntry) -> String {
     if link.is_some() || search().contains("view=") {
         pairs.extend(shown(lab, bench));
     }
-    let query = query_with(&search(), &pairs);
+    let query = query_with(&bench_flags(), &pairs);
     // An empty reference would be the present address with its fragment.
     let fragment = link.map(|link| format!("#{PREFIX}{link}")).unwrap_or_default();
     format!("{query}{fragment}")
@@ -79,15 +75,32 @@ fn shown(lab: Lab, bench: &BenchEntry) -> Vec<(&'static str, &'static str)> {
     has_choice.then(|| ("view", bench.depth(lab.depth.get_untracked()).name())).into_iter().collect()
 }
 
+/// The reference of a step of a lesson, counted from 0.
+pub fn lesson_reference(id: &str, step: usize) -> String {
+    query_with(&bench_flags(), &[("lesson", id), ("step", &(step + 1).to_string())])
+}
+
 fn search() -> String {
     window().location().search().unwrap_or_default()
 }
 
+/// The flags of the address that hold for a bench.
+fn bench_flags() -> String {
+    query_without(&search(), &ELSEWHERE)
+}
+
+/// A query without these flags.
+fn query_without(query: &str, names: &[&str]) -> String {
+    let is_kept = |pair: &&str| !pair.is_empty() && pair.split('=').next().is_none_or(|name| !names.contains(&name));
+    query.trim_start_matches('?').split('&').filter(is_kept).collect::<Vec<_>>().join("&")
+}
+
 /// A query with these values; its other ones stay.
 fn query_with(query: &str, pairs: &[(&str, &str)]) -> String {
-    let is_replaced = |pair: &str| pairs.iter().any(|(name, _)| pair.split('=').next() == Some(name));
-    let others = query.trim_start_matches('?').split('&').filter(|pair| !pair.is_empty() && !is_replaced(pair));
-    let all = others.map(str::to_owned).chain(pairs.iter().map(|(name, value)| format!("{name}={value}")));
+    let names: Vec<&str> = pairs.iter().map(|(name, _)| *name).collect();
+    let others = query_without(query, &names);
+    let all = (!others.is_empty()).then_some(others);
+    let all = all.into_iter().chain(pairs.iter().map(|(name, value)| format!("{name}={value}")));
     format!("?{}", all.collect::<Vec<_>>().join("&"))
 }
 
@@ -112,24 +125,35 @@ pub fn show_address(address: &str) -> bool {
     window().history().is_ok_and(|history| history.replace_state_with_url(&nothing, "", Some(address)).is_ok())
 }
 
+/// Goes on to another address, so that Back comes back to what is shown now.
+pub fn go_on_to(lab: Lab, reference: &str) {
+    // Pages and lessons have their address already.
+    if lab.side.get_untracked().is_none() && lab.stage.with_untracked(Option::is_none) {
+        show_address(&kept_reference(lab, lab.bench.get_untracked()));
+    }
+    if let Ok(history) = window().history() {
+        let _ = history.push_state_with_url(&leptos::wasm_bindgen::JsValue::NULL, "", Some(reference));
+    }
+}
+
 /// Shows another bench. It is a step of the browser's history, so that Back comes back to this one.
 pub fn go_to(lab: Lab, bench: &'static BenchEntry) {
     if lab.bench.get_untracked() == bench && lab.side.get_untracked().is_none() {
         return;
     }
+    go_on_to(lab, &kept_reference(lab, bench));
     lab.side.set(None);
-    let here = lab.bench.get_untracked();
-    show_address(&kept_reference(lab, here));
-    let nothing = leptos::wasm_bindgen::JsValue::NULL;
-    if let Ok(history) = window().history() {
-        let _ = history.push_state_with_url(&nothing, "", Some(&kept_reference(lab, bench)));
-    }
     lab.bench.set(bench);
 }
 
-/// Shows what the address asks for after a step in the browser's history.
+/// What the address asks for now.
+pub fn asked(lab: Lab) -> StartFlags {
+    StartFlags::parse(&search(), lab.benches)
+}
+
+/// Shows the bench or page that the address asks for after a step in the browser's history.
 pub fn follow_address(lab: Lab) {
-    let flags = StartFlags::parse(&search(), lab.benches);
+    let flags = asked(lab);
     lab.side.set(flags.page);
     if let Some(depth) = flags.view {
         lab.depth.set(depth);
@@ -185,6 +209,8 @@ mod tests {
     fn values_of_a_query_are_replaced_and_others_stay() {
         assert_eq!(query_with("", &[("bench", "relay-tuning")]), "?bench=relay-tuning");
         assert_eq!(query_with("?lang=en&bench=a&x", &[("bench", "b"), ("view", "lab")]), "?lang=en&x&bench=b&view=lab");
+        assert_eq!(query_with(&query_without("?page=x&lang=en&lesson=a&step=2", &ELSEWHERE), &[]), "?lang=en");
+        assert_eq!(query_with("", &[]), "?");
         assert_eq!(query_with("?benches=a", &[("bench", "b")]), "?benches=a&bench=b");
     }
 }

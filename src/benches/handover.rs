@@ -8,9 +8,36 @@ use quadtank_scenario::tuning::TuningScenario;
 use quadtank_scenario::{BenchDocument, Scenario, ScenarioError};
 
 use super::{ModelFree, QuadrupleTank, RelayTuning};
-use crate::lab::{Lab, Notice};
+use crate::lab::{Lab, Notice, use_lab};
 use crate::session::Bench;
 use crate::share::go_to;
+
+/// A button that hands something over. A lesson stays on its bench.
+#[component]
+pub fn HandOver(
+    /// Name for tests.
+    id: &'static str,
+    /// What it says.
+    name: Signal<String>,
+    /// Whether there is something to hand over.
+    #[prop(into)]
+    is_possible: Signal<bool>,
+    /// Hands it over.
+    act: Callback<()>,
+) -> impl IntoView {
+    let lab = use_lab();
+    view! {
+        <button
+            type="button"
+            class="button small"
+            data-testid=id
+            hidden=move || !is_possible.get() || lab.stage.with(Option::is_some)
+            on:click=move |_| act.run(())
+        >
+            {name}
+        </button>
+    }
+}
 
 /// Shows a document on its bench, under the name that the experiment has, unless that bench refuses it.
 fn hand_over<B: Bench>(lab: Lab, mut document: B::Document) {

@@ -192,7 +192,9 @@ pub fn Ordering(task: Arc<Task>, items: Vec<Signal<String>>) -> impl IntoView {
     let (lab, room) = (use_lab(), use_classroom());
     let done = is_done(&task.id);
     let count = items.len();
+    let is_shown = untrack(|| room.followed_record(&task.id)).shown;
     let order = RwSignal::new(match kept_answer(&task.id) {
+        _ if is_shown => (0..count).collect(),
         Some(Answer::Order(order)) => order,
         _ => first_order(count, &task.id),
     });

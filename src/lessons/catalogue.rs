@@ -6,8 +6,7 @@ use leptos::prelude::*;
 use quadtank_lesson::{LESSON_IDS, Lesson};
 
 use super::classroom::{tongue, use_classroom};
-use super::place::lesson_address;
-use super::{kept, load};
+use super::{LessonLink, kept, load};
 use crate::lab::use_lab;
 use crate::texts::{say, tr};
 use crate::widgets::Tick;
@@ -39,18 +38,12 @@ pub fn Catalogue() -> impl IntoView {
 
 #[component]
 fn LessonRow(id: &'static str, number: usize, lesson: Signal<Option<Arc<Lesson>>>) -> impl IntoView {
-    let (lab, room) = (use_lab(), use_classroom());
+    let lab = use_lab();
     let forgotten = Trigger::new();
     let known = Memo::new(move |_| {
         forgotten.track();
         kept::known(id)
     });
-    let begin = move |event: leptos::ev::MouseEvent| {
-        if !(event.ctrl_key() || event.meta_key() || event.shift_key()) {
-            event.prevent_default();
-            super::begin(lab, room, id.to_owned(), None);
-        }
-    };
     let state = move || {
         let (lesson, progress) = (lesson.get()?, known.get()?);
         let points = progress.points(&lesson);
@@ -88,7 +81,7 @@ fn LessonRow(id: &'static str, number: usize, lesson: Signal<Option<Arc<Lesson>>
             </header>
             {content}
             <p class="links">
-                <a class="button strong" href=lesson_address(id) on:click=begin data-testid=format!("begin-{id}")>{name}</a>
+                <LessonLink id class="button strong" testid=format!("begin-{id}")>{name}</LessonLink>
                 <span class="remark">{state}</span>
                 <button type="button" class="button small" hidden=move || known.get().is_none() on:click=forget>{say!(lab, lesson.forget)}</button>
             </p>

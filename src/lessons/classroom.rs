@@ -15,8 +15,8 @@ use super::course;
 use super::kept;
 use crate::benches::BenchEntry;
 use crate::lab::{Lab, Stage};
-use crate::session::{Lock, Panel};
-use crate::share::show_address;
+use crate::session::Lock;
+use crate::share::{kept_reference, lesson_reference, show_address};
 
 /// The class room of this page. A handle of one pointer, as [`Lab`].
 #[derive(Clone, Copy)]
@@ -45,8 +45,9 @@ pub struct State {
     start: StoredValue<Option<Document>>,
     /// The states with which the steps began so far, by their places.
     starts: StoredValue<BTreeMap<usize, Document>>,
-    /// The state of the bench before the lesson, which comes back after it.
-    before: StoredValue<Option<(&'static BenchEntry, Document)>>,
+    /// The bench that was shown before the lessons, and what they put something else in place of: it comes back after them.
+    before: StoredValue<Option<&'static BenchEntry>>,
+    put_aside: StoredValue<Vec<(&'static BenchEntry, Document)>>,
     /// Whether the student has turned to another step.
     turned: StoredValue<bool>,
     /// When the clock of the lesson was read last (s).
@@ -79,6 +80,7 @@ impl Classroom {
             start: StoredValue::new(None),
             starts: StoredValue::new(BTreeMap::new()),
             before: StoredValue::new(None),
+            put_aside: StoredValue::new(Vec::new()),
             turned: StoredValue::new(false),
             read_at_s: StoredValue::new(0.0),
         })))
@@ -86,14 +88,12 @@ impl Classroom {
 
     /// Begins a lesson, or goes on with it at `step` or where it was left.
     pub fn begin(self, lesson: Lesson, step: Option<usize>) {
+        self.keep();
         let progress = course::resumed(&lesson)
             .or_else(|| kept::read(&lesson))
             .unwrap_or_else(|| Progress::new(&lesson, kept::new_seed()));
         let step = step.filter(|step| *step < lesson.steps.len()).unwrap_or(progress.step);
-        if self.before.with_value(Option::is_none) {
-            let bench = self.lab.bench.get_untracked();
-            self.before.set_value(Some((bench, (bench.document)(self.lab))));
-        }
+        self.put_aside(&lesson.bench);
         self.read_at_s.set_value(now_s());
         self.start.set_value(None);
         self.starts.set_value(BTreeMap::new());
@@ -103,6 +103,24 @@ impl Classroom {
             self.lesson.set(Some(Arc::new(lesson)));
         });
         self.open(step);
+    }
+
+    /// Puts the work on a bench aside, once, before a lesson takes the bench.
+    fn put_aside(self, id: &str) {
+        if self.before.with_value(Option::is_none) {
+            self.before.set_value(Some(self.lab.bench.get_untracked()));
+        }
+        let is_aside = self.put_aside.with_value(|aside| aside.iter().any(|(bench, _)| bench.id == id));
+        if let Some(bench) = self.lab.benches.iter().find(|bench| bench.id == id && !is_aside) {
+            (bench.record)(self.lab);
+            let document = (bench.document)(self.lab);
+            self.put_aside.update_value(|aside| aside.push((bench, document)));
+        }
+    }
+
+    /// Whether a lesson is taken.
+    pub fn is_in(self, id: &str) -> bool {
+        self.lesson.with_untracked(|lesson| lesson.as_ref().is_some_and(|lesson| lesson.id == id))
     }
 
     /// Opens a step: brings the bench into its state, and shows its cards.
@@ -136,7 +154,7 @@ impl Classroom {
         });
         self.start.set_value(Some(present));
         self.set_stage(&lesson, step);
-        show_address(&format!("?lesson={}&step={}{}", lesson.id, index + 1, kept_flags(self.lab)));
+        show_address(&lesson_reference(&lesson.id, index));
         self.keep();
     }
 
@@ -156,14 +174,12 @@ impl Classroom {
         let Some(bench) = self.lab.benches.iter().find(|bench| bench.id == lesson.bench) else { return };
         let is_done = |task: &Task| self.record(&task.id).is_done();
         let reveals = step.tasks.iter().all(is_done);
-        let is_shown = |panel: &&Panel| {
-            let has = |names: &[String]| names.iter().any(|name| name == panel.0);
-            has(&step.panels) && (reveals || !has(&step.reveal))
-        };
+        let is_shown = |name: &&String| reveals || !step.reveal.contains(name);
+        let panel = |name: &String| bench.panels.iter().find(|panel| panel.0 == name).map(|panel| panel.0);
         let is_locked = |lock: &&Lock| step.lock.iter().any(|name| name == lock.0);
         let stage = Stage {
             bench: bench.id,
-            panels: bench.panels.iter().filter(is_shown).map(|panel| panel.0).collect(),
+            panels: step.panels.iter().filter(is_shown).filter_map(panel).collect(),
             locks: bench.locks.iter().filter(is_locked).map(|lock| lock.0).collect(),
         };
         if self.lab.stage.with_untracked(|shown| shown.as_ref() != Some(&stage)) {
@@ -216,13 +232,17 @@ impl Classroom {
         if matches!(task.kind, TaskKind::Achieve(_)) && !verdict.is_right {
             return verdict;
         }
-        let feedback = (task.id.clone(), verdict.feedback, verdict.is_right);
         self.change(task, |record| record.take(task, answer, verdict));
-        self.said.update(|said| {
-            said.retain(|(id, ..)| *id != task.id);
-            said.push(feedback);
-        });
+        self.say(&task.id, verdict.feedback, verdict.is_right);
         verdict
+    }
+
+    /// Says something about a task in place of what was said before.
+    fn say(self, id: &str, feedback: Option<Feedback>, is_right: bool) {
+        self.said.update(|said| {
+            said.retain(|(of, ..)| of != id);
+            said.push((id.to_owned(), feedback, is_right));
+        });
     }
 
     /// Marks an answer without taking it up; follows the bench where the task is about it.
@@ -272,6 +292,7 @@ impl Classroom {
     pub fn show_solution(self, task: &Task) {
         let TaskKind::Achieve(goal) = &task.kind else { return };
         self.change(task, |record| record.shown = true);
+        self.say(&task.id, None, false);
         if let Some(state) = self.start.get_value()
             && let Ok(solved) = with_settings(&state, &goal.solution)
         {
@@ -323,39 +344,32 @@ impl Classroom {
         course::finish();
     }
 
-    /// Leaves the lesson; the bench comes back as it was before.
+    /// Leaves the lesson for the bench that was shown before.
     pub fn leave(self) {
+        if let Some(bench) = self.end() {
+            self.lab.bench.set(bench);
+            show_address(&kept_reference(self.lab, bench));
+        }
+    }
+
+    /// Ends the lesson, if one is taken: what lay aside is back on its benches. The bench that was shown before.
+    pub fn end(self) -> Option<&'static BenchEntry> {
         self.keep();
         course::finish();
         self.lab.stage.set(None);
         self.lesson.set(None);
         self.progress.set(None);
         self.start.set_value(None);
-        if let Some((bench, document)) = self.before.try_update_value(Option::take).flatten() {
+        for (_, document) in self.put_aside.try_update_value(std::mem::take).unwrap_or_default() {
             self.lab.open(Ok(document));
-            self.lab.bench.set(bench);
-            show_address(&crate::share::kept_reference(self.lab, bench));
         }
+        self.before.try_update_value(Option::take).flatten()
     }
 }
 
 /// The language in which a lesson is shown.
 pub fn tongue(lab: Lab, lesson: &Lesson) -> Tongue {
     lesson.tongue(Tongue::of_tag(lab.language.get().tag()).unwrap_or(Tongue::En))
-}
-
-/// Language and theme of the address, and whether it is an embed, which an address keeps.
-fn kept_flags(lab: Lab) -> String {
-    lab.flags.with_value(|flags| {
-        let mut kept = String::new();
-        if flags.embed {
-            kept.push_str("&embed=1");
-        }
-        if let Some(language) = flags.language {
-            kept.extend(["&lang=", language.tag()]);
-        }
-        kept
-    })
 }
 
 fn now_s() -> f64 {

@@ -2,14 +2,15 @@
 
 use std::sync::Arc;
 
+use leptos::html::H2;
 use leptos::prelude::*;
 use quadtank_lesson::{Answer, Lesson, Report, Task, TaskKind, points_of, start_of};
 use quadtank_scenario::{Document, to_link};
 
 use super::classroom::{tongue, use_classroom};
-use super::panel::shown;
-use super::place::{absolute, lesson_address};
-use super::{course, next_of};
+use super::panel::{focus_at_first, shown};
+use super::place::absolute;
+use super::{LessonLink, course, next_of};
 use crate::download::{copy, download_text};
 use crate::lab::{Lab, use_lab};
 use crate::texts::{say, tr};
@@ -20,6 +21,8 @@ use crate::texts::{say, tr};
 pub fn Finish(lesson: Arc<Lesson>) -> impl IntoView {
     let (lab, room) = (use_lab(), use_classroom());
     let name = RwSignal::new(course::student().unwrap_or_default());
+    let heading = NodeRef::<H2>::new();
+    focus_at_first(heading);
     let title = shown(lab, &lesson, lesson.title.clone());
     let report = {
         let lesson = Arc::clone(&lesson);
@@ -49,16 +52,16 @@ pub fn Finish(lesson: Arc<Lesson>) -> impl IntoView {
         copy(&code, move |done| copied.set(done));
     };
     let next = next_of(&lesson.id).map(|id| {
-        view! { <a class="button strong" href=lesson_address(id) data-testid="lesson-on">{say!(lab, lesson.next_lesson)}</a> }
+        view! { <LessonLink id class="button strong" testid="lesson-on">{say!(lab, lesson.next_lesson)}</LessonLink> }
     });
     let rows =
         lesson.tasks().map(|(step, task)| view! { <TaskLine lesson=Arc::clone(&lesson) task=task.clone() step /> });
     let rows = rows.collect_view();
     view! {
-        <aside class="lesson" aria-label=title data-testid="report">
-            <div class="lesson-text">
-                <p class="lesson-title">{title}</p>
-                <h2 tabindex="-1">{say!(lab, lesson.report)}</h2>
+        <aside class="lesson report" aria-label=title data-testid="report">
+            <div class="lesson-text" tabindex="0">
+                <h1 class="lesson-title">{title}</h1>
+                <h2 tabindex="-1" node_ref=heading>{say!(lab, lesson.report)}</h2>
                 <p class="sum">{sum}</p>
                 <label class="name">
                     {say!(lab, lesson.name)}

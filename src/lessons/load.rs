@@ -52,7 +52,8 @@ pub fn inside(id: &str) -> Option<String> {
     document().get_element_by_id(id)?.text_content()
 }
 
-async fn fetched(address: &str) -> Option<String> {
+/// The text of a file beside the page.
+pub async fn fetched(address: &str) -> Option<String> {
     let response = JsFuture::from(window().fetch_with_str(address)).await.ok()?;
     let response: web_sys::Response = response.dyn_into().ok()?;
     // A host that answers with its own page in place of a missing file sends no lesson.

@@ -14,27 +14,44 @@ mod task;
 mod teachers;
 
 use leptos::prelude::*;
-use quadtank_lesson::{LESSON_IDS, read_lesson};
+use quadtank_lesson::{LESSON_IDS, Lesson, read_lesson};
 use wasm_bindgen_futures::spawn_local;
 
 pub use catalogue::Catalogue;
 pub use classroom::{Classroom, use_classroom};
 pub use load::LoadError;
 pub use panel::LessonPanel;
-pub use place::{SidePage, lesson_address};
-pub use teachers::Teachers;
+pub use place::SidePage;
+use place::lesson_address;
+pub use teachers::{LessonFiles, Teachers};
 
 use crate::lab::{Lab, Notice, use_lab};
+use crate::share;
 use crate::texts::say;
 
-/// Loads a lesson of the laboratory and begins it.
-pub fn begin(lab: Lab, room: Classroom, id: String, step: Option<usize>) {
+/// Loads a lesson of the laboratory and begins it as a step of the browser's history, so that Back leaves it.
+pub fn begin(lab: Lab, room: Classroom, id: &str) {
+    load_and(lab, id.to_owned(), move |lesson| go_on_with(lab, room, lesson, None));
+}
+
+/// Begins a lesson at an address that is there already.
+fn begin_here(lab: Lab, room: Classroom, id: String, step: Option<usize>) {
+    load_and(lab, id, move |lesson| {
+        lab.side.set(None);
+        room.begin(lesson, step);
+    });
+}
+
+fn go_on_with(lab: Lab, room: Classroom, lesson: Lesson, step: Option<usize>) {
+    share::go_on_to(lab, &share::lesson_reference(&lesson.id, step.unwrap_or_default()));
+    lab.side.set(None);
+    room.begin(lesson, step);
+}
+
+fn load_and(lab: Lab, id: String, then: impl FnOnce(Lesson) + 'static) {
     spawn_local(async move {
         match load::load(&id).await {
-            Ok(lesson) => {
-                lab.side.set(None);
-                room.begin(lesson, step);
-            }
+            Ok(lesson) => then(lesson),
             Err(error) => lab.notice.set(Some(Notice::NoLesson(error))),
         }
     });
@@ -43,10 +60,7 @@ pub fn begin(lab: Lab, room: Classroom, id: String, step: Option<usize>) {
 /// Begins the lesson of a file; one that is not a lesson is refused with its place, and nothing is lost.
 pub fn begin_file(lab: Lab, room: Classroom, bytes: &[u8]) {
     match read_lesson(bytes) {
-        Ok(lesson) => {
-            lab.side.set(None);
-            room.begin(lesson, Some(0));
-        }
+        Ok(lesson) => go_on_with(lab, room, lesson, Some(0)),
         Err(error) => lab.notice.set(Some(Notice::NoLesson(LoadError::Refused(error)))),
     }
 }
@@ -56,13 +70,60 @@ pub fn begin_asked(lab: Lab, room: Classroom) {
     // A package for a course has its lesson inside.
     if let Some(text) = load::inside("lesson") {
         course::begin();
-        return begin_file(lab, room, text.as_bytes());
+        return match read_lesson(text.as_bytes()) {
+            Ok(lesson) => room.begin(lesson, None),
+            Err(error) => lab.notice.set(Some(Notice::NoLesson(LoadError::Refused(error)))),
+        };
     }
     let (id, step) = lab.flags.with_value(|flags| (flags.lesson.clone(), flags.step));
     if let Some(id) = id {
         course::begin();
-        begin(lab, room, id, step);
+        begin_here(lab, room, id, step);
     }
+}
+
+/// Shows what the address asks for after a step in the browser's history: a lesson, or what there is without one.
+pub fn follow_address(lab: Lab, room: Classroom) {
+    let flags = share::asked(lab);
+    match flags.lesson {
+        Some(id) if room.is_in(&id) => room.open(flags.step.unwrap_or_default()),
+        Some(id) => begin_here(lab, room, id, flags.step),
+        None => {
+            room.end();
+            share::follow_address(lab);
+        }
+    }
+}
+
+/// Whether a click is for this page, not for another tab or window; then the browser leaves it alone.
+pub fn is_for_here(event: &leptos::ev::MouseEvent) -> bool {
+    let is_here = !(event.ctrl_key() || event.meta_key() || event.shift_key());
+    if is_here {
+        event.prevent_default();
+    }
+    is_here
+}
+
+/// The link to a lesson, which begins in this page.
+#[component]
+pub fn LessonLink(
+    /// The lesson.
+    id: &'static str,
+    /// Class of the link.
+    class: &'static str,
+    /// Name for tests.
+    #[prop(into)]
+    testid: String,
+    /// What it says.
+    children: Children,
+) -> impl IntoView {
+    let (lab, room) = (use_lab(), use_classroom());
+    let go = move |event| {
+        if is_for_here(&event) {
+            begin(lab, room, id);
+        }
+    };
+    view! { <a class=class href=lesson_address(id) data-testid=testid on:click=go>{children()}</a> }
 }
 
 /// The way from a first visit to the first lesson, and to the page for teachers.
@@ -70,23 +131,18 @@ pub fn begin_asked(lab: Lab, room: Classroom) {
 pub fn FirstLesson() -> impl IntoView {
     /// About how long the first lesson takes (min); its file says the same.
     const MINUTES: u32 = 8;
-    let (lab, room) = (use_lab(), use_classroom());
-    let go = move |event: leptos::ev::MouseEvent| {
-        if !(event.ctrl_key() || event.meta_key() || event.shift_key()) {
-            event.prevent_default();
-            begin(lab, room, LESSON_IDS[0].to_owned(), None);
+    let lab = use_lab();
+    let to_teachers = move |event| {
+        if is_for_here(&event) {
+            share::go_to_page(lab, SidePage::Teachers);
         }
-    };
-    let to_teachers = move |event: leptos::ev::MouseEvent| {
-        event.prevent_default();
-        crate::share::go_to_page(lab, SidePage::Teachers);
     };
     let is_embed = lab.flags.with_value(|flags| flags.embed);
     view! {
         <p class="ways" hidden=is_embed>
-            <a class="button strong" href=lesson_address(LESSON_IDS[0]) data-testid="first-lesson" on:click=go>
+            <LessonLink id=LESSON_IDS[0] class="button strong" testid="first-lesson">
                 {say!(lab, lesson.first, number = 1, minutes = MINUTES)}
-            </a>
+            </LessonLink>
             <a class="button" href=SidePage::Teachers.address() data-testid="first-teachers" on:click=to_teachers>
                 {say!(lab, lesson.teachers)}
             </a>

@@ -40,17 +40,22 @@ pub fn shown(lab: Lab, lesson: &Arc<Lesson>, text: quadtank_lesson::Text) -> Sig
     Signal::derive(move || text.shown(tongue(lab, &lesson)).to_owned())
 }
 
+/// Whoever goes on by keyboard or screen reader begins at a title.
+pub fn focus_at_first(heading: NodeRef<H2>) {
+    Effect::new(move || {
+        if let Some(heading) = heading.get() {
+            let _ = heading.focus();
+        }
+    });
+}
+
 #[component]
 fn StepPanel(lesson: Arc<Lesson>, step: Step, index: usize) -> impl IntoView {
     let (lab, room) = (use_lab(), use_classroom());
     let heading = NodeRef::<H2>::new();
-    // Whoever goes on by keyboard or screen reader begins at the title of the step.
-    let turned = room.turned();
-    Effect::new(move || {
-        if let Some(heading) = heading.get().filter(|_| turned) {
-            let _ = heading.focus();
-        }
-    });
+    if room.turned() {
+        focus_at_first(heading);
+    }
     let count = lesson.steps.len();
     let is_done = Memo::new({
         let lesson = Arc::clone(&lesson);
@@ -69,9 +74,9 @@ fn StepPanel(lesson: Arc<Lesson>, step: Step, index: usize) -> impl IntoView {
     });
     view! {
         <aside class="lesson" aria-label=lesson_title data-testid="lesson">
-            <div class="lesson-text">
+            <div class="lesson-text" tabindex="0">
                 <Dots lesson=Arc::clone(&lesson) index />
-                <p class="lesson-title">{lesson_title}</p>
+                <h1 class="lesson-title">{lesson_title}</h1>
                 <h2 tabindex="-1" node_ref=heading data-testid="step-title">
                     {move || tr!(lab, lesson.step, number = index + 1, title = title.get())}
                 </h2>

@@ -154,7 +154,7 @@ fn Hints(lesson: Arc<Lesson>, task: Arc<Task>) -> impl IntoView {
     view! {
         <div class="hints" data-testid="hints">
             {taken}
-            <button type="button" class="button small" data-testid="hint" hidden=move || !has_more() on:click=take>
+            <button type="button" class="button small" data-testid="hint" class:gone=move || !has_more() on:click=take>
                 {say!(lab, lesson.hint)}
             </button>
             <button type="button" class="button small" data-testid="show-solution" hidden=move || !can_show() on:click=show>

@@ -3,6 +3,7 @@ use leptos::prelude::*;
 use super::marked::marked;
 use super::terms::{Terms, Text};
 use crate::lab::use_lab;
+use crate::session::Panel;
 use crate::texts::tr;
 
 /// A card: its title with what stands beside it, and its content. Its class names it.
@@ -10,6 +11,9 @@ use crate::texts::tr;
 pub fn Card(
     /// Class of the card.
     name: &'static str,
+    /// Its name in an address, by which a lesson chooses its place.
+    #[prop(optional)]
+    panel: Option<Panel>,
     /// Its title.
     #[prop(into)]
     title: Signal<String>,
@@ -29,6 +33,7 @@ pub fn Card(
     let heading = format!("{name}-title");
     let labelled_by = heading.clone();
     let lab = use_lab();
+    let order = panel.and_then(|panel| lab.place_of(panel)).map(|place| place.to_string());
     let is_large = Signal::derive(move || lab.large.get() == Some(name));
     let size = Signal::derive(move || {
         let title = title.get();
@@ -38,6 +43,7 @@ pub fn Card(
         <section
             class=format!("card {name}")
             class:large=is_large
+            style:order=order
             aria-labelledby=labelled_by
             hidden=hidden
         >

@@ -19,7 +19,7 @@ test('a first visit begins with Explore, and three things to try lead to three d
   await expect(lab.id('levels')).toBeVisible();
   await expect(lab.id('gamma1')).toHaveCount(0);
   await expect(lab.id('discovery')).toContainText('Nothing can break');
-  expect(await lab.text('levels-sentence')).toMatch(/^Level 1 settles 51.2 s after its step/);
+  expect(await lab.text('levels-sentence')).toMatch(/^Level 1 settles \(to 2\s%\) 51.2 s after its step/);
   await lab.axe();
 
   // One: ask for more water in tank 2.

@@ -299,7 +299,7 @@ test('the data table holds the numbers of the picture', async ({ lab, page }) =>
 test('a sentence tells how long a response was looked at, and that a load ends it', async ({ lab }) => {
   await lab.open();
   await lab.type('step2-time', '120');
-  expect(await lab.text('responses-sentence')).toMatch(/Level 1 settles 17\.8 s after its step \(watched for 20\.0 s\)/);
+  expect(await lab.text('responses-sentence')).toMatch(/Level 1 settles \(to 2\s%\) 17\.8 s after its step \(watched for 20\.0 s\)/);
   // Level 2 still answers the first step.
   expect(await lab.text('responses-sentence')).toMatch(/Level 2 was not at rest before its step, but up to 0\.\d+ cm from its reference/);
   await lab.type('step2-time', '103');

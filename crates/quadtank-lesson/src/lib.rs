@@ -40,7 +40,7 @@ pub use progress::{Progress, Record, SUSPEND_LIMIT, points_of};
 pub use report::{Report, ReportError, TaskReport};
 #[cfg(feature = "schema")]
 pub use schema::lesson_schema;
-pub use scorm::{PageError, scorm_manifest, scorm_page};
+pub use scorm::{PackageError, PageError, scorm_package};
 pub use start::{StartError, shuffled, start_of, state_before, with_settings};
 pub use task::{
     Achieve, Attempt, Choice, Choose, Condition, Explain, Mistake, MistakeKind, NumberTask, Of, Order, Predict, Task,

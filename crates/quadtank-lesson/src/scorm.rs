@@ -1,11 +1,31 @@
 //! A lesson as a package for learning management systems: SCORM 1.2 (ADL, Content Aggregation Model, 2001), one shareable object.
 
+use std::io::{Cursor, Write as _};
+
 use thiserror::Error;
+use zip::result::ZipError;
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, ZipWriter};
 
 use super::Lesson;
 
 /// Points of 100 from which a system calls a lesson passed.
 const MASTERY_SCORE: u32 = 60;
+
+/// The page that makes a package stores it as it is, which saves it the code of a compressor.
+const COMPRESSION: CompressionMethod =
+    if cfg!(feature = "deflate") { CompressionMethod::DEFLATE } else { CompressionMethod::Stored };
+
+/// Why there is no package.
+#[derive(Debug, Error)]
+pub enum PackageError {
+    /// The page cannot take the lesson up.
+    #[error(transparent)]
+    Page(#[from] PageError),
+    /// The archive cannot be written.
+    #[error("the package cannot be made: {0}")]
+    Zip(#[from] ZipError),
+}
 
 /// Why a page cannot take a lesson up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
@@ -18,11 +38,26 @@ pub enum PageError {
     HasLesson,
 }
 
+/// The package of a lesson, a zip archive, from the laboratory as one file. The same lesson and page always give the same bytes.
+///
+/// # Errors
+/// [`PackageError`].
+pub fn scorm_package(page: &str, lesson: &Lesson) -> Result<Vec<u8>, PackageError> {
+    let page = scorm_page(page, lesson)?;
+    let options = SimpleFileOptions::default().compression_method(COMPRESSION);
+    let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
+    for (name, text) in [("imsmanifest.xml", &scorm_manifest(lesson)), ("index.html", &page)] {
+        archive.start_file(name, options)?;
+        archive.write_all(text.as_bytes()).map_err(ZipError::from)?;
+    }
+    Ok(archive.finish()?.into_inner())
+}
+
 /// The page of a package, `index.html`: the laboratory as one file, with the lesson in its head.
 ///
 /// # Errors
 /// [`PageError`].
-pub fn scorm_page(page: &str, lesson: &Lesson) -> Result<String, PageError> {
+fn scorm_page(page: &str, lesson: &Lesson) -> Result<String, PageError> {
     const HEAD_ENDS: &str = "</head>";
     let (head, body) = page.split_once(HEAD_ENDS).ok_or(PageError::NotSingle)?;
     if !head.contains("<html data-single") {
@@ -38,7 +73,7 @@ pub fn scorm_page(page: &str, lesson: &Lesson) -> Result<String, PageError> {
 }
 
 /// The manifest of a package, `imsmanifest.xml`. Its only file besides is `index.html`.
-pub fn scorm_manifest(lesson: &Lesson) -> String {
+fn scorm_manifest(lesson: &Lesson) -> String {
     let title = escaped(lesson.languages.first().map_or("", |&tongue| lesson.title.shown(tongue)));
     // Ids of lessons may begin with a digit, names in XML may not.
     let id = format!("quadtank-{}", lesson.id);
@@ -169,6 +204,18 @@ mod tests {
         assert_eq!(page.matches("</script").count(), 1);
         let inside = page.split_once("data-scorm=\"1\">").unwrap().1.split_once("</script>").unwrap().0;
         assert_eq!(read_lesson(inside.as_bytes()).unwrap().title.en.map(|title| json!(title)), Some(hostile));
+    }
+
+    #[test]
+    fn a_package_holds_manifest_and_page_and_is_always_the_same() {
+        let package = scorm_package(PAGE, &lesson()).unwrap();
+        assert_eq!(package, scorm_package(PAGE, &lesson()).unwrap());
+        let mut archive = zip::ZipArchive::new(Cursor::new(package)).unwrap();
+        let names: Vec<String> = archive.file_names().map(str::to_owned).collect();
+        assert_eq!(names, ["imsmanifest.xml", "index.html"]);
+        let page = std::io::read_to_string(archive.by_name("index.html").unwrap()).unwrap();
+        assert_eq!(page, scorm_page(PAGE, &lesson()).unwrap());
+        assert!(matches!(scorm_package("", &lesson()), Err(PackageError::Page(PageError::NotSingle))));
     }
 
     #[test]

@@ -5,7 +5,7 @@ use quadtank::study::level_loop::{LevelLoopAnswer, LevelLoopSetup, Objective};
 use quadtank_scenario::Limits;
 
 use super::errors;
-use super::flags::locks;
+use super::flags::{locks, panels};
 use super::sentences::{self, short_variance};
 use super::session::{Session, use_session};
 use crate::controls::{ParamControl, ParamRow};
@@ -56,7 +56,7 @@ pub fn AssessCard() -> impl IntoView {
         });
     };
     view! {
-        <Card name="assessment" title=say!(lab, level.assess_title) terms=TERMS>
+        <Card name="assessment" panel=panels::ASSESSMENT title=say!(lab, level.assess_title) terms=TERMS>
             <Verdict id="level-index" warm=Signal::derive(move || !found.get().0)>
                 {move || marked(&found.get().1)}
             </Verdict>

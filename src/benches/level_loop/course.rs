@@ -6,6 +6,7 @@ use quadtank::study::level_loop::LevelLoopSetup;
 use quadtank_figure::Frame;
 use quadtank_scenario::level_loop::LevelLoopScenario;
 
+use super::flags::panels;
 use super::pictures::{self, output_unit};
 use super::sentences;
 use super::session::{Session, set_cursor, shown, use_session};
@@ -46,7 +47,7 @@ pub fn CourseCard() -> impl IntoView {
         }
     };
     view! {
-        <Card name="course" title terms=TERMS beside>
+        <Card name="course" panel=panels::RESPONSES title terms=TERMS beside>
             <Verdict id="level-verdict" warm=Signal::derive(move || !found.get().0)>
                 {move || marked(&found.get().1)}
             </Verdict>

@@ -6,7 +6,7 @@ use quadtank::sim::level::{InflowSignal, SetPointScale, SignalStep};
 use quadtank::study::level_loop::LevelLoopSetup;
 use quadtank_scenario::Limits;
 
-use super::flags::locks;
+use super::flags::{locks, panels};
 use super::pictures::unit_of;
 use super::process::{CENTIMETRES, LITRES};
 use super::session::use_session;
@@ -123,7 +123,7 @@ pub fn ExperimentCard() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
     view! {
-        <Card name="experiment" title=say!(lab, level.experiment) terms=TERMS>
+        <Card name="experiment" panel=panels::EXPERIMENT title=say!(lab, level.experiment) terms=TERMS>
             <DisturbanceSelect />
             <ParamRow session control=&SIZE />
             <ParamRow session control=&PERIOD />

@@ -5,7 +5,7 @@ use quadtank::control::{IntegralDial, PiDials, PiForm, ProportionalDial};
 use quadtank::literature::andreis::{COMMERCIAL_CONTROLLERS, CommercialController};
 use quadtank::study::level_loop::{LevelLoopSetup, PiTuning};
 
-use super::flags::locks;
+use super::flags::{locks, panels};
 use super::session::{Session, use_session};
 use crate::texts::{say, terms, tr};
 use crate::widgets::{Card, Figures, Row, TableContent, Text};
@@ -32,7 +32,7 @@ pub fn FormsCard() -> impl IntoView {
         });
     };
     view! {
-        <Card name="forms" title=say!(lab, level.forms) terms=TERMS>
+        <Card name="forms" panel=panels::FORMS title=say!(lab, level.forms) terms=TERMS>
             <p class="sentence">{move || sentence(session)}</p>
             <Figures name="level-forms" caption=say!(lab, level.dials_caption)>{move || table(session)}</Figures>
             <p class="remark">{move || common(session)}</p>

@@ -5,6 +5,7 @@ use quadtank::literature::level_slides;
 use quadtank::study::level_loop::{HEATED_STEPS_S, HeatedAnswer, heated_tank};
 use quadtank_figure::Frame;
 
+use super::flags::panels;
 use super::pictures;
 use super::session::use_session;
 use crate::texts::{say, terms, tr};
@@ -38,7 +39,7 @@ pub fn HeatedCard() -> impl IntoView {
         })
     });
     view! {
-        <Card name="heated" title terms=TERMS beside=move || view! { <ChartMenu picture=for_menu file="heated-tank" title /> }>
+        <Card name="heated" panel=panels::HEATED title terms=TERMS beside=move || view! { <ChartMenu picture=for_menu file="heated-tank" title /> }>
             <SliderField
                 id=("heated-step", "heated-step-number")
                 label="Δt".to_owned()

@@ -7,7 +7,7 @@ use quadtank_figure::Frame;
 
 use super::errors;
 use super::exploration::{Method, Work, start_map, start_search};
-use super::flags::locks;
+use super::flags::{locks, panels};
 use super::pictures::{self, Shown};
 use super::sentences::variance;
 use super::session::{Session, use_session};
@@ -75,7 +75,7 @@ pub fn MapCard() -> impl IntoView {
         }
     };
     view! {
-        <Card name="map" title terms=TERMS beside=move || view! { <ChartMenu picture=for_menu file="cost-map" title /> }>
+        <Card name="map" panel=panels::MAP title terms=TERMS beside=move || view! { <ChartMenu picture=for_menu file="cost-map" title /> }>
             <MeasureSwitch />
             <Constraints />
             <div class="toolbar">

@@ -8,7 +8,7 @@ use quadtank_scenario::Limits;
 
 use super::drawing::LoopDrawing;
 use super::element::ElementPanel;
-use super::flags::locks;
+use super::flags::{locks, panels};
 use super::session::{Session, load, set_cursor, use_session};
 use crate::controls::{ParamControl, ParamRow};
 use crate::errors::of_level_error;
@@ -77,7 +77,7 @@ pub fn ProcessCard(
     let on_move = Callback::new(move |time| set_cursor(session, time));
     let playback = Playback::new(session.own.cursor.into(), on_move, events);
     view! {
-        <Card name="process" title=say!(lab, level.loop_title) terms=TERMS beside=|| view! { <PresetSelect /> }>
+        <Card name="process" panel=panels::PROCESS title=say!(lab, level.loop_title) terms=TERMS beside=|| view! { <PresetSelect /> }>
             <LoopDrawing />
             <TimeBar playback id="level-play" lab />
             <ElementPanel />

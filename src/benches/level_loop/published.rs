@@ -10,7 +10,7 @@ use quadtank::study::level_loop::{
     compare_table, published_setup,
 };
 
-use super::flags::locks;
+use super::flags::{locks, panels};
 use super::pictures::method_name;
 use super::sentences::{short_variance, variance};
 use super::session::{load, use_session};
@@ -35,7 +35,7 @@ pub fn PublishedCard() -> impl IntoView {
         remarks.iter().map(|remark| view! { <li>{remark_text(lab, *remark)}</li> }).collect_view()
     };
     view! {
-        <Card name="tables" title=say!(lab, level.published)>
+        <Card name="tables" panel=panels::PUBLISHED title=say!(lab, level.published)>
             <Select
                 id="published-table"
                 name=say!(lab, level.published)

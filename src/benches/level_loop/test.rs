@@ -8,7 +8,7 @@ use quadtank_figure::Frame;
 use quadtank_scenario::Limits;
 
 use super::errors;
-use super::flags::locks;
+use super::flags::{locks, panels};
 use super::pictures::{self, model_text, output_unit};
 use super::process::{CENTIMETRES, LITRES};
 use super::sentences;
@@ -79,6 +79,7 @@ pub fn TestCard() -> impl IntoView {
     view! {
         <Card
             name="step-test"
+            panel=panels::TEST
             title
             terms=TERMS
             beside=move || view! { <Places /> <ChartMenu picture=for_menu file="step-test" title /> }

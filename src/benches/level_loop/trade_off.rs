@@ -4,7 +4,7 @@ use leptos::prelude::*;
 use quadtank::study::level_loop::{PiTuning, TradeOff, TradeOffPoint, trade_off};
 use quadtank_figure::Frame;
 
-use super::flags::locks;
+use super::flags::{locks, panels};
 use super::pictures::{self, TradeOffEntry, method_name};
 use super::rules::suggested;
 use super::sentences::variance;
@@ -33,7 +33,7 @@ pub fn TradeOffCard() -> impl IntoView {
     let title = say!(lab, level.trade_off);
     let summary = Signal::derive(move || present(session));
     view! {
-        <Card name="trade-off" title terms=TERMS beside=move || view! { <ChartMenu picture=for_menu file="trade-off" title /> }>
+        <Card name="trade-off" panel=panels::TRADE_OFF title terms=TERMS beside=move || view! { <ChartMenu picture=for_menu file="trade-off" title /> }>
             <div class="chart">
                 <ChartCanvas picture frames summary name="trade-off-chart" />
                 <svg class="over">

@@ -6,7 +6,7 @@ use quadtank::sim::level::LevelController;
 use quadtank::study::level_loop::{LevelLoopSetup, Objective};
 use quadtank_scenario::Limits;
 
-use super::flags::locks;
+use super::flags::{locks, panels};
 use super::process::CENTIMETRES;
 use super::rules::Rules;
 use super::session::use_session;
@@ -135,7 +135,7 @@ pub fn TuningCard() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
     view! {
-        <Card name="tuning" title=say!(lab, level.tuning_title) terms=TERMS>
+        <Card name="tuning" panel=panels::CONTROLLER title=say!(lab, level.tuning_title) terms=TERMS>
             <ObjectiveSwitch />
             <KindSwitch />
             <Dials />

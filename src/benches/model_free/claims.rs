@@ -2,7 +2,7 @@
 
 use leptos::prelude::*;
 
-use super::flags::locks;
+use super::flags::{locks, panels};
 use super::sentences::in_cm;
 use super::session::{Session, load, use_session};
 use crate::texts::{say, tr};
@@ -20,7 +20,7 @@ pub fn ClaimsCard() -> impl IntoView {
     let items = claims.into_iter().zip(IDS).map(|(claim, id)| view! { <Item claim id /> }).collect_view();
     let about = move || view! { <span class="remark">{say!(lab, free.claims_remark)}</span> };
     view! {
-        <Card name="claims" title=say!(lab, free.claims) beside=about>
+        <Card name="claims" panel=panels::CLAIMS title=say!(lab, free.claims) beside=about>
             <ol>{items}</ol>
         </Card>
     }

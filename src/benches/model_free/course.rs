@@ -2,6 +2,7 @@
 
 use leptos::prelude::*;
 
+use super::flags::panels;
 use super::pictures;
 use super::sentences::{self, in_cm};
 use super::session::{Session, set_cursor, shown, use_session};
@@ -46,7 +47,7 @@ pub fn CourseCard(
         }
     };
     view! {
-        <Card name="course" title terms=TERMS beside>
+        <Card name="course" panel=panels::RESPONSES title terms=TERMS beside>
             <Verdict id="free-verdict" warm=Signal::derive(move || !found.get().0)>
                 {move || marked(&found.get().1)}
             </Verdict>

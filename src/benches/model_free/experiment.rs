@@ -2,7 +2,7 @@
 
 use leptos::prelude::*;
 
-use super::flags::locks;
+use super::flags::{locks, panels};
 use super::session::use_session;
 use crate::controls::{ParamControl, ParamRow, Switch};
 use crate::shown::ShownUnit;
@@ -84,7 +84,7 @@ pub fn CaseCard() -> impl IntoView {
     ];
     let source = move || view! { <span class="remark">{say!(lab, free.source)}</span> };
     view! {
-        <Card name="case" title=say!(lab, free.case) beside=source>
+        <Card name="case" panel=panels::EXPERIMENT title=say!(lab, free.case) beside=source>
             <Switch
                 session
                 label=say!(lab, free.case)

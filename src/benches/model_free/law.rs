@@ -2,7 +2,7 @@
 
 use leptos::prelude::*;
 
-use super::flags::locks;
+use super::flags::{locks, panels};
 use super::sentences::{self, CM_PER_M};
 use super::session::use_session;
 use crate::controls::{ParamControl, ParamRow, Switch};
@@ -103,7 +103,7 @@ pub fn LawCard() -> impl IntoView {
     let stability = Memo::new(move |_| sentences::of_loop(session));
     let lock = locks::GAINS;
     view! {
-        <Card name="law" terms=TERMS title=say!(lab, free.law)>
+        <Card name="law" panel=panels::CONTROLLER terms=TERMS title=say!(lab, free.law)>
             <div class="formula">{formula()}</div>
             <ParamRow session control=&MODEL_GAIN />
             <ParamRow session control=&PROPORTIONAL />

@@ -2,6 +2,7 @@
 
 use leptos::prelude::*;
 
+use super::flags::panels;
 use super::pictures;
 use super::sentences;
 use super::session::{Session, shown, use_session};
@@ -23,7 +24,7 @@ pub fn ValvePlaneCard() -> impl IntoView {
     });
     let beside = move || view! { <ChartMenu picture=pictures::plane(session, true) file="free-valve-plane" title /> };
     view! {
-        <Card name="valve-way" title beside>
+        <Card name="valve-way" panel=panels::VALVES title beside>
             <div class="chart square">
                 <ChartCanvas picture=pictures::plane(session, false) on_paper=pictures::plane(session, true) frames summary name="free-valve-plane" />
                 <svg class="over handles" aria-hidden="true" data-testid="free-way">{move || valve_path(session, frames)}</svg>
@@ -62,7 +63,7 @@ pub fn ZerosCard() -> impl IntoView {
         }
     };
     view! {
-        <Card name="moment-zeros" title beside>
+        <Card name="moment-zeros" panel=panels::ZEROS title beside>
             <div class="chart">
                 <ChartCanvas
                     picture

@@ -2,6 +2,7 @@
 
 use leptos::prelude::*;
 
+use super::flags::panels;
 use super::session::{set_cursor, shown, use_session};
 use crate::benches::quadruple_tank::{drawing, summary};
 use crate::texts::say;
@@ -22,7 +23,7 @@ pub fn ProcessCard() -> impl IntoView {
     let on_move = Callback::new(move |time| set_cursor(session, time));
     let playback = Playback::new(session.own.cursor.into(), on_move, events);
     view! {
-        <Card name="drawing" title=say!(lab, process.title) >
+        <Card name="drawing" panel=panels::PROCESS title=say!(lab, process.title) >
             <SliderField
                 id=("free-time", "free-time-number")
                 label="t".to_owned()

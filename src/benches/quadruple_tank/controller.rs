@@ -2,10 +2,10 @@
 
 use leptos::prelude::*;
 
-use super::flags::locks;
+use super::flags::{locks, panels};
 use super::sentences;
 use super::session::{Session, use_session};
-use crate::benches::handover;
+use crate::benches::handover::{self, HandOver};
 use crate::controls::{ParamControl, ParamNumber, ParamRow};
 use crate::texts::{say, terms, tr};
 use crate::widgets::{Card, Scale, Segmented, Sentence, Text, Tick};
@@ -145,7 +145,7 @@ pub fn ControllerCard() -> impl IntoView {
     };
     let stability = Memo::new(move |_| sentences::of_stability(session));
     view! {
-        <Card name="pi" title=say!(lab, pi.title) terms=TERMS beside=move || view! { <span class="remark">{about}</span> }>
+        <Card name="pi" panel=panels::CONTROLLER title=say!(lab, pi.title) terms=TERMS beside=move || view! { <span class="remark">{about}</span> }>
             <PairingSwitch />
             <LoopControls index=0 />
             <LoopControls index=1 />
@@ -154,23 +154,18 @@ pub fn ControllerCard() -> impl IntoView {
                 <FinePrint />
             </details>
             <div class="toolbar">
-                <button
-                    type="button"
-                    class="button small"
-                    data-testid="to-relays"
-                    hidden=session.throttled_part(|s| !matches!(s.plant, PlantSpec::Preset(_)))
-                    on:click=move |_| handover::to_relays(lab, &session.document.with_untracked(|s| s.setup.clone()))
-                >
-                    {say!(lab, handover.relays)}
-                </button>
-                <button
-                    type="button"
-                    class="button small"
-                    data-testid="to-model-free"
-                    on:click=move |_| handover::to_model_free(lab, &session.document.with_untracked(|s| s.setup.clone()))
-                >
-                    {say!(lab, handover.model_free)}
-                </button>
+                <HandOver
+                    id="to-relays"
+                    name=say!(lab, handover.relays)
+                    is_possible=session.throttled_part(|s| matches!(s.plant, PlantSpec::Preset(_)))
+                    act=Callback::new(move |()| handover::to_relays(lab, &session.document.with_untracked(|s| s.setup.clone())))
+                />
+                <HandOver
+                    id="to-model-free"
+                    name=say!(lab, handover.model_free)
+                    is_possible=true
+                    act=Callback::new(move |()| handover::to_model_free(lab, &session.document.with_untracked(|s| s.setup.clone())))
+                />
             </div>
             <Sentence
                 id="stability"

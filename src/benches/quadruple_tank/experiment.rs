@@ -3,7 +3,7 @@
 use crate::lab::Lab;
 use leptos::prelude::*;
 
-use super::flags::locks;
+use super::flags::{locks, panels};
 use super::session::{Session, use_session};
 use crate::controls::{ParamControl, ParamNumber, ParamRow};
 use crate::shown::{ShownUnit, to_shown};
@@ -199,7 +199,7 @@ pub fn ExperimentCard() -> impl IntoView {
     let further = move || session.document.with(|s| further_steps(&s.setup.experiment));
     let about = move || view! { <span class="remark">{say!(lab, experiment.remark)}</span> };
     view! {
-        <Card name="experiment" title=say!(lab, experiment.title) terms=TERMS beside=about>
+        <Card name="experiment" panel=panels::EXPERIMENT title=say!(lab, experiment.title) terms=TERMS beside=about>
             <Timed size=&REFERENCE time=&REFERENCE_TIME index=0 />
             <Timed size=&REFERENCE time=&REFERENCE_TIME index=1 />
             <LoadControls />

@@ -3,7 +3,7 @@
 use leptos::prelude::*;
 
 use super::experiment::FIRST_STEP_AT_S;
-use super::flags::locks;
+use super::flags::{locks, panels};
 use super::session::{Session, use_session};
 use super::{pictures, sentences};
 use crate::texts::{say, terms, tr};
@@ -32,7 +32,7 @@ pub fn PolesAndZerosCard() -> impl IntoView {
         }
     };
     view! {
-        <Card name="zeros" title terms=TERMS beside>
+        <Card name="zeros" panel=panels::ZEROS title terms=TERMS beside>
             <div class="chart">
                 <ChartCanvas picture frames summary=Signal::derive(move || summary(session)) name="pole-zero" />
             </div>

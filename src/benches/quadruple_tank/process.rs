@@ -2,7 +2,7 @@
 
 use leptos::prelude::*;
 
-use super::flags::locks;
+use super::flags::{locks, panels};
 use super::moment::use_moment;
 use super::preset::{PresetRemark, PresetSelect};
 use super::published::PublishedFigures;
@@ -44,7 +44,7 @@ pub fn ProcessCard() -> impl IntoView {
         None => tr!(lab, process.drag_valves),
     };
     view! {
-        <Card name="process" title=say!(lab, process.title) terms=TERMS beside=|| view! { <PresetSelect /> }>
+        <Card name="process" panel=panels::PROCESS title=say!(lab, process.title) terms=TERMS beside=|| view! { <PresetSelect /> }>
             <p class="remark moment">{remark}</p>
             <Rig />
             <TimeBar playback=play_cursor(session) id="play" lab />
@@ -58,7 +58,7 @@ pub fn ProcessCard() -> impl IntoView {
 pub fn SettingsCard() -> impl IntoView {
     let session = use_session();
     view! {
-        <Card name="process" title=say!(session.lab, process.title) beside=|| view! { <PresetSelect /> }>
+        <Card name="process" panel=panels::PROCESS title=say!(session.lab, process.title) beside=|| view! { <PresetSelect /> }>
             <Settings />
         </Card>
     }

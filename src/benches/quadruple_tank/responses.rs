@@ -2,6 +2,7 @@
 
 use leptos::prelude::*;
 
+use super::flags::panels;
 use super::metrics::{MetricsTable, why};
 use super::moment::{RigState, use_moment};
 use super::pictures;
@@ -50,7 +51,7 @@ pub fn ResponsesCard() -> impl IntoView {
         }
     };
     view! {
-        <Card name="responses" title terms=TERMS beside>
+        <Card name="responses" panel=panels::RESPONSES title terms=TERMS beside>
             <PinnedSetups session id="pinned" text=pins::text restore=pins::restore />
             <div class="charts">
                 <div class="chart">

@@ -2,6 +2,7 @@
 
 use leptos::prelude::*;
 
+use super::flags::panels;
 use super::session::{Session, use_session};
 use crate::texts::{say, terms, tr};
 use crate::widgets::{Caption, Card, Text, Verdict, marked};
@@ -20,7 +21,7 @@ pub fn RelativeGainCard() -> impl IntoView {
     let warm = Signal::derive(move || matches!(found(), Some(PairingVerdict::None(_)) | None));
     let about = move || view! { <span class="remark">{say!(lab, rga.remark)}</span> };
     view! {
-        <Card name="rga" title=say!(lab, rga.title) terms=TERMS beside=about>
+        <Card name="rga" panel=panels::RGA title=say!(lab, rga.title) terms=TERMS beside=about>
             <table class="gains">{move || gains(session)}</table>
             <div class="formula">{move || formula(session)}</div>
             <Verdict id="rga-verdict" warm><p>{move || marked(&text())}</p></Verdict>

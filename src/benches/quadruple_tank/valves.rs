@@ -2,7 +2,7 @@
 
 use leptos::prelude::*;
 
-use super::flags::locks;
+use super::flags::{locks, panels};
 use super::preset::{chosen, name_of};
 use super::session::{Session, turn_valves, use_session};
 use super::{pictures, sentences};
@@ -34,7 +34,7 @@ pub fn ValvePlaneCard() -> impl IntoView {
     let hint = (!lab.locks(locks::VALVES)).then(|| view! { <span class="remark">{say!(lab, valves.remark)}</span> });
     let beside = move || view! { {hint}<ChartMenu picture=for_menu file="valve-plane" title /> };
     view! {
-        <Card name="plane" title terms=TERMS beside>
+        <Card name="plane" panel=panels::VALVES title terms=TERMS beside>
             <div class="chart square">
                 <ChartCanvas picture on_paper frames summary name="valve-plane" />
                 <Overlay frames />

@@ -2,6 +2,7 @@
 
 use leptos::prelude::*;
 
+use super::flags::panels;
 use super::sentences::situation;
 use super::session::{Session, use_session};
 use crate::shown::{to_shown, unit_name};
@@ -23,7 +24,7 @@ pub fn WhyCard() -> impl IntoView {
     });
     let integral = Memo::new(move |_| integral(session));
     view! {
-        <Card name="why" title=say!(lab, why.title)>
+        <Card name="why" panel=panels::WHY title=say!(lab, why.title)>
             <Sentence id="why" text />
             <div class="formula" hidden=move || integral.get().is_none()>{move || integral.get().map(formula)}</div>
         </Card>

@@ -5,7 +5,7 @@ use leptos::prelude::*;
 use leptos::wasm_bindgen::JsCast;
 
 use super::errors;
-use super::flags::locks;
+use super::flags::{locks, panels};
 use super::mends;
 use super::pictures;
 use super::session::{Session, time_unit, use_session};
@@ -46,6 +46,7 @@ pub fn CurveCard() -> impl IntoView {
     view! {
         <Step
             name="curve"
+            panel=panels::CURVE
             number=2
             terms=TERMS
             title=say!(lab, relay.curve)

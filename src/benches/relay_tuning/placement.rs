@@ -5,7 +5,7 @@ use leptos::prelude::*;
 use super::controls::symbol;
 use super::details::OtherForms;
 use super::errors;
-use super::flags::locks;
+use super::flags::{locks, panels};
 use super::mends;
 use super::pictures::{self, short_name};
 use super::session::{Session, use_session};
@@ -47,6 +47,7 @@ pub fn PlacementCard() -> impl IntoView {
     view! {
         <Step
             name="placement"
+            panel=panels::PLACEMENT
             number=3
             terms=TERMS
             title=say!(lab, relay.placement)

@@ -2,7 +2,7 @@
 
 use leptos::prelude::*;
 
-use super::flags::locks;
+use super::flags::{locks, panels};
 use super::printed::{PrintedFigures, name_of_case};
 use super::session::{Session, load, use_session};
 use crate::benches::quadruple_tank::name_of;
@@ -46,6 +46,7 @@ pub fn PlantCard() -> impl IntoView {
     view! {
         <Card
             name="plant"
+            panel=panels::PLANT
             title=say!(lab, relay.plant)
             beside=|| {
                 view! {

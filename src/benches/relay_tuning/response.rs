@@ -4,14 +4,14 @@ use leptos::prelude::*;
 
 use super::controls::symbol;
 use super::errors;
-use super::flags::locks;
+use super::flags::{locks, panels};
 use super::mends;
 use super::pictures;
 use super::readout::{Surface, readout};
 use super::session::{Session, time_unit, use_session};
 use super::step::Step;
 use super::timeline::timeline;
-use crate::benches::handover;
+use crate::benches::handover::{self, HandOver};
 use crate::controls::Switch;
 use crate::lab::Lab;
 use crate::pinned::{PinButtons, PinnedSetups};
@@ -49,6 +49,7 @@ pub fn ResponseCard() -> impl IntoView {
     view! {
         <Step
             name="response"
+            panel=panels::RESPONSES
             number=4
             terms=TERMS
             title=say!(lab, relay.response)
@@ -122,16 +123,13 @@ fn ToRig() -> impl IntoView {
         session.throttled.setup.with(|setup| session.throttled.with_design(|design| rig_under(setup, design)).flatten())
     };
     let known = Memo::new(move |_| rig().is_some());
+    let act = Callback::new(move |()| {
+        if let Some(rig) = untrack(rig) {
+            handover::to_rig(lab, rig);
+        }
+    });
     view! {
-        <button
-            type="button"
-            class="button small"
-            data-testid="to-rig"
-            hidden=move || !known.get()
-            on:click=move |_| if let Some(rig) = untrack(rig) { handover::to_rig(lab, rig) }
-        >
-            {say!(lab, handover.rig)}
-        </button>
+        <HandOver id="to-rig" name=say!(lab, handover.rig) is_possible=known act />
     }
 }
 

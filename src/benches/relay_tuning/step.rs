@@ -5,6 +5,7 @@ use leptos::prelude::*;
 use super::guide;
 use super::mends::{Offer, Offers};
 use super::session::use_session;
+use crate::session::Panel;
 use crate::widgets::{Card, ChartCanvas, ChartMenu, Picture, Text, Verdict, marked, unmarked};
 use quadtank_figure::Frame;
 
@@ -13,6 +14,8 @@ use quadtank_figure::Frame;
 pub fn Step(
     /// Class of the card, and the beginning of its names for tests.
     name: &'static str,
+    /// Its name in an address.
+    panel: Panel,
     /// Its number.
     number: u8,
     /// Its title.
@@ -54,7 +57,7 @@ pub fn Step(
     // The first step shows what there is before anything is switched on.
     let hidden = Signal::derive(move || number > 1 && hidden.get());
     view! {
-        <Card name title=heading beside terms hidden>
+        <Card name panel title=heading beside terms hidden>
             <div class="step">
                 <div class=place>
                     <ChartCanvas picture frames summary=Signal::derive(move || unmarked(&found.get().1)) name />

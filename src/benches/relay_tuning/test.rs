@@ -3,7 +3,7 @@
 use leptos::prelude::*;
 
 use super::details::TestDetails;
-use super::flags::locks;
+use super::flags::{locks, panels};
 use super::guide::{self, SwitchOn};
 use super::mends;
 use super::pictures::{self, record_of, short_name};
@@ -150,6 +150,7 @@ pub fn TestCard() -> impl IntoView {
     view! {
         <Step
             name="test"
+            panel=panels::TEST
             number=1
             terms=TERMS
             title=say!(lab, relay.test)

@@ -1,6 +1,7 @@
 //! The page for who teaches.
 
 mod builder;
+mod package;
 
 use std::sync::Arc;
 
@@ -8,11 +9,13 @@ use leptos::prelude::*;
 use quadtank_lesson::{LESSON_IDS, Lesson, Report, TaskKind};
 
 use builder::Builder;
+pub use package::LessonFiles;
 
 use super::catalogue::OwnFile;
 use super::classroom::tongue;
 use super::load;
 use super::place::{absolute, lesson_address};
+use crate::download::is_single_file;
 use crate::lab::{Lab, use_lab};
 use crate::texts::{say, tr};
 
@@ -26,6 +29,11 @@ pub fn Teachers() -> impl IntoView {
             <h2>{say!(lab, lesson.teachers)}</h2>
             <p class="lead">{say!(lab, lesson.teachers_lead)}</p>
             <Builder lessons />
+            <section>
+                <h3>{say!(lab, lesson.grades)}</h3>
+                <p>{say!(lab, lesson.grades_lead)}</p>
+                <p>{say!(lab, lesson.grades_code)}</p>
+            </section>
             <ReadCode />
             <section>
                 <h3>{say!(lab, lesson.own)}</h3>
@@ -126,6 +134,7 @@ fn guide(lab: Lab, index: usize, lesson: Arc<Lesson>) -> impl IntoView {
     let asked = RwSignal::new(false);
     let lesson = Arc::clone(&lesson);
     let about = Arc::clone(&lesson);
+    let files = (!is_single_file()).then(|| view! { <p class="links"><LessonFiles lesson=Arc::clone(&lesson) /></p> });
     let answers = move || asked.get().then(|| view! { <ol>{answers_of(lab, &lesson)}</ol> });
     let lesson = about;
     view! {
@@ -140,6 +149,7 @@ fn guide(lab: Lab, index: usize, lesson: Arc<Lesson>) -> impl IntoView {
             <ul>{list(&lesson.misconceptions)}</ul>
             <p class="remark">{lesson.source.clone()}</p>
             <p><a href=address>{tr!(lab, lesson.open_lesson)}</a></p>
+            {files}
             <h4>{tr!(lab, lesson.embed)}</h4>
             <textarea readonly rows="2" class="code" aria-label=tr!(lab, lesson.embed) prop:value=embed></textarea>
             <details on:toggle=move |_| asked.set(true)>

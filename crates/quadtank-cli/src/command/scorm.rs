@@ -1,13 +1,10 @@
 //! A lesson as a package for learning management systems.
 
-use std::io::{Cursor, Write as _};
 use std::path::PathBuf;
 
 use clap::Args;
-use quadtank_lesson::{LESSON_IDS, TERMS, audit, scorm_manifest, scorm_page};
+use quadtank_lesson::{LESSON_IDS, TERMS, audit, scorm_package};
 use thiserror::Error;
-use zip::write::SimpleFileOptions;
-use zip::{CompressionMethod, ZipWriter};
 
 use super::check::lesson_of;
 use super::files::{bytes_of, file_name, is_standard_stream, print_bytes, write_file};
@@ -33,11 +30,9 @@ pub struct ScormOptions {
 #[derive(Debug, Error)]
 pub enum ScormFault {
     #[error("{file}: {error}")]
-    Page { file: String, error: quadtank_lesson::PageError },
+    Package { file: String, error: quadtank_lesson::PackageError },
     #[error("{file}: not UTF-8 text, so no page")]
     NotText { file: String },
-    #[error("the package cannot be made: {0}")]
-    Zip(#[from] zip::result::ZipError),
 }
 
 /// Writes the package of a lesson.
@@ -46,23 +41,11 @@ pub fn run(options: &ScormOptions) -> Result<(), Failure> {
     let site = || file_name(&options.site);
     let page = String::from_utf8(bytes_of(&options.site, PAGE_LIMIT)?);
     let page = page.map_err(|_| ScormFault::NotText { file: site() })?;
-    let page = scorm_page(&page, &lesson).map_err(|error| ScormFault::Page { file: site(), error })?;
-    let package = zipped(&[("imsmanifest.xml", &scorm_manifest(&lesson)), ("index.html", &page)])?;
+    let package = scorm_package(&page, &lesson).map_err(|error| ScormFault::Package { file: site(), error })?;
     let ids: Vec<&str> = LESSON_IDS.into_iter().chain([lesson.id.as_str()]).collect();
     if !audit(&lesson, &TERMS, &ids).is_empty() {
         let name = file_name(&options.lesson);
         message::tell(format!("{name}: warning: the lesson has faults, which `quadtank check --all` names"));
     }
     if is_standard_stream(&options.output) { print_bytes(&package) } else { write_file(&options.output, &package) }
-}
-
-/// A zip archive of files: name and text. The same files always give the same bytes.
-fn zipped(files: &[(&str, &str)]) -> Result<Vec<u8>, ScormFault> {
-    let options = SimpleFileOptions::default().compression_method(CompressionMethod::Deflated);
-    let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
-    for (name, text) in files {
-        archive.start_file(*name, options)?;
-        archive.write_all(text.as_bytes()).map_err(zip::result::ZipError::from)?;
-    }
-    Ok(archive.finish()?.into_inner())
 }
