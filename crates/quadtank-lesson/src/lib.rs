@@ -20,6 +20,7 @@ mod sample;
 #[cfg(feature = "schema")]
 mod schema;
 mod scorm;
+mod solution;
 mod start;
 mod task;
 mod text;
@@ -41,6 +42,7 @@ pub use report::{Report, ReportError, TaskReport};
 #[cfg(feature = "schema")]
 pub use schema::lesson_schema;
 pub use scorm::{PackageError, PageError, scorm_package};
+pub use solution::{Solution, solutions};
 pub use start::{StartError, shuffled, start_of, state_before, with_settings};
 pub use task::{
     Achieve, Attempt, Choice, Choose, Condition, Explain, Mistake, MistakeKind, NumberTask, Of, Order, Predict, Task,

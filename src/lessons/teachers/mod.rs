@@ -6,7 +6,7 @@ mod package;
 use std::sync::Arc;
 
 use leptos::prelude::*;
-use quadtank_lesson::{LESSON_IDS, Lesson, Report, TaskKind};
+use quadtank_lesson::{Answer, LESSON_IDS, Lesson, NumberTask, Report, Step, TaskKind};
 
 use builder::Builder;
 pub use package::LessonFiles;
@@ -163,14 +163,16 @@ fn guide(lab: Lab, index: usize, lesson: Arc<Lesson>) -> impl IntoView {
 /// The tasks with their answers.
 fn answers_of(lab: Lab, lesson: &Lesson) -> impl IntoView + use<> {
     let language = tongue(lab, lesson);
-    let answers = lesson.tasks().map(|(step, task)| {
+    // A lesson of the laboratory has a state for each step; its audit says so.
+    let solutions = quadtank_lesson::solutions(lesson, 0).unwrap_or_default();
+    let answers = lesson.tasks().zip(solutions).map(|((step, task), solution)| {
         let answer = match &task.kind {
             TaskKind::Choose(choose) => {
                 let right = choose.options.iter().filter(|option| option.correct);
                 right.map(|option| option.text.shown(language).to_owned()).collect::<Vec<_>>().join(" / ")
             }
-            TaskKind::Number(number) => number_answer(lab, lesson, step, number),
-            TaskKind::Achieve(goal) => goal.solution.join(", "),
+            TaskKind::Number(number) => number_answer(lab, &lesson.steps[step], number, solution.answer.as_ref()),
+            TaskKind::Achieve(_) => solution.settings.join(", "),
             TaskKind::Order(order) => {
                 order.items.iter().map(|item| item.shown(language).to_owned()).collect::<Vec<_>>().join(" → ")
             }
@@ -188,13 +190,11 @@ fn answers_of(lab: Lab, lesson: &Lesson) -> impl IntoView + use<> {
 }
 
 /// The number that is right for the first student.
-fn number_answer(lab: Lab, lesson: &Lesson, step: usize, number: &quadtank_lesson::NumberTask) -> String {
-    let varies = lesson.steps[step].vary.iter().any(|variation| variation.among.len() > 1);
-    let state = quadtank_lesson::state_before(lesson, step, 0, 0).ok();
-    let state = state.and_then(|state| quadtank_lesson::with_settings(&state, &number.set).ok());
-    let value = match &state {
-        Some(state) => number.answer(&quadtank_scenario::Quantities::of(state)),
-        None => number.value,
+fn number_answer(lab: Lab, step: &Step, number: &NumberTask, answer: Option<&Answer>) -> String {
+    let varies = step.vary.iter().any(|variation| variation.among.len() > 1);
+    let value = match answer {
+        Some(Answer::Number(value)) => Some(*value),
+        _ => None,
     };
     let written = super::prose::written(lab, value, &number.unit, 4);
     if varies { tr!(lab, lesson.varies, value = written) } else { written }

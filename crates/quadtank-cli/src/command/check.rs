@@ -6,7 +6,7 @@ use clap::Args;
 use clap::builder::PossibleValuesParser;
 use quadtank_lesson::{
     Fault as LessonFault, FaultKind, LESSON_IDS, LESSON_LIMIT, Lesson, NAMED_FORMULAS, Named, Report, ReportError,
-    StartError, TERMS, Tongue, audit, bench_names, built_in, read_lesson,
+    StartError, TERMS, Tongue, audit, bench_names, built_in, read_lesson, solutions,
 };
 use quadtank_scenario::quantities_of;
 use thiserror::Error;
@@ -24,6 +24,9 @@ pub struct CheckOptions {
     /// Audit the lessons, without files those of the laboratory: everything that an author has to mend, a line for each fault
     #[arg(long, conflicts_with_all = ["report", "step", "task", "document"])]
     all: bool,
+    /// Print the solutions of the lesson
+    #[arg(long, conflicts_with_all = ["all", "report", "step", "task", "document"])]
+    solutions: bool,
     /// The step of the task, from 1
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub step: Option<u32>,
@@ -65,6 +68,8 @@ pub enum CheckFault {
     OtherBench { found: &'static str, expected: String },
     #[error("the state of task `{task}` cannot be made: {error}")]
     State { task: String, error: StartError },
+    #[error("the solutions cannot be found: {0}")]
+    Solutions(StartError),
     #[error("--report: {0}")]
     Report(#[from] ReportError),
 }
@@ -78,8 +83,15 @@ pub fn run(options: &CheckOptions) -> Result<(), Failure> {
     match (&options.report, options.all) {
         (Some(code), _) => report(code),
         (None, true) => audit_all(&options.files),
+        (None, false) if options.solutions => print_solutions(options),
         (None, false) => mark::run(options),
     }
+}
+
+fn print_solutions(options: &CheckOptions) -> Result<(), Failure> {
+    let [file] = options.files.as_slice() else { return Err(CheckFault::SeveralFiles.into()) };
+    let found = solutions(&lesson_of(file)?, options.seed).map_err(CheckFault::Solutions)?;
+    print_json(&found)
 }
 
 fn report(code: &str) -> Result<(), Failure> {

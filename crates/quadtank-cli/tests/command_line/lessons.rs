@@ -184,6 +184,22 @@ fn order_and_words_are_marked_too() {
 }
 
 #[test]
+fn the_solutions_of_a_student_are_right_for_that_student() {
+    for seed in ["0", "7"] {
+        let printed = stdout(&run(&["check", SMALL, "--solutions", "--seed", seed]));
+        let solutions: Vec<Value> = serde_json::from_str(&printed).unwrap();
+        assert_eq!(solutions[0]["answer"], json!(null), "a prediction is not marked");
+        let settings: Vec<&Value> = solutions.iter().map(|found| &found["settings"]).filter(|s| s.is_array()).collect();
+        assert!(!settings.is_empty());
+        for found in solutions.iter().filter(|found| found["answer"].is_object()) {
+            let task = found["task"].as_str().unwrap();
+            let verdict = mark(SMALL, &["--task", task, "--seed", seed], &found["answer"]);
+            assert_eq!(verdict["is_right"], json!(true), "{task}");
+        }
+    }
+}
+
+#[test]
 fn a_lesson_of_the_laboratory_is_marked_by_its_id() {
     let prediction = mark("two-valves-one-zero", &["--step", "1"], &json!({ "choice": 0 }));
     assert_eq!((&prediction["is_right"], &prediction["of"]), (&json!(true), &json!(0)));
