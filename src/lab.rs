@@ -109,6 +109,8 @@ pub struct Stage {
     pub panels: Vec<&'static str>,
     /// The groups of controls that are disabled.
     pub locks: Vec<&'static str>,
+    /// Whether more cards come once the tasks are done.
+    pub is_covered: bool,
 }
 
 /// A picture of the page, for who shows it elsewhere.

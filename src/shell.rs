@@ -140,12 +140,22 @@ fn KeptBench(bench: &'static BenchEntry) -> impl IntoView {
     // A step of a lesson may show other cards; they are made anew then.
     let stage = Memo::new(move |_| lab.stage.get().filter(|stage| stage.bench == bench.id));
     let content = move || {
+        let (is_covered, is_alone) =
+            stage.with(|s| s.as_ref().map_or((false, false), |s| (s.is_covered, s.panels.len() == 1)));
         let is_chosen = has_choice || stage.with(Option::is_some);
-        let class = if is_chosen { format!("{} chosen", bench.class) } else { bench.class.to_owned() };
+        let mut class = bench.class.to_owned();
+        class.push_str(if is_chosen { " chosen" } else { "" });
+        class.push_str(if is_alone && !is_covered { " alone" } else { "" });
+        let cover = move || {
+            is_covered.then(|| view! { <p class="covered" data-testid="covered">{say!(lab, lesson.covered)}</p> })
+        };
         // The id is that of the bench that is shown.
         seen.get().then(|| {
             view! {
-                <main class=class tabindex="-1" id=move || (is_shown() && lab.side.get().is_none()).then(|| "bench".to_owned())>{(bench.cards)(lab)}</main>
+                <main class=class tabindex="-1" id=move || (is_shown() && lab.side.get().is_none()).then(|| "bench".to_owned())>
+                    {(bench.cards)(lab)}
+                    {cover()}
+                </main>
             }
         })
     };

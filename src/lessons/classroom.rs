@@ -180,6 +180,7 @@ impl Classroom {
         let stage = Stage {
             bench: bench.id,
             panels: step.panels.iter().filter(is_shown).filter_map(panel).collect(),
+            is_covered: !reveals && !step.reveal.is_empty(),
             locks: bench.locks.iter().filter(is_locked).map(|lock| lock.0).collect(),
         };
         if self.lab.stage.with_untracked(|shown| shown.as_ref() != Some(&stage)) {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use leptos::html::H2;
 use leptos::prelude::*;
-use quadtank_lesson::{Lesson, Step};
+use quadtank_lesson::{Answer, Lesson, Step, Task, TaskKind};
 
 use super::classroom::{Classroom, tongue, use_classroom};
 use super::finish::Finish;
@@ -66,7 +66,8 @@ fn StepPanel(lesson: Arc<Lesson>, step: Step, index: usize) -> impl IntoView {
     let text = shown(lab, &lesson, step.text.clone());
     let after = step.after.clone().map(|after| {
         let after = shown(lab, &lesson, after);
-        view! { <div class="after" hidden=move || !is_done.get() data-testid="after"><Prose text=after /></div> }
+        let predicted = step.tasks.iter().filter_map(|task| predicted(lab, &lesson, task)).collect_view();
+        view! { <div class="after" hidden=move || !is_done.get() data-testid="after">{predicted}<Prose text=after /></div> }
     });
     let tasks = step.tasks.iter().cloned().map(|task| {
         let lesson = Arc::clone(&lesson);
@@ -87,6 +88,18 @@ fn StepPanel(lesson: Arc<Lesson>, step: Step, index: usize) -> impl IntoView {
             <Turn room lab index count is_done=is_done.into() />
         </aside>
     }
+}
+
+/// What the student predicted, beside what is said once the step is done.
+fn predicted(lab: Lab, lesson: &Arc<Lesson>, task: &Task) -> Option<impl IntoView + use<>> {
+    let TaskKind::Predict(predict) = &task.kind else { return None };
+    let options: Vec<_> = predict.options.iter().map(|text| shown(lab, lesson, text.clone())).collect();
+    let (room, id) = (use_classroom(), task.id.clone());
+    let chosen = move || match room.followed_record(&id).answer {
+        Some(Answer::Choice(index)) => options.get(index).map(Signal::get),
+        _ => None,
+    };
+    Some(view! { <p class="remark">{move || chosen().map(|option| tr!(lab, lesson.predicted, option = option))}</p> })
 }
 
 /// How far the lesson is, a mark for each step.

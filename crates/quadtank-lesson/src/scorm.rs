@@ -211,7 +211,7 @@ mod tests {
         let package = scorm_package(PAGE, &lesson()).unwrap();
         assert_eq!(package, scorm_package(PAGE, &lesson()).unwrap());
         let mut archive = zip::ZipArchive::new(Cursor::new(package)).unwrap();
-        let names: Vec<String> = archive.file_names().map(str::to_owned).collect();
+        let names: Vec<String> = archive.file_names().map(|name| name.unwrap().into_owned()).collect();
         assert_eq!(names, ["imsmanifest.xml", "index.html"]);
         let page = std::io::read_to_string(archive.by_name("index.html").unwrap()).unwrap();
         assert_eq!(page, scorm_page(PAGE, &lesson()).unwrap());

@@ -15,7 +15,7 @@ pub struct UnitError {
 }
 
 /// Unit, the SI unit of which it is a multiple, and the factor.
-const UNITS: [(&str, &str, f64); 17] = [
+const UNITS: [(&str, &str, f64); 18] = [
     ("%", "1", 0.01),
     ("cm", "m", 0.01),
     ("mm", "m", 1e-3),
@@ -30,6 +30,7 @@ const UNITS: [(&str, &str, f64); 17] = [
     ("°", "rad", PI / 180.0),
     ("L/min", "m³/s", 1.0 / 60_000.0),
     ("L/s", "m³/s", 1e-3),
+    ("L²/s²", "m⁶/s²", 1e-6),
     ("cm³/s", "m³/s", 1e-6),
     ("cm/s", "m/s", 0.01),
     ("cm/V", "m/V", 0.01),

@@ -200,13 +200,15 @@ fn PairingSwitch() -> impl IntoView {
         });
         (pairing, id, text)
     };
-    let fits = move || suggested().is_none_or(|s| s == chosen.get());
+    // In a lesson the student is to find out.
+    let advice = move || suggested().filter(|_| lab.stage.with(Option::is_none));
+    let fits = move || advice().is_none_or(|s| s == chosen.get());
     view! {
         <Segmented
             label=say!(lab, pi.pairing)
             choices=vec![choice(Pairing::Diagonal, "pairing-diagonal"), choice(Pairing::Swapped, "pairing-swapped")]
             value=chosen
-            tag=Signal::derive(move || suggested().map(|pairing| (pairing, tr!(lab, pi.advised))))
+            tag=Signal::derive(move || advice().map(|pairing| (pairing, tr!(lab, pi.advised))))
             on_choose=move |pairing| session.edit(|s| s.controller.pairing = pairing)
             disabled=lab.locks(locks::PAIRING)
         />

@@ -42,7 +42,7 @@ pub fn PolesAndZerosCard() -> impl IntoView {
     }
 }
 
-/// Where a zero limits both levels: steps along its direction, and across it.
+/// Where a zero limits both levels: steps along its direction, and across it. Not where steps are fixed.
 #[component]
 fn DirectionButtons() -> impl IntoView {
     let session = use_session();
@@ -52,20 +52,21 @@ fn DirectionButtons() -> impl IntoView {
         matches!(zero, Some(ZeroEffect::Opposed | ZeroEffect::Together | ZeroEffect::OneLevel { .. }))
     };
     let button = move |id: &'static str, text: Signal<String>, direction: Direction| {
-        let disabled = lab.locks(locks::EXPERIMENT);
         view! {
-            <button type="button" class="button small" data-testid=id disabled=disabled on:click=move |_| try_direction(session, direction)>
+            <button type="button" class="button small" data-testid=id on:click=move |_| try_direction(session, direction)>
                 {text}
             </button>
         }
     };
-    view! {
-        // It keeps its place, so that the picture keeps its size.
-        <div class=move || if is_limited() { "toolbar" } else { "toolbar unseen" }>
-            {button("try-easy", say!(lab, zeros.try_easy), Direction::Easy)}
-            {button("try-hard", say!(lab, zeros.try_hard), Direction::Hard)}
-        </div>
-    }
+    (!lab.locks(locks::EXPERIMENT)).then(|| {
+        view! {
+            // It keeps its place, so that the picture keeps its size.
+            <div class=move || if is_limited() { "toolbar" } else { "toolbar unseen" }>
+                {button("try-easy", say!(lab, zeros.try_easy), Direction::Easy)}
+                {button("try-hard", say!(lab, zeros.try_hard), Direction::Hard)}
+            </div>
+        }
+    })
 }
 
 /// How far the levels are asked to go in all when a direction is tried (m).

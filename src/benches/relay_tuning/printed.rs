@@ -19,8 +19,10 @@ pub fn PrintedFigures() -> impl IntoView {
         let remarks = session.own.case.get().map_or(&[][..], PublishedCase::remarks);
         remarks.iter().map(|&remark| of_remark(lab, remark)).collect::<Vec<_>>().join(" ")
     };
+    // A lesson asks about the plant, not about the print.
+    let hidden = move || session.own.case.get().is_none() || lab.stage.with(Option::is_some);
     view! {
-        <div class="printed" hidden=move || session.own.case.get().is_none()>
+        <div class="printed" hidden=hidden>
             <Figures name="printed" caption=say!(lab, relay.printed_caption)>{move || table(session)}</Figures>
             <p class="remark" data-testid="printed-remark">{remarks}</p>
         </div>
