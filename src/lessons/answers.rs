@@ -140,8 +140,12 @@ pub fn GoalList(task: Arc<Task>, goal: Achieve, labels: Vec<Signal<String>>) -> 
     let done = is_done(&task.id);
     let now = {
         let goal = goal.clone();
+        let solved = {
+            let id = task.id.clone();
+            Memo::new(move |_| room.followed_record(&id).solved)
+        };
         // What was reached stays as it was then, whatever the student tries afterwards.
-        Memo::new(move |before: Option<&Vec<quadtank_lesson::Goal>>| match before.filter(|_| done.get()) {
+        Memo::new(move |before: Option<&Vec<quadtank_lesson::Goal>>| match before.filter(|_| solved.get()) {
             Some(reached) => reached.clone(),
             None => goals(&goal, &Present(lab)),
         })

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use leptos::prelude::*;
-use quadtank_lesson::{Answer, Feedback, Lesson, Task, TaskKind, feedback_text, points_of};
+use quadtank_lesson::{Answer, Feedback, Lesson, Task, TaskKind, Text, Tongue, feedback_text, points_of};
 
 use super::answers::{Choices, GoalList, NumberAnswer, Ordering, Words};
 use super::classroom::{tongue, use_classroom};
@@ -74,6 +74,15 @@ fn Said(lesson: Arc<Lesson>, task: Arc<Task>) -> impl IntoView {
         room.said
             .with(|said| said.iter().find(|(of, ..)| *of == id).map(|(_, feedback, is_right)| (*feedback, *is_right)))
     });
+    let room_for = {
+        let (task, lesson) = (Arc::clone(&task), Arc::clone(&lesson));
+        move || {
+            let longest = longest_feedback(&task, tongue(lab, &lesson))?;
+            Some(
+                view! { <div class="room" aria-hidden="true"><b>{tr!(lab, lesson.wrong)}</b> " " {inline(&longest)}</div> },
+            )
+        }
+    };
     let verdict = {
         let task = Arc::clone(&task);
         move || {
@@ -114,9 +123,22 @@ fn Said(lesson: Arc<Lesson>, task: Arc<Task>) -> impl IntoView {
     };
     view! {
         <div class=class role="status" data-testid=format!("said-{}", task.id)>
-            <b>{verdict}</b> " " {words} " " {solution}
+            // Its room is there from the start, so that nothing below moves.
+            {room_for}
+            <div><b>{verdict}</b> " " {words} " " {solution}</div>
         </div>
     }
+}
+
+/// The longest text that an answer to a task can get, but for a model answer.
+fn longest_feedback(task: &Task, tongue: Tongue) -> Option<String> {
+    let texts: Vec<&Text> = match &task.kind {
+        TaskKind::Choose(choose) => choose.options.iter().map(|option| &option.feedback).collect(),
+        TaskKind::Number(number) => number.mistakes.iter().map(|mistake| &mistake.feedback).collect(),
+        TaskKind::Achieve(goal) => goal.attempts.iter().map(|attempt| &attempt.feedback).collect(),
+        TaskKind::Predict(_) | TaskKind::Order(_) | TaskKind::Explain(_) => return None,
+    };
+    texts.into_iter().map(|text| text.shown(tongue)).max_by_key(|text| text.chars().count()).map(str::to_owned)
 }
 
 /// The hints that were taken, and the next one.

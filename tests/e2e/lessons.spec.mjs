@@ -1,0 +1,192 @@
+// Lessons as students take them: played to full marks, beside the bench, with work and the way back kept.
+import { readFileSync } from 'node:fs';
+
+import { expect, test } from './lab.mjs';
+import { Finger, Keyboard, LESSONS, lessonOf, play } from './lessons.mjs';
+
+/** The seed of the student follows from this. */
+const STUDENT = 0.271828;
+
+async function begin(lab, lesson, { step = 1, lang = 'en', bench = '' } = {}) {
+  await lab.page.addInitScript((student) => { Math.random = () => student; }, STUDENT);
+  await lab.page.goto(`${lab.origin}/?${bench}lesson=${lesson.id}&step=${step}&lang=${lang}`);
+  await lab.id('lesson').waitFor();
+  await lab.settle();
+}
+
+const seed = Math.trunc(STUDENT * 1e6);
+
+for (const lesson of LESSONS) {
+  test(`${lesson.id} is played to full marks by keyboard alone, without a fault of access`, async ({ lab }) => {
+    test.setTimeout(180_000);
+    await begin(lab, lesson);
+    await play(lab, new Keyboard(lab), lesson, seed, async () => lab.axe());
+    await expect(lab.id('report').getByRole('heading', { level: 2 })).toBeFocused();
+    await expect(lab.id('report')).toContainText('10 of 10 points');
+    await lab.clean();
+  });
+}
+
+test.describe('on a phone', () => {
+  test.use({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
+  for (const lesson of LESSONS) {
+    test(`${lesson.id} is played by touch`, async ({ lab, page }) => {
+      test.setTimeout(180_000);
+      await begin(lab, lesson);
+      await play(lab, new Finger(lab), lesson, seed, async (index) => {
+        const overflow = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+        expect(overflow, `step ${index + 1} is as wide as the phone`).toBeLessThanOrEqual(0);
+      });
+      await expect(lab.id('report')).toContainText('10 of 10 points');
+    });
+  }
+});
+
+test('a wrong answer says why, costs a point, and moves nothing', async ({ lab }) => {
+  const lesson = lessonOf('two-valves-one-zero');
+  await begin(lab, lesson, { step: 2 });
+  const task = lesson.steps[1].tasks[0];
+  const wrong = task.kind.choose.options.findIndex((option) => !option.correct);
+  const points = lab.id(`task-${task.id}`).locator('.points');
+  const before = await points.boundingBox();
+  await lab.id(`task-${task.id}-${wrong}`).check();
+  await lab.id(`check-${task.id}`).click();
+  await expect(lab.id(`said-${task.id}`)).toContainText(task.kind.choose.options[wrong].feedback.en.slice(0, 25));
+  expect(Math.abs((await points.boundingBox()).y - before.y)).toBeLessThanOrEqual(25);
+  await expect(lab.id('lesson-next')).toHaveAttribute('aria-disabled', 'true');
+});
+
+test('a goal that is given up is shown, without points', async ({ lab }) => {
+  const lesson = lessonOf('two-valves-one-zero');
+  await begin(lab, lesson, { step: 3 });
+  const task = lesson.steps[2].tasks[0];
+  for (const hint of task.hints) {
+    await lab.id('hint').click();
+    await expect(lab.id('hints')).toContainText(hint.en.slice(0, 20).replaceAll('*', ''));
+  }
+  await lab.id('show-solution').click();
+  await expect(lab.id('said-draw')).toContainText('solution');
+  await expect(lab.id('goals').locator('li.met')).toHaveCount(2);
+  await expect(lab.id('lesson-points')).toContainText('0 of 10');
+});
+
+test('work on the bench and on the bench of the lesson comes back, and so does the address', async ({ lab, page }) => {
+  await lab.open();
+  await lab.type('gamma1-number', '0.55');
+  await lab.bench('relay-tuning');
+  await page.waitForTimeout(500);
+  // A lesson on the home bench while another one is open.
+  await lab.id('to-lessons').click();
+  await lab.id('begin-two-valves-one-zero').click();
+  await lab.id('lesson').waitFor();
+  await lab.id('lesson-next').waitFor();
+  await lab.id('leave-lesson').click();
+  await expect(lab.id('lesson')).toHaveCount(0);
+  await expect(page).toHaveURL(/bench=relay-tuning/);
+  await expect(page).not.toHaveURL(/lesson=|step=|page=/);
+  await lab.bench('quadruple-tank');
+  await expect(lab.id('gamma1-number')).toHaveValue('0.55');
+});
+
+test('Back leaves a lesson for what was there, and the next lesson begins in place', async ({ lab, page }) => {
+  await lab.open();
+  await lab.type('gamma1-number', '0.55');
+  await page.waitForTimeout(500);
+  await page.evaluate(() => { window.isSamePage = true; });
+  await lab.id('to-lessons').click();
+  await lab.id('begin-swap-the-pairing').click();
+  await lab.id('lesson').waitFor();
+  await page.goBack();
+  await expect(lab.id('lessons')).toBeVisible();
+  await expect(lab.id('lesson')).toHaveCount(0);
+  await page.goBack();
+  await expect(lab.id('gamma1-number')).toHaveValue('0.55');
+  await page.goForward();
+  await page.goForward();
+  await expect(lab.id('lesson')).toBeVisible();
+  await expect(lab.id('step-title')).toContainText('1 ·');
+  expect(await page.evaluate(() => window.isSamePage)).toBe(true);
+});
+
+test('a lesson on a bench that was not open yet shows its own state', async ({ lab, page }) => {
+  await begin(lab, lessonOf('relay-finds-the-ultimate-point'), { step: 3 });
+  await expect(lab.id('lesson')).toContainText('37.2');
+  await expect(lab.id('test-figures')).toContainText('37.23');
+  expect(await page.evaluate(() => document.querySelector('[data-testid=test-figures] tbody').rows.length)).toBe(1);
+});
+
+test('progress is kept only by consent, and forgotten with it', async ({ lab, page }) => {
+  await lab.open('page=lessons');
+  const kept = () => page.evaluate(() => Object.keys(localStorage).filter((key) => key.startsWith('quadtank-lesson-')));
+  await lab.id('begin-two-valves-one-zero').click();
+  await lab.id('task-predict-push-1').check();
+  await lab.id('check-predict-push').click();
+  expect(await kept()).toEqual([]);
+  await page.goBack();
+  await lab.id('keep-progress').check();
+  expect(await kept()).toHaveLength(1);
+  await lab.open('page=lessons');
+  await lab.id('begin-two-valves-one-zero').click();
+  await expect(lab.id('task-predict-push-1')).toBeChecked();
+  await page.goBack();
+  await lab.id('keep-progress').uncheck();
+  expect(await kept()).toEqual([]);
+});
+
+test('a lesson file is refused with its place, and nothing is lost', async ({ lab, page }) => {
+  const file = (text) => ({ name: 'lesson.json', mimeType: 'application/json', buffer: Buffer.from(text) });
+  const good = JSON.stringify(lessonOf('two-valves-one-zero'));
+  await lab.open('page=lessons');
+  const input = lab.id('open-lesson-input');
+  for (const [text, told] of [
+    ['{ "lesson": 1', /line 1/],
+    [good.replace('"minutes":8', '"minutes":"eight"'), /minutes/],
+    [good.replace('"lesson":1', '"lesson":99'), /version/],
+    [`{"lesson":1,"id":"${'x'.repeat(600_000)}"}`, /at most 262144/],
+  ]) {
+    await input.setInputFiles(file(text));
+    await expect(lab.id('notice')).toContainText(told);
+    await expect(lab.id('lessons')).toBeVisible();
+  }
+  // Text is text, whatever it looks like.
+  const hostile = JSON.parse(good);
+  hostile.id = 'hostile';
+  hostile.title.en = '<img src=x onerror="window.isHurt=true"><script>window.isHurt=true</script>';
+  hostile.steps[0].text.en = '[x](javascript:window.isHurt=true) <b onclick="window.isHurt=true">b</b>';
+  await input.setInputFiles(file(JSON.stringify(hostile)));
+  await expect(lab.id('lesson')).toContainText('<img src=x');
+  await expect(lab.id('lesson')).toContainText('<b onclick');
+  expect(await page.evaluate(() => window.isHurt)).toBeUndefined();
+  expect(await lab.id('lesson').locator('img, script, a[href^="javascript"]').count()).toBe(0);
+});
+
+test('a report is read back from its code on the page for teachers', async ({ lab, page }) => {
+  const lesson = lessonOf('two-valves-one-zero');
+  await begin(lab, lesson, { step: 7 });
+  await lab.id('task-predict-rig-0').check();
+  await lab.id('check-predict-rig').click();
+  await lab.type('gamma1-number', '0.25');
+  await lab.type('gamma2-number', '0.75');
+  await lab.id('lesson-next').click();
+  await lab.id('report-name').fill('Ana Souza');
+  const code = await lab.text('report-code');
+  await lab.id('report-leave').click();
+  await lab.open('page=teachers');
+  await lab.id('read-code').fill(code);
+  await expect(lab.id('read-report')).toContainText('Ana Souza');
+  await expect(lab.id('read-report').locator('tr').filter({ hasText: 'draw-again' })).toContainText('2/2');
+  await lab.id('read-code').fill(`${code}x`);
+  await expect(lab.id('read-report').locator('.bad')).toBeVisible();
+});
+
+test('a teacher downloads the package of a lesson, and the lesson', async ({ lab, page }) => {
+  await lab.open('page=teachers');
+  await lab.id('guide-directions').locator('summary').first().click();
+  const [zip] = await Promise.all([page.waitForEvent('download'), lab.id('scorm-directions').click()]);
+  expect(zip.suggestedFilename()).toBe('quadtank-directions.zip');
+  const bytes = readFileSync(await zip.path());
+  expect(bytes.subarray(0, 2).toString()).toBe('PK');
+  expect(bytes.includes('imsmanifest.xml') && bytes.includes('data-scorm="1"')).toBe(true);
+  const [json] = await Promise.all([page.waitForEvent('download'), lab.id('save-directions').click()]);
+  expect(JSON.parse(readFileSync(await json.path(), 'utf8')).id).toBe('directions');
+});
