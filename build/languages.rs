@@ -2,7 +2,7 @@
 
 /// What the laboratory has to know of a language beside its texts.
 pub struct Language {
-    /// The tag for the `lang` attribute. The texts are in `assets/locales/<tag>.json`.
+    /// The tag for the `lang` attribute. The texts are in `assets/locales/<tag>.json` and `assets/glossary/<tag>.json`.
     pub tag: &'static str,
     /// What the language calls itself.
     pub name: &'static str,
@@ -15,7 +15,7 @@ pub struct Language {
 
 /// The languages of the page, in the order of its menu. The first is the default.
 ///
-/// A further language is a row here and its file in `assets/locales`; what either lacks stops the compiler. Three things are for
+/// A further language is a row here and its files in `assets/locales` and `assets/glossary`; what either lacks stops the compiler. Three things are for
 /// people to see to: `index.html` and `assets/start.js` speak before a language is chosen and say each sentence in all of them; the
 /// README names the tags of `lang=`; the end-to-end tests go through the languages for layout and accessibility.
 ///

@@ -119,7 +119,8 @@ fn TaskLine(lesson: Arc<Lesson>, task: Task, step: usize) -> impl IntoView {
     }
 }
 
-fn link_of(document: &Document) -> Option<String> {
+/// The link of a state.
+pub fn link_of(document: &Document) -> Option<String> {
     match document {
         Document::Quadruple(document) => to_link(document),
         Document::Tuning(document) => to_link(document),

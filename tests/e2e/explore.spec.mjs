@@ -109,11 +109,11 @@ test('a bench without a layout for the lecture hall offers none', async ({ lab, 
 
 test('a run is drawn as time passes, and stands whole for who prefers less motion', async ({ lab, page }) => {
   await lab.open('lang=en&view=explore');
-  await lab.id('replay-length').selectOption('3');
+  await lab.id('replay-length').selectOption('6');
   await expect(lab.id('replay')).toContainText('pause');
   const early = await lab.picture('levels');
   const low = await level(lab, 1);
-  await expect(lab.id('replay')).toContainText('play', { timeout: 10_000 });
+  await expect(lab.id('replay')).toContainText('play', { timeout: 20_000 });
   const whole = await lab.picture('levels');
   expect(whole.ink).toBeGreaterThan(early.ink);
   expect(await level(lab, 1)).not.toBe(low);
@@ -123,7 +123,7 @@ test('a run is drawn as time passes, and stands whole for who prefers less motio
   await expect(lab.id('replay')).toContainText('play');
   await drag(page, lab, 'mark1', 0, -20);
   await expect(lab.id('replay')).toContainText('pause');
-  await expect(lab.id('replay')).toContainText('play', { timeout: 10_000 });
+  await expect(lab.id('replay')).toContainText('play', { timeout: 20_000 });
   await page.emulateMedia({ reducedMotion: 'reduce' });
   await lab.id('swap').click();
   await page.waitForTimeout(1200);

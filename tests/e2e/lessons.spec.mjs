@@ -177,6 +177,15 @@ test('a report is read back from its code on the page for teachers', async ({ la
   await expect(lab.id('read-report').locator('tr').filter({ hasText: 'draw-again' })).toContainText('2/2');
   await lab.id('read-code').fill(`${code}x`);
   await expect(lab.id('read-report').locator('.bad')).toBeVisible();
+  // A class: a line for each, and the damaged one named.
+  await lab.id('read-code').fill(`${code}\nQL1-damaged\n${code}`);
+  await expect(lab.id('read-report').locator('tbody tr')).toHaveCount(3);
+  await expect(lab.id('read-report').locator('tbody .bad').last()).toBeVisible();
+  const [csv] = await Promise.all([page.waitForEvent('download'), lab.id('reports-csv').click()]);
+  const lines = readFileSync(await csv.path(), 'utf8').trim().split('\n');
+  expect(lines[0]).toBe('name,lesson,fingerprint,score,seconds,seed');
+  expect(lines.slice(1).every((line) => line.startsWith('"Ana Souza","two-valves-one-zero"'))).toBe(true);
+  expect(lines).toHaveLength(3);
 });
 
 test('a teacher downloads the package of a lesson, and the lesson', async ({ lab, page }) => {

@@ -16,7 +16,7 @@ use crate::texts::{Language, say, tr};
 use crate::widgets::{Choice, Select};
 
 /// Height of a frame to begin with (CSS px).
-const USUAL_HEIGHT: &str = "720";
+const USUAL_HEIGHT: u32 = 720;
 
 /// What is embedded.
 #[derive(Clone, Copy, PartialEq)]
@@ -43,8 +43,8 @@ pub fn Builder(lessons: RwSignal<Vec<Option<Arc<Lesson>>>>) -> impl IntoView {
     let preset = RwSignal::new(None::<PresetId>);
     let panels = RwSignal::new(Vec::<Panel>::new());
     let locks = RwSignal::new(Vec::<Lock>::new());
-    let height = RwSignal::new(USUAL_HEIGHT.to_owned());
-    let previewed = RwSignal::new(None::<String>);
+    let height = RwSignal::new(USUAL_HEIGHT.to_string());
+    let is_previewed = RwSignal::new(false);
     let name = move |subject: Subject| match subject {
         Subject::Bench(bench) => (bench.title)(lab),
         Subject::Lesson(id) => lessons.with(|lessons| title_of(lab, lessons, id)),
@@ -58,7 +58,6 @@ pub fn Builder(lessons: RwSignal<Vec<Option<Arc<Lesson>>>>) -> impl IntoView {
         subject.set(chosen);
         panels.set(Vec::new());
         locks.set(Vec::new());
-        previewed.set(None);
     });
     let languages = Signal::derive(|| Language::ALL.map(|l| Choice::new(l, l.tag(), l.name())).to_vec());
     let query = Memo::new(move |_| {
@@ -75,7 +74,7 @@ pub fn Builder(lessons: RwSignal<Vec<Option<Arc<Lesson>>>>) -> impl IntoView {
         query
     });
     let code = Memo::new(move |_| {
-        let height = height.get().parse::<u32>().unwrap_or(720).clamp(200, 3000);
+        let height = height_px(&height.get());
         let (address, title) =
             (absolute(&query.get()).replace('&', "&amp;"), name(subject.get()).replace('"', "&quot;"));
         format!(
@@ -89,9 +88,11 @@ pub fn Builder(lessons: RwSignal<Vec<Option<Arc<Lesson>>>>) -> impl IntoView {
         Subject::Bench(bench) => Some(view! { <BenchChoices bench preset panels locks /> }),
     };
     let preview = move || {
-        previewed
-            .get()
-            .map(|address| view! { <iframe class="preview" title=say!(lab, lesson.preview) src=address></iframe> })
+        let height = height_px(&height.get());
+        is_previewed.get().then(|| {
+            let title = say!(lab, lesson.preview);
+            view! { <iframe class="preview" title=title style:height=format!("{height}px") src=query.get()></iframe> }
+        })
     };
     view! {
         <section data-testid="builder">
@@ -120,7 +121,8 @@ pub fn Builder(lessons: RwSignal<Vec<Option<Arc<Lesson>>>>) -> impl IntoView {
                 <button type="button" class="button strong" data-testid="builder-copy" on:click=on_copy>
                     {move || if copied.get() { tr!(lab, lesson.copied) } else { tr!(lab, lesson.copy_html) }}
                 </button>
-                <button type="button" class="button" data-testid="builder-preview" on:click=move |_| previewed.set(Some(query.get_untracked()))>
+                <button type="button" class="button" data-testid="builder-preview" aria-pressed=move || is_previewed.get().to_string()
+                    on:click=move |_| is_previewed.update(|shown| *shown = !*shown)>
                     {say!(lab, lesson.preview)}
                 </button>
                 <a class="button" target="_blank" rel="noopener" href=move || query.get()>{say!(lab, lesson.open_alone)}</a>
@@ -136,6 +138,11 @@ fn title_of(lab: Lab, lessons: &[Option<Arc<Lesson>>], id: &'static str) -> Stri
         Some(lesson) => format!("{}. {}", index + 1, lesson.title.shown(tongue(lab, lesson))),
         None => format!("{}. {id}", index + 1),
     }
+}
+
+/// The height that was typed, within limits (CSS px).
+fn height_px(typed: &str) -> u32 {
+    typed.parse().unwrap_or(USUAL_HEIGHT).clamp(200, 3000)
 }
 
 /// A flag with a list; nothing for an empty one.

@@ -1,18 +1,21 @@
 //! The page for who teaches.
 
 mod builder;
+mod codes;
 mod package;
 
 use std::sync::Arc;
 
 use leptos::prelude::*;
-use quadtank_lesson::{Answer, LESSON_IDS, Lesson, NumberTask, Report, Step, TaskKind};
+use quadtank_lesson::{Answer, LESSON_IDS, Lesson, NumberTask, Step, TaskKind};
 
 use builder::Builder;
+use codes::ReadCodes;
 pub use package::LessonFiles;
 
 use super::catalogue::OwnFile;
 use super::classroom::tongue;
+use super::finish::link_of;
 use super::load;
 use super::place::{absolute, lesson_address};
 use crate::download::is_single_file;
@@ -34,7 +37,11 @@ pub fn Teachers() -> impl IntoView {
                 <p>{say!(lab, lesson.grades_lead)}</p>
                 <p>{say!(lab, lesson.grades_code)}</p>
             </section>
-            <ReadCode />
+            <ReadCodes />
+            <section>
+                <h3>{say!(lab, lesson.projector)}</h3>
+                <p>{say!(lab, lesson.projector_lead)}</p>
+            </section>
             <section>
                 <h3>{say!(lab, lesson.own)}</h3>
                 <p>{say!(lab, lesson.own_lead)}</p>
@@ -42,65 +49,6 @@ pub fn Teachers() -> impl IntoView {
             </section>
             <Answers lessons />
         </main>
-    }
-}
-
-/// Reads the code of a report.
-#[component]
-fn ReadCode() -> impl IntoView {
-    let lab = use_lab();
-    let code = RwSignal::new(String::new());
-    let read = move || {
-        let code = code.get();
-        if code.trim().is_empty() {
-            return None;
-        }
-        Some(match Report::from_code(&code) {
-            Ok(report) => report_table(lab, report).into_any(),
-            Err(_) => view! { <p class="bad">{tr!(lab, lesson.bad_code)}</p> }.into_any(),
-        })
-    };
-    view! {
-        <section>
-            <h3>{say!(lab, lesson.read_code)}</h3>
-            <p>{say!(lab, lesson.read_code_lead)}</p>
-            <label>
-                {say!(lab, lesson.code)}
-                <textarea rows="2" data-testid="read-code" on:input=move |event| code.set(event_target_value(&event))></textarea>
-            </label>
-            <div role="status" data-testid="read-report">{read}</div>
-        </section>
-    }
-}
-
-fn report_table(lab: Lab, report: Report) -> impl IntoView {
-    let rows = report.tasks.into_iter().map(|task| {
-        view! {
-            <tr>
-                <th scope="row">{task.id}</th>
-                <td>{format!("{}/{}", task.points, task.of)}</td>
-                <td>{task.wrong}</td>
-                <td>{task.hints}</td>
-            </tr>
-        }
-    });
-    let minutes = report.seconds.div_ceil(60);
-    view! {
-        <p>
-            <b>{report.name}</b> " · " {report.lesson} " · "
-            {tr!(lab, lesson.report_line, score = report.score, minutes = minutes, seed = report.seed)}
-        </p>
-        <table class="plain">
-            <thead>
-                <tr>
-                    <th scope="col">{tr!(lab, lesson.task)}</th>
-                    <th scope="col">{tr!(lab, lesson.points)}</th>
-                    <th scope="col">{tr!(lab, lesson.wrong_answers)}</th>
-                    <th scope="col">{tr!(lab, lesson.hints)}</th>
-                </tr>
-            </thead>
-            <tbody>{rows.collect_view()}</tbody>
-        </table>
     }
 }
 
@@ -179,14 +127,24 @@ fn answers_of(lab: Lab, lesson: &Lesson) -> impl IntoView + use<> {
             TaskKind::Explain(explain) => explain.model.shown(language).to_owned(),
             TaskKind::Predict(_) => return None,
         };
+        let solved = matches!(task.kind, TaskKind::Achieve(_)).then(|| solved_state(lesson, step, &task.id)).flatten();
+        let link = solved.map(|link| {
+            view! { <a href=format!("?#lab={link}") target="_blank" rel="noopener">{tr!(lab, lesson.state)}</a> }
+        });
         Some(view! {
             <li>
                 <p>{super::prose::inline(task.question.shown(language))}</p>
-                <p class="answer">{super::prose::inline(&answer)}</p>
+                <p class="answer">{super::prose::inline(&answer)} " " {link}</p>
             </li>
         })
     });
     answers.flatten().collect_view()
+}
+
+/// The link of the bench when a goal is reached.
+fn solved_state(lesson: &Lesson, step: usize, task: &str) -> Option<String> {
+    let place = lesson.steps[step].tasks.iter().position(|other| other.id == task)?;
+    link_of(&quadtank_lesson::state_before(lesson, step, place + 1, 0).ok()?)
 }
 
 /// The number that is right for the first student.
