@@ -43,6 +43,8 @@ pub enum Notice {
     Continue(String),
     /// What was loaded, by its name; it can be undone.
     Loaded(String),
+    /// A rig was handed to relays with a dead time of its own (s), without which no relay would swing it.
+    DeadTimeAdded(f64),
     /// The valves of a published rig were taken over; its tuning is an action of its own.
     ValvesOf(PresetId),
     /// The browser keeps nothing of this page: it is in a sandbox.

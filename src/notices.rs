@@ -66,12 +66,19 @@ pub fn Notices() -> impl IntoView {
             </button>
         }
         .into_any(),
+        Notice::DeadTimeAdded(dead_time_s) => {
+            let time = lab.number_style().fixed(dead_time_s, 0);
+            view! { <div>{tr!(lab, handover.dead_time, time = time)}</div> }.into_any()
+        }
         Notice::NotKept => view! { <div>{tr!(lab, app.not_kept)}</div> }.into_any(),
     }
     };
     let passing = StoredValue::new_local(None::<Timeout>);
     Effect::new(move || {
-        let goes = matches!(lab.notice.get(), Some(Notice::Copied | Notice::Loaded(_) | Notice::ValvesOf(_)));
+        let goes = matches!(
+            lab.notice.get(),
+            Some(Notice::Copied | Notice::Loaded(_) | Notice::ValvesOf(_) | Notice::DeadTimeAdded(_))
+        );
         let close = move || lab.notice.set(None);
         passing.set_value(goes.then(|| Timeout::new(PASSING_MS, close)));
     });

@@ -3,6 +3,7 @@
 use leptos::prelude::*;
 use quadtank::study::handover::{model_free_on, relay_session_on};
 use quadtank::study::quadruple_tank::Setup;
+use quadtank::study::relay_tuning::TuningPlant;
 use quadtank_scenario::model_free::ModelFreeScenario;
 use quadtank_scenario::tuning::TuningScenario;
 use quadtank_scenario::{BenchDocument, Scenario, ScenarioError};
@@ -60,8 +61,14 @@ pub fn to_rig(lab: Lab, setup: Setup) {
 
 /// Tunes a rig by relays; does nothing for one that relay sessions do not know.
 pub fn to_relays(lab: Lab, rig: &Setup) {
-    if let Some(session) = relay_session_on(rig) {
-        hand_over::<RelayTuning>(lab, TuningScenario::from(session));
+    let Some(session) = relay_session_on(rig) else { return };
+    let added_s = match session.plant {
+        TuningPlant::QuadrupleTank { dead_time_s, .. } if dead_time_s > 0.0 => Some(dead_time_s),
+        _ => None,
+    };
+    hand_over::<RelayTuning>(lab, TuningScenario::from(session));
+    if let Some(dead_time_s) = added_s {
+        lab.notice.set(Some(Notice::DeadTimeAdded(dead_time_s)));
     }
 }
 

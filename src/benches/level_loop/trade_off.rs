@@ -1,7 +1,8 @@
 //! The trade-off: the variance of the level against that of the outflow, with every known tuning a click away.
 
 use leptos::prelude::*;
-use quadtank::study::level_loop::{PiTuning, TradeOff, TradeOffPoint, trade_off};
+use quadtank::literature::andreis::{PublishedMethod, PublishedObjective};
+use quadtank::study::level_loop::{PiTuning, PublishedTuning, TradeOff, TradeOffPoint, trade_off};
 use quadtank_figure::Frame;
 
 use super::flags::{locks, panels};
@@ -9,6 +10,7 @@ use super::pictures::{self, TradeOffEntry, method_name};
 use super::rules::suggested;
 use super::sentences::variance;
 use super::session::{Session, use_session};
+use crate::lab::Lab;
 use crate::texts::{say, terms, tr};
 use crate::widgets::{Card, ChartCanvas, ChartMenu, PointButton, Text};
 
@@ -69,7 +71,7 @@ fn Point(entry: TradeOffEntry, frames: RwSignal<Vec<Frame>>) -> impl IntoView {
 fn tunings(session: Session) -> Vec<(String, PiTuning)> {
     let lab = session.lab;
     let setup = session.throttled.setup.get();
-    let published = setup.published_tunings().into_iter().map(|one| (method_name(lab, one.method), one.tuning));
+    let published = setup.published_tunings().into_iter().map(|one| (published_name(lab, one), one.tuning));
     let rules = suggested(session).into_iter().map(|(name, tuning)| (name.to_owned(), tuning));
     let reference = std::iter::once((tr!(lab, level.reference_point), setup.reference));
     published.chain(rules).chain(reference).fold(Vec::new(), |mut known: Vec<(String, PiTuning)>, next| {
@@ -78,6 +80,16 @@ fn tunings(session: Session) -> Vec<(String, PiTuning)> {
         }
         known
     })
+}
+
+/// How a published tuning was found and what for: the source has some methods for either objective, and the rules have their names.
+fn published_name(lab: Lab, PublishedTuning { method, objective, .. }: PublishedTuning) -> String {
+    let name = method_name(lab, method);
+    match (method, objective) {
+        (PublishedMethod::Current, _) => name,
+        (_, PublishedObjective::Tight) => format!("{name}, {}", tr!(lab, level.tight)),
+        (_, PublishedObjective::Averaging) => format!("{name}, {}", tr!(lab, level.averaging)),
+    }
 }
 
 fn entries(found: &TradeOff, names: &[(String, PiTuning)]) -> Vec<TradeOffEntry> {

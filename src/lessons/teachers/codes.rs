@@ -78,20 +78,26 @@ fn detail(lab: Lab, report: Report) -> impl IntoView {
 
 /// A line for each report.
 fn class_table(lab: Lab, lines: &[Line]) -> impl IntoView + use<> {
-    let rows = lines.iter().map(|(code, report)| match report {
-        Ok(report) => view! {
+    let rows = lines.iter().map(|(code, report)| {
+        if let Ok(report) = report {
+            return view! {
+                <tr>
+                    <th scope="row">{report.name.clone()}</th>
+                    <td>{report.lesson.clone()}</td>
+                    <td>{report.score}</td>
+                    <td>{report.seconds.div_ceil(60)}</td>
+                </tr>
+            }
+            .into_any();
+        }
+        let start: String = code.chars().take(16).collect();
+        view! {
             <tr>
-                <th scope="row">{report.name.clone()}</th>
-                <td>{report.lesson.clone()}</td>
-                <td>{report.score}</td>
-                <td>{report.seconds.div_ceil(60)}</td>
+                <th scope="row" class="bad">{format!("{start}…")}</th>
+                <td class="bad" colspan="3">{tr!(lab, lesson.bad_code)}</td>
             </tr>
         }
-        .into_any(),
-        Err(_) => {
-            let start: String = code.chars().take(16).collect();
-            view! { <tr><th scope="row" class="bad">{format!("{start}…")}</th><td class="bad" colspan="3">{tr!(lab, lesson.bad_code)}</td></tr> }.into_any()
-        }
+        .into_any()
     });
     view! {
         <table class="plain">
@@ -110,13 +116,15 @@ fn class_table(lab: Lab, lines: &[Line]) -> impl IntoView + use<> {
 
 /// The reports as comma-separated values, with names as in files, not as on the screen.
 fn csv(lines: &[Line]) -> String {
-    let mut table = "name,lesson,fingerprint,score,seconds,seed\n".to_owned();
-    for report in lines.iter().filter_map(|(_, report)| report.as_ref().ok()) {
+    let row = |report: &Report| {
         let Report { lesson, fingerprint, name, seed, seconds, score, .. } = report;
-        let name = field(name);
-        table.push_str(&format!("{name},{},{fingerprint},{score},{seconds},{seed}\n", field(lesson)));
-    }
-    table
+        format!("{},{},{fingerprint},{score},{seconds},{seed}", field(name), field(lesson))
+    };
+    let rows = lines.iter().filter_map(|(_, report)| report.as_ref().ok()).map(row);
+    let mut table: Vec<String> =
+        std::iter::once("name,lesson,fingerprint,score,seconds,seed".to_owned()).chain(rows).collect();
+    table.push(String::new());
+    table.join("\n")
 }
 
 /// A text as a field (RFC 4180). A spreadsheet takes what begins with one of these signs for a formula.

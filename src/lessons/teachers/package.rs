@@ -25,16 +25,14 @@ pub fn LessonFiles(
         let lesson = Arc::clone(&lesson);
         move |_| spawn_local(save_package(lab, Arc::clone(&lesson)))
     };
-    let save = {
-        let lesson = Arc::clone(&lesson);
-        move |_| {
-            let text = serde_json::to_string_pretty(&*lesson).unwrap_or_default();
-            download_text(&format!("{}.json", lesson.id), "application/json", &text);
-        }
+    let [package_id, save_id] = ["scorm", "save"].map(|name| format!("{name}-{}", lesson.id));
+    let save = move |_| {
+        let text = serde_json::to_string_pretty(&*lesson).unwrap_or_default();
+        download_text(&format!("{}.json", lesson.id), "application/json", &text);
     };
     view! {
-        <button type="button" class="button" data-testid=format!("scorm-{}", lesson.id) on:click=package>{say!(lab, lesson.scorm)}</button>
-        <button type="button" class="button" data-testid=format!("save-{}", lesson.id) on:click=save>{say!(lab, lesson.save_lesson)}</button>
+        <button type="button" class="button" data-testid=package_id on:click=package>{say!(lab, lesson.scorm)}</button>
+        <button type="button" class="button" data-testid=save_id on:click=save>{say!(lab, lesson.save_lesson)}</button>
     }
 }
 
