@@ -93,9 +93,9 @@ pub fn Header() -> impl IntoView {
             <SideLink page=SidePage::Lessons name=say!(lab, lesson.lessons) />
             <ExperimentName />
             <span class="spacer"></span>
-            <DepthSwitch />
-            <Steps />
-            <button type="button" class="button" data-testid="share" on:click=move |_| share::share(lab)>
+            // What is done to a bench has no place on the pages beside them.
+            <div class="of-bench" hidden=move || lab.side.get().is_some()><DepthSwitch /><Steps /></div>
+            <button type="button" class="button" data-testid="share" hidden=move || lab.side.get().is_some() on:click=move |_| share::share(lab)>
                 {say!(lab, app.share)}
             </button>
             <FileMenu />
@@ -104,7 +104,7 @@ pub fn Header() -> impl IntoView {
                 class="button present"
                 data-testid="present"
                 title=say!(lab, app.present_name)
-                hidden=move || !lab.bench.get().can_present
+                hidden=move || !lab.bench.get().can_present || lab.side.get().is_some()
                 on:click=move |_| lab.present(true)
             >
                 {say!(lab, app.present)}

@@ -294,7 +294,9 @@ impl Lab {
 
     /// Begins or ends showing the bench to an audience.
     pub fn present(self, presents: bool) {
-        self.presents.set(presents && self.bench.get_untracked().can_present);
+        // A lesson and the pages beside the benches have a layout of their own.
+        let is_bench = self.side.get_untracked().is_none() && self.stage.with_untracked(Option::is_none);
+        self.presents.set(presents && is_bench && self.bench.get_untracked().can_present);
     }
 
     /// How much larger charts are painted than usual, with their words and lines.

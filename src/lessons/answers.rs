@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use gloo_timers::callback::Timeout;
 use leptos::prelude::*;
 use quadtank_lesson::{Achieve, Answer, Feedback, NumberTask, Task, TaskKind, goals, shuffled};
 
@@ -133,17 +134,20 @@ fn parsed(text: &str) -> Option<f64> {
     plain.parse().ok().filter(|value: &f64| value.is_finite() && plain.chars().any(|c| c.is_ascii_digit()))
 }
 
+/// How long a goal has to hold until it is reached (ms).
+const HOLDS_MS: u32 = 400;
+
 /// The conditions of a goal, ticked as they are met on the bench.
 #[component]
 pub fn GoalList(task: Arc<Task>, goal: Achieve, labels: Vec<Signal<String>>) -> impl IntoView {
     let (lab, room) = (use_lab(), use_classroom());
     let done = is_done(&task.id);
+    let solved = {
+        let id = task.id.clone();
+        Memo::new(move |_| room.followed_record(&id).solved)
+    };
     let now = {
         let goal = goal.clone();
-        let solved = {
-            let id = task.id.clone();
-            Memo::new(move |_| room.followed_record(&id).solved)
-        };
         // What was reached stays as it was then, whatever the student tries afterwards.
         Memo::new(move |before: Option<&Vec<quadtank_lesson::Goal>>| match before.filter(|_| solved.get()) {
             Some(reached) => reached.clone(),
@@ -154,14 +158,20 @@ pub fn GoalList(task: Arc<Task>, goal: Achieve, labels: Vec<Signal<String>>) -> 
         let task = Arc::clone(&task);
         Memo::new(move |_| room.marked(&task, &Answer::Bench))
     };
-    // Reached is reached: the goal needs no button. What a typical attempt shows is said while it stands.
+    // The goal needs no button: it is reached when it holds for a moment, not while a slider passes by. What a typical attempt shows
+    // is said while it stands.
+    let holding = StoredValue::new_local(None::<Timeout>);
     Effect::new(move || {
         let verdict = verdict.get();
+        holding.set_value(None);
         if untrack(|| done.get()) {
             return;
         }
         if verdict.is_right {
-            room.answer(&task, Answer::Bench);
+            let task = Arc::clone(&task);
+            holding.set_value(Some(Timeout::new(HOLDS_MS, move || {
+                room.answer(&task, Answer::Bench);
+            })));
         } else {
             let said =
                 verdict.feedback.filter(|said| matches!(said, Feedback::Attempt(_)) && untrack(|| room.has_tried()));
@@ -174,7 +184,8 @@ pub fn GoalList(task: Arc<Task>, goal: Achieve, labels: Vec<Signal<String>>) -> 
         let is_truth = condition.unit == "yes/no";
         let value = move || {
             let value = written(lab, state().and_then(|goal| goal.value), &condition.unit, 3);
-            (!is_truth).then(|| view! { " — " {tr!(lab, lesson.now)} " " <b>{value}</b> })
+            let lead = if solved.get() { tr!(lab, lesson.was) } else { tr!(lab, lesson.now) };
+            (!is_truth).then(|| view! { " — " {lead} " " <b>{value}</b> })
         };
         view! {
             <li class:met=met>

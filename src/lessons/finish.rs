@@ -101,7 +101,8 @@ fn TaskLine(lesson: Arc<Lesson>, task: Task, step: usize) -> impl IntoView {
     let question = shown(lab, &lesson, task.question.clone());
     let seed = room.progress.with_untracked(|progress| progress.as_ref().map_or(0, |progress| progress.seed));
     let state = lesson.steps.get(step).and_then(|step| start_of(&lesson, step, seed).ok().flatten());
-    let link = state.as_ref().and_then(link_of).map(|link| {
+    let is_answered = record.answer.is_some() || record.is_done();
+    let link = state.as_ref().filter(|_| is_answered).and_then(link_of).map(|link| {
         view! { <a href=absolute(&format!("?#lab={link}")) target="_blank" rel="noopener">{say!(lab, lesson.state)}</a> }
     });
     let points = (task.points > 0).then(|| {
@@ -110,7 +111,10 @@ fn TaskLine(lesson: Arc<Lesson>, task: Task, step: usize) -> impl IntoView {
     });
     let tries = (record.wrong + record.hints > 0)
         .then(|| view! { <span class="remark">{move || tr!(lab, lesson.tries, wrong = record.wrong, hints = record.hints)}</span> });
-    let answer = move || record.answer.as_ref().map(|answer| answer_words(lab, &lesson, &task, answer));
+    let answer = move || match &record.answer {
+        Some(answer) => answer_words(lab, &lesson, &task, answer),
+        None => tr!(lab, lesson.not_answered),
+    };
     view! {
         <li>
             <p>{move || super::prose::inline(&question.get())}</p>

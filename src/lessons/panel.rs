@@ -1,14 +1,16 @@
 //! The text and the tasks of a step, beside the bench.
 
 use std::sync::Arc;
+use std::time::Duration;
 
+use leptos::context::Provider;
 use leptos::html::H2;
 use leptos::prelude::*;
 use quadtank_lesson::{Answer, Lesson, Step, Task, TaskKind};
 
 use super::classroom::{Classroom, tongue, use_classroom};
 use super::finish::Finish;
-use super::prose::Prose;
+use super::prose::{Prose, Still};
 use super::task::TaskView;
 use crate::lab::{Lab, use_lab};
 use crate::texts::{say, tr};
@@ -67,7 +69,13 @@ fn StepPanel(lesson: Arc<Lesson>, step: Step, index: usize) -> impl IntoView {
     let after = step.after.clone().map(|after| {
         let after = shown(lab, &lesson, after);
         let predicted = step.tasks.iter().filter_map(|task| predicted(lab, &lesson, task)).collect_view();
-        view! { <div class="after" hidden=move || !is_done.get() data-testid="after">{predicted}<Prose text=after /></div> }
+        let still = stands_still(is_done);
+        view! {
+            <div class="after" hidden=move || !is_done.get() data-testid="after">
+                {predicted}
+                <Provider value=still><Prose text=after /></Provider>
+            </div>
+        }
     });
     let tasks = step.tasks.iter().cloned().map(|task| {
         let lesson = Arc::clone(&lesson);
@@ -88,6 +96,24 @@ fn StepPanel(lesson: Arc<Lesson>, step: Step, index: usize) -> impl IntoView {
             <Turn room lab index count is_done=is_done.into() />
         </aside>
     }
+}
+
+/// What is said about a solved step keeps the numbers of then, whatever the student tries afterwards.
+fn stands_still(is_done: Memo<bool>) -> Still {
+    /// By then the results have followed a solution that was shown (ms).
+    const FOLLOWED_MS: u64 = 600;
+    let still = RwSignal::new(false);
+    Effect::new(move || {
+        if is_done.get() {
+            set_timeout(
+                move || {
+                    still.try_set(true);
+                },
+                Duration::from_millis(FOLLOWED_MS),
+            );
+        }
+    });
+    Still(still)
 }
 
 /// What the student predicted, beside what is said once the step is done.

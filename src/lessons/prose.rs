@@ -75,11 +75,19 @@ pub fn written(lab: Lab, value: Option<f64>, unit: &str, digits: u8) -> String {
 
 fn live(LiveValue { quantity, unit, digits }: LiveValue) -> impl Fn() -> String {
     let (lab, room) = (use_lab(), use_classroom());
+    let still = use_context::<Still>();
     move || {
         room.lesson.track();
-        written(lab, Present(lab).shown(&quantity, &unit), &unit, digits)
+        let value = || Present(lab).shown(&quantity, &unit);
+        let is_still = still.is_some_and(|Still(is_still)| is_still.get());
+        let value = if is_still { untrack(value) } else { value() };
+        written(lab, value, &unit, digits)
     }
 }
+
+/// Whether live values do not follow the bench any more.
+#[derive(Clone, Copy)]
+pub struct Still(pub RwSignal<bool>);
 
 fn formula(shown: Formula) -> AnyView {
     match shown {

@@ -39,6 +39,7 @@ pub fn TaskView(lesson: Arc<Lesson>, task: Task, index: usize) -> impl IntoView 
         }
         TaskKind::Explain(_) => view! { <Words task=Arc::clone(&task) /> }.into_any(),
     };
+    let counts_attempts = task.kind.counts_attempts();
     let points = {
         let task = Arc::clone(&task);
         move || {
@@ -47,6 +48,7 @@ pub fn TaskView(lesson: Arc<Lesson>, task: Task, index: usize) -> impl IntoView 
             match (task.points, record.is_done()) {
                 (0, _) => tr!(lab, lesson.not_marked),
                 (of, true) => tr!(lab, lesson.reached, points = reached, of = of),
+                (of, false) if counts_attempts => tr!(lab, lesson.worth_each, count = of as usize),
                 (of, false) => tr!(lab, lesson.worth, count = of as usize),
             }
         }

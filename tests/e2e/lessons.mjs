@@ -45,7 +45,7 @@ const WAYS = {
   'just-right': [['rig-dead-time', '150']],
   'fast-swing': [['importance-number', '0.18']],
   'honest-test': [['ratio-number', '1']],
-  'both-loci': [['method-b'], ['root2']],
+  'both-loci': [['method-b'], ['root1']],
   'easy-direction': [['free-step2', '2']],
   repair: [['free-swapped'], ['free-off'], ['free-alpha-number', '1'], ['free-kp-number', '0.3'], ['free-ki-number', '0.005']],
   tight: [['level-gain-number', '13']],

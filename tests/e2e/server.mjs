@@ -10,7 +10,7 @@ export const SITE = process.env.QUADTANK_DIST ?? fileURLToPath(new URL('../../di
 
 export const POLICY =
   "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; " +
-  "img-src 'self' data: blob:; connect-src 'self'; worker-src 'self'; manifest-src 'self'";
+  "img-src 'self' data: blob:; connect-src 'self'; frame-src 'self'; worker-src 'self'; manifest-src 'self'";
 
 const HTML = 'text/html; charset=utf-8';
 const TYPES = {

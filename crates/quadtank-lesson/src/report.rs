@@ -117,6 +117,27 @@ impl Report {
         Self::from_payload(&payload).ok_or(ReportError::Damaged)
     }
 
+    /// The reports of all codes in a text, in their order: names before them, quotes around them and lines that a mail has broken do
+    /// not matter. A text without a code has none.
+    pub fn all_in(text: &str) -> Vec<Result<Self, ReportError>> {
+        /// Most pieces into which a code is broken.
+        const MOST_PIECES: usize = 60;
+        let is_of_code = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_');
+        let report = |rest: &str| {
+            let mut code = MARK.to_owned();
+            let mut found = Err(ReportError::Damaged);
+            for piece in rest.split(|c| !is_of_code(c)).filter(|piece| !piece.is_empty()).take(MOST_PIECES) {
+                code.push_str(piece);
+                found = Self::from_code(&code);
+                if found.is_ok() {
+                    break;
+                }
+            }
+            found
+        };
+        text.split(MARK).skip(1).map(report).collect()
+    }
+
     fn from_payload(payload: &str) -> Option<Self> {
         let (text, sum) = payload.rsplit_once('\t')?;
         if sum != format!("{:08x}", checksum(text.as_bytes())) {
@@ -260,6 +281,16 @@ mod tests {
     }
 
     #[test]
+    fn codes_are_found_among_names_quotes_and_broken_lines() {
+        let [ana, rui] = ["Ana", "Rui"].map(|name| report(name).to_code());
+        let text = format!("Ana: \"{}\n> {}\", Rui ({rui}) and QL1-broken", &ana[..30], &ana[30..]);
+        let [ana, rui] = [ana, rui].map(|code| Report::from_code(&code));
+        assert!(ana.is_ok() && rui.is_ok() && ana != rui);
+        assert_eq!(Report::all_in(&text), [ana, rui, Err(ReportError::Damaged)]);
+        assert_eq!(Report::all_in("no code"), []);
+    }
+
+    #[test]
     fn a_code_whose_sum_is_right_but_not_its_fields_is_damaged() {
         for text in ["", "a", "a\tb\t1\t2\t3\tx:1\tname", "a\tb\t-1\t2\t3\t\tname", "a\tb\t1\t2\t3"] {
             let payload = format!("{text}\t{:08x}", checksum(text.as_bytes()));
@@ -286,7 +317,7 @@ mod tests {
 
         #[test]
         fn any_text_is_read_or_refused(code in "(QL1-)?.{0,200}") {
-            let _ = Report::from_code(&code);
+            let _ = (Report::from_code(&code), Report::all_in(&code));
         }
     }
 }

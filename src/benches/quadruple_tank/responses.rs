@@ -2,7 +2,7 @@
 
 use leptos::prelude::*;
 
-use super::flags::panels;
+use super::flags::{locks, panels};
 use super::metrics::{MetricsTable, why};
 use super::moment::{RigState, use_moment};
 use super::pictures;
@@ -202,7 +202,11 @@ fn of_steps(session: Session, run: &Run) -> Vec<String> {
         return vec![tr!(lab, responses.sentence_manual)];
     }
     if reasons == [Some(NoResponse::NoStep); 2] {
-        return vec![if has_load { tr!(lab, responses.load_alone) } else { tr!(lab, responses.sentence_still) }];
+        return vec![match (has_load, lab.locks(locks::EXPERIMENT)) {
+            (true, _) => tr!(lab, responses.load_alone),
+            (false, false) => tr!(lab, responses.sentence_still),
+            (false, true) => tr!(lab, responses.sentence_still_locked),
+        }];
     }
     let of_level = |(k, m): (usize, &LoopMetrics)| match m.no_response {
         None => of_metrics(session, k, m),

@@ -91,7 +91,11 @@ fn SetPoint(level: usize, frames: RwSignal<Vec<Frame>>, held: RwSignal<Option<(f
         (to_shown(reach.min, unit), to_shown(reach.max, unit))
     });
     view! {
-        <g visibility=move || if place().is_some() { "visible" } else { "hidden" }.to_owned()>
+        // A mark that cannot be moved and stands for no step only puzzles.
+        <g visibility=move || {
+            let is_mute = lab.locks(locks::EXPERIMENT) && size.get() == 0.0;
+            if place().is_some() && !is_mute { "visible" } else { "hidden" }.to_owned()
+        }>
             <Handle
                 id=IDS[level]
                 label=say!(lab, responses.set_point, level = level + 1)

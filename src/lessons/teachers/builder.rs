@@ -16,7 +16,7 @@ use crate::texts::{Language, say, tr};
 use crate::widgets::{Choice, Select};
 
 /// Height of a frame to begin with (CSS px).
-const USUAL_HEIGHT: u32 = 720;
+pub const USUAL_HEIGHT: u32 = 720;
 
 /// What is embedded.
 #[derive(Clone, Copy, PartialEq)]
@@ -39,7 +39,9 @@ impl Subject {
 pub fn Builder(lessons: RwSignal<Vec<Option<Arc<Lesson>>>>) -> impl IntoView {
     let lab = use_lab();
     let subject = RwSignal::new(Subject::Lesson(LESSON_IDS[0]));
-    let language = RwSignal::new(lab.language.get_untracked());
+    // That of the page, as long as no other one is chosen.
+    let chosen_language = RwSignal::new(None::<Language>);
+    let language = Signal::derive(move || chosen_language.get().unwrap_or(lab.language.get()));
     let preset = RwSignal::new(None::<PresetId>);
     let panels = RwSignal::new(Vec::<Panel>::new());
     let locks = RwSignal::new(Vec::<Lock>::new());
@@ -73,14 +75,7 @@ pub fn Builder(lessons: RwSignal<Vec<Option<Arc<Lesson>>>>) -> impl IntoView {
         }
         query
     });
-    let code = Memo::new(move |_| {
-        let height = height_px(&height.get());
-        let (address, title) =
-            (absolute(&query.get()).replace('&', "&amp;"), name(subject.get()).replace('"', "&quot;"));
-        format!(
-            "<iframe src=\"{address}\" title=\"{title}\" width=\"100%\" height=\"{height}\" style=\"border:0\" allow=\"clipboard-write\"></iframe>"
-        )
-    });
+    let code = Memo::new(move |_| frame_of(&query.get(), &name(subject.get()), height_px(&height.get())));
     let copied = RwSignal::new(false);
     let on_copy = move |_| copy(&code.get_untracked(), move |done| copied.set(done));
     let choices = move || match subject.get() {
@@ -105,7 +100,7 @@ pub fn Builder(lessons: RwSignal<Vec<Option<Arc<Lesson>>>>) -> impl IntoView {
                     name=say!(lab, app.language)
                     choices=languages
                     chosen=language
-                    on_choose=Callback::new(move |chosen| language.set(chosen))
+                    on_choose=Callback::new(move |chosen| chosen_language.set(Some(chosen)))
                     disabled=false
                 />
                 <label>
@@ -138,6 +133,14 @@ fn title_of(lab: Lab, lessons: &[Option<Arc<Lesson>>], id: &'static str) -> Stri
         Some(lesson) => format!("{}. {}", index + 1, lesson.title.shown(tongue(lab, lesson))),
         None => format!("{}. {id}", index + 1),
     }
+}
+
+/// The HTML of a frame with the laboratory.
+pub fn frame_of(query: &str, title: &str, height: u32) -> String {
+    let (address, title) = (absolute(query).replace('&', "&amp;"), title.replace('&', "&amp;").replace('"', "&quot;"));
+    format!(
+        "<iframe src=\"{address}\" title=\"{title}\" width=\"100%\" height=\"{height}\" style=\"border:0\" allow=\"clipboard-write\"></iframe>"
+    )
 }
 
 /// The height that was typed, within limits (CSS px).

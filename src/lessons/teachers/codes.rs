@@ -1,29 +1,39 @@
 //! Reads the codes of reports: one in detail, those of a class as a table.
 
+use std::sync::Arc;
+
 use leptos::prelude::*;
-use quadtank_lesson::{Report, ReportError};
+use quadtank_lesson::{Lesson, Report, ReportError};
 
 use crate::download::download_text;
 use crate::lab::{Lab, use_lab};
+use crate::lessons::classroom::tongue;
+use crate::lessons::prose::inline;
 use crate::texts::{say, tr};
 
-/// What stands in a line: a report, or why it is none.
-type Line = (String, Result<Report, ReportError>);
+/// What a code holds, or why it holds nothing.
+type Found = Result<Report, ReportError>;
+/// The lessons of the laboratory as far as their files are there, for titles and questions.
+type Lessons = RwSignal<Vec<Option<Arc<Lesson>>>>;
 
-/// A field for codes, one in a line, and what they hold.
+/// A field for codes, with whatever stands around them, and what they hold.
 #[component]
-pub fn ReadCodes() -> impl IntoView {
+pub fn ReadCodes(
+    /// The lessons of the laboratory.
+    lessons: Lessons,
+) -> impl IntoView {
     let lab = use_lab();
     let codes = RwSignal::new(String::new());
-    let lines = Memo::new(move |_| codes.with(|codes| read(codes)));
-    let found = move || match lines.get().as_slice() {
-        [] => None,
-        [(_, Ok(report))] => Some(detail(lab, report.clone()).into_any()),
-        [(_, Err(_))] => Some(view! { <p class="bad">{tr!(lab, lesson.bad_code)}</p> }.into_any()),
-        several => Some(class_table(lab, several).into_any()),
+    let reports = Memo::new(move |_| codes.with(|codes| Report::all_in(codes)));
+    let is_empty = move || codes.with(|codes| codes.trim().is_empty());
+    let found = move || match reports.get().as_slice() {
+        [] if is_empty() => None,
+        [] | [Err(_)] => Some(view! { <p class="bad">{tr!(lab, lesson.bad_code)}</p> }.into_any()),
+        [Ok(report)] => Some(detail(lab, lessons, report.clone()).into_any()),
+        several => Some(class_table(lab, lessons, several).into_any()),
     };
-    let save = move |_| download_text("quadtank-reports.csv", "text/csv", &lines.with_untracked(|lines| csv(lines)));
-    let is_class = move || lines.with(|lines| lines.len() > 1);
+    let save = move |_| download_text("quadtank-reports.csv", "text/csv", &reports.with_untracked(|found| csv(found)));
+    let is_class = move || reports.with(|reports| reports.len() > 1);
     view! {
         <section>
             <h3>{say!(lab, lesson.read_code)}</h3>
@@ -40,27 +50,48 @@ pub fn ReadCodes() -> impl IntoView {
     }
 }
 
-fn read(codes: &str) -> Vec<Line> {
-    let lines = codes.lines().map(str::trim).filter(|line| !line.is_empty());
-    lines.map(|line| (line.to_owned(), Report::from_code(line))).collect()
+/// The lesson with an id, if it is one of the laboratory and there.
+fn lesson_of(lessons: Lessons, id: &str) -> Option<Arc<Lesson>> {
+    lessons.with(|lessons| lessons.iter().flatten().find(|lesson| lesson.id == id).cloned())
 }
 
-fn detail(lab: Lab, report: Report) -> impl IntoView {
+/// The title of a lesson; of one that is not known its id.
+fn title_of(lab: Lab, lessons: Lessons, id: &str) -> String {
+    lesson_of(lessons, id).map_or_else(|| id.to_owned(), |lesson| lesson.title.shown(tongue(lab, &lesson)).to_owned())
+}
+
+/// How long a lesson took, in seconds where it was less than a minute.
+fn time(seconds: u32) -> String {
+    if seconds < 60 { format!("{seconds}\u{a0}s") } else { format!("{}\u{a0}min", seconds.div_ceil(60)) }
+}
+
+fn detail(lab: Lab, lessons: Lessons, report: Report) -> impl IntoView {
+    let lesson = lesson_of(lessons, &report.lesson);
     let rows = report.tasks.into_iter().map(|task| {
+        let known = lesson.as_ref().and_then(|lesson| {
+            let (step, found) = lesson.tasks().find(|(_, known)| known.id == task.id)?;
+            Some(format!("{}. {}", step + 1, found.question.shown(tongue(lab, lesson))))
+        });
+        let points = match (task.of, task.solved, task.wrong) {
+            (_, false, 0) => tr!(lab, lesson.not_answered),
+            (0, ..) => tr!(lab, lesson.not_marked),
+            _ => format!("{}/{}", task.points, task.of),
+        };
+        let testid = format!("of-{}", task.id);
         view! {
-            <tr>
-                <th scope="row">{task.id}</th>
-                <td>{format!("{}/{}", task.points, task.of)}</td>
+            <tr data-testid=testid>
+                <th scope="row">{inline(&known.unwrap_or(task.id))}</th>
+                <td>{points}</td>
                 <td>{task.wrong}</td>
                 <td>{task.hints}</td>
             </tr>
         }
     });
-    let minutes = report.seconds.div_ceil(60);
+    let rows = rows.collect_view();
     view! {
         <p>
-            <b>{report.name}</b> " · " {report.lesson} " · "
-            {tr!(lab, lesson.report_line, score = report.score, minutes = minutes, seed = report.seed)}
+            <b>{report.name}</b> " · " {title_of(lab, lessons, &report.lesson)} " · "
+            {tr!(lab, lesson.report_line, score = report.score, time = time(report.seconds), seed = report.seed)}
         </p>
         <table class="plain">
             <thead>
@@ -71,34 +102,37 @@ fn detail(lab: Lab, report: Report) -> impl IntoView {
                     <th scope="col">{tr!(lab, lesson.hints)}</th>
                 </tr>
             </thead>
-            <tbody>{rows.collect_view()}</tbody>
+            <tbody>{rows}</tbody>
         </table>
     }
 }
 
-/// A line for each report.
-fn class_table(lab: Lab, lines: &[Line]) -> impl IntoView + use<> {
-    let rows = lines.iter().map(|(code, report)| {
-        if let Ok(report) = report {
+/// A line for each code; one that is there twice is marked.
+fn class_table(lab: Lab, lessons: Lessons, found: &[Found]) -> impl IntoView + use<> {
+    let rows = found.iter().enumerate().map(|(place, report)| {
+        let Ok(report) = report else {
             return view! {
                 <tr>
-                    <th scope="row">{report.name.clone()}</th>
-                    <td>{report.lesson.clone()}</td>
-                    <td>{report.score}</td>
-                    <td>{report.seconds.div_ceil(60)}</td>
+                    <th scope="row" class="bad">{place + 1}</th>
+                    <td class="bad" colspan="3">{tr!(lab, lesson.bad_code)}</td>
                 </tr>
             }
             .into_any();
-        }
-        let start: String = code.chars().take(16).collect();
+        };
+        let is_again = found[..place].iter().flatten().any(|before| before == report);
         view! {
             <tr>
-                <th scope="row" class="bad">{format!("{start}…")}</th>
-                <td class="bad" colspan="3">{tr!(lab, lesson.bad_code)}</td>
+                <th scope="row">
+                    {report.name.clone()} {is_again.then(|| view! { " " <span class="bad">{tr!(lab, lesson.again)}</span> })}
+                </th>
+                <td>{title_of(lab, lessons, &report.lesson)}</td>
+                <td>{report.score}</td>
+                <td>{time(report.seconds)}</td>
             </tr>
         }
         .into_any()
     });
+    let rows = rows.collect_view();
     view! {
         <table class="plain">
             <thead>
@@ -106,21 +140,21 @@ fn class_table(lab: Lab, lines: &[Line]) -> impl IntoView + use<> {
                     <th scope="col">{tr!(lab, lesson.student)}</th>
                     <th scope="col">{tr!(lab, lesson.lesson)}</th>
                     <th scope="col">{tr!(lab, lesson.of_hundred)}</th>
-                    <th scope="col">{tr!(lab, lesson.time_min)}</th>
+                    <th scope="col">{tr!(lab, lesson.time)}</th>
                 </tr>
             </thead>
-            <tbody>{rows.collect_view()}</tbody>
+            <tbody>{rows}</tbody>
         </table>
     }
 }
 
 /// The reports as comma-separated values, with names as in files, not as on the screen.
-fn csv(lines: &[Line]) -> String {
+fn csv(found: &[Found]) -> String {
     let row = |report: &Report| {
         let Report { lesson, fingerprint, name, seed, seconds, score, .. } = report;
         format!("{},{},{fingerprint},{score},{seconds},{seed}", field(name), field(lesson))
     };
-    let rows = lines.iter().filter_map(|(_, report)| report.as_ref().ok()).map(row);
+    let rows = found.iter().map(|report| report.as_ref().map_or_else(|_| "damaged,,,,,".to_owned(), row));
     let mut table: Vec<String> =
         std::iter::once("name,lesson,fingerprint,score,seconds,seed".to_owned()).chain(rows).collect();
     table.push(String::new());
@@ -135,7 +169,9 @@ fn field(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{csv, field, read};
+    use quadtank_lesson::Report;
+
+    use super::{csv, field, time};
 
     #[test]
     fn a_name_is_no_formula_and_ends_no_field() {
@@ -144,10 +180,12 @@ mod tests {
     }
 
     #[test]
-    fn a_line_that_is_no_code_is_one_among_others() {
-        let lines = read("QL1-damaged\n\n  x \n");
-        assert_eq!(lines.len(), 2);
-        assert!(lines.iter().all(|(_, report)| report.is_err()));
-        assert_eq!(csv(&lines).lines().count(), 1);
+    fn a_damaged_code_is_a_line_of_the_table_too() {
+        assert_eq!(csv(&Report::all_in("QL1-x QL1-y")).lines().skip(1).collect::<Vec<_>>(), ["damaged,,,,,"; 2]);
+    }
+
+    #[test]
+    fn a_short_time_is_in_seconds() {
+        assert_eq!([3, 59, 60, 61].map(time), ["3\u{a0}s", "59\u{a0}s", "1\u{a0}min", "2\u{a0}min"]);
     }
 }

@@ -7,9 +7,9 @@ mod package;
 use std::sync::Arc;
 
 use leptos::prelude::*;
-use quadtank_lesson::{Answer, LESSON_IDS, Lesson, NumberTask, Step, TaskKind};
+use quadtank_lesson::{Answer, LESSON_IDS, Lesson, NumberTask, Step, TaskKind, Tolerance};
 
-use builder::Builder;
+use builder::{Builder, USUAL_HEIGHT, frame_of};
 use codes::ReadCodes;
 pub use package::LessonFiles;
 
@@ -17,7 +17,7 @@ use super::catalogue::OwnFile;
 use super::classroom::tongue;
 use super::finish::link_of;
 use super::load;
-use super::place::{absolute, lesson_address};
+use super::place::lesson_address;
 use crate::download::is_single_file;
 use crate::lab::{Lab, use_lab};
 use crate::texts::{say, tr};
@@ -37,7 +37,7 @@ pub fn Teachers() -> impl IntoView {
                 <p>{say!(lab, lesson.grades_lead)}</p>
                 <p>{say!(lab, lesson.grades_code)}</p>
             </section>
-            <ReadCodes />
+            <ReadCodes lessons />
             <section>
                 <h3>{say!(lab, lesson.projector)}</h3>
                 <p>{say!(lab, lesson.projector_lead)}</p>
@@ -73,17 +73,14 @@ fn guide(lab: Lab, index: usize, lesson: Arc<Lesson>) -> impl IntoView {
         texts.iter().map(|text| view! { <li>{text.shown(language).to_owned()}</li> }).collect_view()
     };
     let address = lesson_address(&lesson.id);
-    let embed = format!(
-        "<iframe src=\"{}\" width=\"100%\" height=\"720\" title=\"{}\"></iframe>",
-        absolute(&format!("{address}&embed=1&lang={}", lab.language.get().tag())),
-        lesson.title.shown(language),
-    );
+    let query = format!("{address}&embed=1&lang={}", lab.language.get().tag());
+    let embed = frame_of(&query, lesson.title.shown(language), USUAL_HEIGHT);
     // The numbers are computed when they are asked for.
     let asked = RwSignal::new(false);
     let lesson = Arc::clone(&lesson);
     let about = Arc::clone(&lesson);
     let files = (!is_single_file()).then(|| view! { <p class="links"><LessonFiles lesson=Arc::clone(&lesson) /></p> });
-    let answers = move || asked.get().then(|| view! { <ol>{answers_of(lab, &lesson)}</ol> });
+    let answers = move || asked.get().then(|| view! { <ul class="answers">{answers_of(lab, &lesson)}</ul> });
     let lesson = about;
     view! {
         <details data-testid=format!("guide-{}", lesson.id)>
@@ -131,9 +128,10 @@ fn answers_of(lab: Lab, lesson: &Lesson) -> impl IntoView + use<> {
         let link = solved.map(|link| {
             view! { <a href=format!("?#lab={link}") target="_blank" rel="noopener">{tr!(lab, lesson.state)}</a> }
         });
+        let place = tr!(lab, lesson.place_of_task, step = step + 1, points = task.points);
         Some(view! {
             <li>
-                <p>{super::prose::inline(task.question.shown(language))}</p>
+                <p><span class="remark">{place}</span> " " {super::prose::inline(task.question.shown(language))}</p>
                 <p class="answer">{super::prose::inline(&answer)} " " {link}</p>
             </li>
         })
@@ -155,5 +153,11 @@ fn number_answer(lab: Lab, step: &Step, number: &NumberTask, answer: Option<&Ans
         _ => None,
     };
     let written = super::prose::written(lab, value, &number.unit, 4);
+    let style = lab.number_style();
+    let margin = match number.tolerance {
+        Tolerance::Relative(share) => format!("±\u{a0}{}\u{a0}%", style.significant(100.0 * share, 2)),
+        Tolerance::Absolute(size) => format!("±\u{a0}{}", super::prose::written(lab, Some(size), &number.unit, 2)),
+    };
+    let written = format!("{written} ({margin})");
     if varies { tr!(lab, lesson.varies, value = written) } else { written }
 }
