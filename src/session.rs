@@ -44,6 +44,11 @@ pub trait Bench: Sized + 'static {
         unit.to_owned()
     }
 
+    /// What a card is called, for who chooses cards by name.
+    fn panel_title(_lab: Lab, panel: Panel) -> String {
+        panel.0.to_owned()
+    }
+
     /// What is remembered besides.
     fn own(document: RwSignal<Self::Document>) -> Self::Own;
 

@@ -42,6 +42,8 @@ pub struct BenchEntry {
     pub locks: &'static [Lock],
     /// What the navigation calls it.
     pub title: fn(Lab) -> String,
+    /// What a card of it is called.
+    pub panel_title: fn(Lab, Panel) -> String,
     /// One line on what one does there.
     pub about: fn(Lab) -> String,
     /// A small picture: the path of a drawing 48 wide and 32 high.
@@ -93,6 +95,7 @@ impl BenchEntry {
             panels: B::PANELS,
             locks: B::LOCKS,
             title: B::title,
+            panel_title: B::panel_title,
             about: B::about,
             picture: B::PICTURE,
             cards: |lab| B::cards(lab.session()),

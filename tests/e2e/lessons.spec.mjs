@@ -203,7 +203,13 @@ test('a teacher downloads the package of a lesson, and the lesson', async ({ lab
 test('the builder makes an embed and shows it as it will be', async ({ lab, page }) => {
   await lab.open('page=teachers&lang=es');
   await expect(lab.id('builder-code')).toHaveValue(/lang=es/);
-  await lab.id('builder-subject').selectOption('bench-quadruple-tank');
+  // Cards and groups are called as on the page, not as in the address.
+  for (const bench of ['relay-tuning', 'model-free', 'level-loop', 'quadruple-tank']) {
+    await lab.id('builder-subject').selectOption(`bench-${bench}`);
+    const names = await page.locator('.boxes label').allTextContents();
+    expect(names.length).toBeGreaterThan(8);
+    expect(names.filter((name) => /^[a-z-]+$/.test(name.trim()))).toEqual([]);
+  }
   await lab.id('box-rga').check();
   // The frame of the preview is a page of its own, with landmarks of its own.
   await lab.axe();

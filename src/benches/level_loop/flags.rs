@@ -1,5 +1,9 @@
 //! What the start flags `panels=` and `lock=` name on the level-loop bench.
 
+use crate::lab::Lab;
+use crate::session::Panel;
+use crate::texts::tr;
+
 /// The cards, in their order on the page.
 pub mod panels {
     use crate::session::Panel;
@@ -30,6 +34,24 @@ pub mod panels {
     /// All of them.
     pub const ALL: &[Panel] =
         &[PROCESS, EXPERIMENT, RESPONSES, TEST, TRADE_OFF, CONTROLLER, ASSESSMENT, MAP, FORMS, PUBLISHED, HEATED];
+}
+
+/// What a card is called.
+pub fn panel_title(lab: Lab, panel: Panel) -> String {
+    match panel {
+        panels::PROCESS => tr!(lab, level.loop_title),
+        panels::EXPERIMENT => tr!(lab, level.experiment),
+        panels::RESPONSES => tr!(lab, level.course),
+        panels::TEST => tr!(lab, level.test_title),
+        panels::TRADE_OFF => tr!(lab, level.trade_off),
+        panels::CONTROLLER => tr!(lab, level.tuning_title),
+        panels::ASSESSMENT => tr!(lab, level.assess_title),
+        panels::MAP => tr!(lab, level.map_title),
+        panels::FORMS => tr!(lab, level.forms),
+        panels::PUBLISHED => tr!(lab, level.published),
+        panels::HEATED => tr!(lab, level.heated),
+        Panel(other) => other.to_owned(),
+    }
 }
 
 /// Groups of controls that can be disabled.

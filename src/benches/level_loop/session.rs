@@ -12,7 +12,7 @@ use quadtank::study::level_loop::{
 use quadtank_scenario::level_loop::LevelLoopScenario;
 
 use super::exploration::Exploration;
-use super::flags::{locks, panels};
+use super::flags::{self, locks, panels};
 use crate::depth::Depth;
 use crate::lab::Lab;
 use crate::session::{self, Bench, Lock, Outcome, Panel, part_of};
@@ -80,6 +80,10 @@ impl Bench for LevelLoop {
             answer: part_of(results, |results| &results.answer),
             pinned: part_of(results, |results| &results.pinned),
         }
+    }
+
+    fn panel_title(lab: Lab, panel: Panel) -> String {
+        flags::panel_title(lab, panel)
     }
 
     fn own(document: RwSignal<LevelLoopScenario>) -> Own {

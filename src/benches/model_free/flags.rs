@@ -1,5 +1,9 @@
 //! What the start flags `panels=` and `lock=` name on the model-free bench.
 
+use crate::lab::Lab;
+use crate::session::Panel;
+use crate::texts::tr;
+
 /// The cards, in their order on the page.
 pub mod panels {
     use crate::session::Panel;
@@ -21,6 +25,20 @@ pub mod panels {
 
     /// All of them.
     pub const ALL: &[Panel] = &[PROCESS, VALVES, ZEROS, RESPONSES, EXPERIMENT, CONTROLLER, CLAIMS];
+}
+
+/// What a card is called.
+pub fn panel_title(lab: Lab, panel: Panel) -> String {
+    match panel {
+        panels::PROCESS => tr!(lab, process.title),
+        panels::VALVES => tr!(lab, valves.title),
+        panels::ZEROS => tr!(lab, zeros.title),
+        panels::RESPONSES => tr!(lab, free.course),
+        panels::EXPERIMENT => tr!(lab, free.case),
+        panels::CONTROLLER => tr!(lab, free.law),
+        panels::CLAIMS => tr!(lab, free.claims),
+        Panel(other) => other.to_owned(),
+    }
 }
 
 /// Groups of controls that can be disabled.

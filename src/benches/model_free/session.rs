@@ -7,7 +7,7 @@ use quadtank::study::StudyError;
 use quadtank::study::model_free::{ModelFreeAnalysis, ModelFreeAnswer, ModelFreeSetup, ModelFreeStudy, Results};
 use quadtank_scenario::model_free::ModelFreeScenario;
 
-use super::flags::{locks, panels};
+use super::flags::{self, locks, panels};
 use super::moment::Shown;
 use crate::depth::Depth;
 use crate::lab::Lab;
@@ -63,6 +63,10 @@ impl Bench for ModelFree {
             answer: part_of(results, |results| &results.answer),
             analysis: part_of(results, |results| &results.analysis),
         }
+    }
+
+    fn panel_title(lab: Lab, panel: Panel) -> String {
+        flags::panel_title(lab, panel)
     }
 
     fn own(document: RwSignal<ModelFreeScenario>) -> Own {

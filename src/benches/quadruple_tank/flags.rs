@@ -1,5 +1,9 @@
 //! What the start flags `panels=` and `lock=` name on the home bench.
 
+use crate::lab::Lab;
+use crate::session::Panel;
+use crate::texts::tr;
+
 /// The cards, in their order on the page.
 pub mod panels {
     use crate::session::Panel;
@@ -23,6 +27,21 @@ pub mod panels {
 
     /// All of them.
     pub const ALL: &[Panel] = &[PROCESS, VALVES, ZEROS, RGA, CONTROLLER, EXPERIMENT, WHY, RESPONSES];
+}
+
+/// What a card is called.
+pub fn panel_title(lab: Lab, panel: Panel) -> String {
+    match panel {
+        panels::PROCESS => tr!(lab, process.title),
+        panels::VALVES => tr!(lab, valves.title),
+        panels::ZEROS => tr!(lab, zeros.title),
+        panels::RGA => tr!(lab, rga.title),
+        panels::CONTROLLER => tr!(lab, pi.title),
+        panels::EXPERIMENT => tr!(lab, experiment.title),
+        panels::WHY => tr!(lab, why.title),
+        panels::RESPONSES => tr!(lab, responses.title),
+        Panel(other) => other.to_owned(),
+    }
 }
 
 /// Groups of controls that can be disabled.

@@ -11,7 +11,7 @@ use quadtank::study::quadruple_tank::{
 use quadtank::study::{PinnedResults, StudyError};
 use quadtank_scenario::Scenario;
 
-use super::flags::{locks, panels};
+use super::flags::{self, locks, panels};
 use crate::depth::Depth;
 use crate::lab::Lab;
 use crate::session::{self, Bench, Lock, Outcome, Panel, part_of};
@@ -88,6 +88,10 @@ impl Bench for QuadrupleTank {
             run: part_of(results, |results| &results.run),
             pinned: part_of(results, |results| &results.pinned),
         }
+    }
+
+    fn panel_title(lab: Lab, panel: Panel) -> String {
+        flags::panel_title(lab, panel)
     }
 
     fn own(document: RwSignal<Scenario>) -> Own {

@@ -1,5 +1,9 @@
 //! What the start flags `panels=` and `lock=` name on the relay-tuning bench.
 
+use crate::lab::Lab;
+use crate::session::Panel;
+use crate::texts::tr;
+
 /// The cards, in their order on the page.
 pub mod panels {
     use crate::session::Panel;
@@ -17,6 +21,18 @@ pub mod panels {
 
     /// All of them.
     pub const ALL: &[Panel] = &[PLANT, TEST, CURVE, PLACEMENT, RESPONSES];
+}
+
+/// What a card is called.
+pub fn panel_title(lab: Lab, panel: Panel) -> String {
+    match panel {
+        panels::PLANT => tr!(lab, relay.plant),
+        panels::TEST => tr!(lab, relay.test),
+        panels::CURVE => tr!(lab, relay.curve),
+        panels::PLACEMENT => tr!(lab, relay.placement),
+        panels::RESPONSES => tr!(lab, relay.response),
+        Panel(other) => other.to_owned(),
+    }
 }
 
 /// Groups of controls that can be disabled.

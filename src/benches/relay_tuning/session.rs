@@ -11,7 +11,7 @@ use quadtank::study::relay_tuning::{
 use quadtank::tuning::TuningError;
 use quadtank_scenario::tuning::TuningScenario;
 
-use super::flags::{locks, panels};
+use super::flags::{self, locks, panels};
 use super::guide::Guide;
 use crate::depth::Depth;
 use crate::lab::Lab;
@@ -78,6 +78,10 @@ impl Bench for RelayTuning {
             pinned: part_of(results, |results| &results.pinned),
             critical: Memo::new(move |_| results.with(CriticalReading::of)),
         }
+    }
+
+    fn panel_title(lab: Lab, panel: Panel) -> String {
+        flags::panel_title(lab, panel)
     }
 
     fn own(document: RwSignal<TuningScenario>) -> Own {

@@ -170,8 +170,11 @@ fn BenchChoices(
     });
     // The other benches begin with a rig of their own.
     let has_rigs = bench == &lab.benches[0];
-    let panel_boxes = bench.panels.iter().map(|&panel| boxed(panel.0, panel, panels)).collect_view();
-    let lock_boxes = bench.locks.iter().map(|&lock| boxed(lock.0, lock, locks)).collect_view();
+    let panel_title = move |panel: Panel| Signal::derive(move || (bench.panel_title)(lab, panel));
+    let lock_title = move |lock: Lock| Signal::derive(move || lock_title(lab, lock));
+    let panel_boxes =
+        bench.panels.iter().map(|&panel| boxed(panel.0, panel_title(panel), panel, panels)).collect_view();
+    let lock_boxes = bench.locks.iter().map(|&lock| boxed(lock.0, lock_title(lock), lock, locks)).collect_view();
     view! {
         {has_rigs.then(|| view! {
             <Select id="builder-preset" name=say!(lab, lesson.rig) choices=rigs chosen=preset
@@ -182,8 +185,28 @@ fn BenchChoices(
     }
 }
 
+/// What a group of controls is called.
+fn lock_title(lab: Lab, lock: Lock) -> String {
+    match lock.0 {
+        "preset" => tr!(lab, lock.preset),
+        "valves" => tr!(lab, lock.valves),
+        "voltages" => tr!(lab, lock.voltages),
+        "pairing" => tr!(lab, lock.pairing),
+        "gains" => tr!(lab, lock.gains),
+        "sampling" => tr!(lab, lock.sampling),
+        "experiment" => tr!(lab, lock.experiment),
+        "plant" => tr!(lab, lock.plant),
+        "test" => tr!(lab, lock.test),
+        "point" => tr!(lab, lock.point),
+        "target" => tr!(lab, lock.target),
+        "objective" => tr!(lab, lock.objective),
+        other => other.to_owned(),
+    }
+}
+
 fn boxed<T: Copy + PartialEq + Send + Sync + 'static>(
     name: &'static str,
+    title: Signal<String>,
     item: T,
     chosen: RwSignal<Vec<T>>,
 ) -> impl IntoView {
@@ -197,7 +220,7 @@ fn boxed<T: Copy + PartialEq + Send + Sync + 'static>(
     view! {
         <label class="check">
             <input type="checkbox" data-testid=format!("box-{name}") prop:checked=move || chosen.with(|chosen| chosen.contains(&item)) on:change=change />
-            <code>{name}</code>
+            {title}
         </label>
     }
 }
