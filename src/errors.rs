@@ -9,7 +9,7 @@ use quadtank::plant::PlantError;
 use quadtank::plant::level::LevelError;
 use quadtank::study::relay_tuning::ElementFault;
 use quadtank::study::{StudyError, StudyFault};
-use quadtank_scenario::ScenarioError;
+use quadtank_scenario::{ScenarioError, runs_backwards};
 
 /// One sentence; a field keeps its name from the document.
 pub fn of_error(lab: Lab, unit: DisplayUnit, error: &ScenarioError) -> String {
@@ -146,5 +146,6 @@ pub fn of_level_error(lab: Lab, error: &LevelError) -> String {
 
 fn out_of_range(lab: Lab, field: &str, value: f64, min: f64, max: f64) -> String {
     let number = |v: f64| lab.number_style().significant(v, 4);
-    tr!(lab, refused.range, field = field, value = number(value), min = number(min), max = number(max))
+    let told = tr!(lab, refused.range, field = field, value = number(value), min = number(min), max = number(max));
+    if runs_backwards(field, value) { format!("{told} {}", tr!(lab, refused.backwards)) } else { told }
 }

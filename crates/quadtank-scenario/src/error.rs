@@ -7,6 +7,11 @@ use quadtank::study::StudyError;
 use super::limits::Limits;
 use quadtank::study::relay_tuning::ElementFault;
 
+/// Whether a number asks a pump to pull: rigs that are driven by a symmetric power module are often written so.
+pub fn runs_backwards(field: &str, value: f64) -> bool {
+    value < 0.0 && ["voltage_min", "voltage_max"].iter().any(|name| field.ends_with(name))
+}
+
 /// Why a document is not a scenario, or a scenario cannot be computed.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum ScenarioError {
@@ -34,7 +39,7 @@ pub enum ScenarioError {
     #[error("not UTF-8 text, nor UTF-16, so not JSON")]
     NotText,
     /// A number that is outside its limits or not finite.
-    #[error("{field}: {value} is outside {min} to {max}")]
+    #[error("{field}: {value} is outside {min} to {max}{}", if runs_backwards(field, *value) { "; pumps do not run backwards" } else { "" })]
     OutOfRange {
         /// Where in the document.
         field: String,

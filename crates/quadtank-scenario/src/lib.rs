@@ -36,7 +36,7 @@ pub use codec::{
 pub use csv::{roots_to_csv, run_to_csv, valve_map_to_csv};
 pub use document::{BenchDocument, Scenario, View};
 pub use entries::{Entry, EntryValue, entries};
-pub use error::ScenarioError;
+pub use error::{ScenarioError, runs_backwards};
 pub use label::Label;
 pub use limits::Limits;
 pub use link::{LINK_LIMIT, document_from_link, to_link};
