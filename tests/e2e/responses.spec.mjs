@@ -1,6 +1,8 @@
 // The responses: cursor, zoom, pinned runs, playing, exports, data table.
+import { execFileSync } from 'node:child_process';
 import { readFile } from 'node:fs/promises';
-import { expect, test } from './lab.mjs';
+import { expect, numberIn, test } from './lab.mjs';
+import { QUADTANK } from './lessons.mjs';
 
 test('the cursor shows values and moves the drawing', async ({ lab, page }) => {
   await lab.open();
@@ -360,4 +362,35 @@ test('without a step there is nothing but sums, and none of rounding', async ({ 
   expect(await lab.text('responses-sentence')).toContain('No reference moves');
   expect(await page.locator('[data-testid="metrics"] tbody tr').first().textContent()).toMatch(/level 1–.*does not move/);
   expect(await page.locator('[data-testid="costs"] tbody tr').first().textContent()).toMatch(/level 10000/);
+});
+
+test('the tables hold the numbers that `quadtank analyse` gives by name', async ({ lab, page }) => {
+  const presets = ['johansson-2000-minimum-phase', 'johansson-2000-non-minimum-phase'];
+  for (const preset of presets) {
+    await lab.open(`lang=en&preset=${preset}`);
+    const scenario = execFileSync(QUADTANK, ['presets', preset]);
+    const tables = {
+      metrics: ['rise_time', 'settling_2_percent', 'settling_5_percent', 'overshoot', 'undershoot', 'coupling', 'window_iae', 'window'],
+      costs: ['iae', 'ise', 'itae'],
+    };
+    // A share is shown in per cent, a length in centimetres.
+    const factor = { overshoot: 100, undershoot: 100, coupling: 100, window_iae: 100, iae: 100, ise: 1e4, itae: 100 };
+    for (const level of [1, 2]) {
+      const names = Object.values(tables).flat().map((name) => `level${level}.${name}`);
+      const printed = execFileSync(QUADTANK, ['analyse', '-', ...names.flatMap((name) => ['--only', name])], { input: scenario });
+      const values = JSON.parse(printed.toString());
+      for (const [table, columns] of Object.entries(tables)) {
+        const cells = await lab.id(table).locator('tbody tr').nth(level - 1).locator('td').allTextContents();
+        for (const [column, name] of columns.entries()) {
+          const shown = numberIn(cells[column]);
+          const value = values[`level${level}.${name}`];
+          const where = `${preset}, level ${level}, ${name}: ${cells[column]}`;
+          if (value === null) expect(cells[column], where).toMatch(/^(–|never)/);
+          // Half of the last digit that is shown: one behind the point of a share, two of a length, else the third of all.
+          const half = { overshoot: 0.05, undershoot: 0.05, coupling: 0.005 }[name] ?? 0.005 * Math.abs(shown);
+          if (value !== null) expect(Math.abs(shown - value * (factor[name] ?? 1)), where).toBeLessThanOrEqual(1.001 * half);
+        }
+      }
+    }
+  }
 });
