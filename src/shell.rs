@@ -117,11 +117,12 @@ pub fn Laboratory(
 
 /// The page that is shown in place of the benches.
 fn side_page(page: SidePage) -> AnyView {
-    match page {
+    let content = match page {
         SidePage::Lessons => view! { <Catalogue /> }.into_any(),
         SidePage::Glossary => view! { <Glossary /> }.into_any(),
         SidePage::Teachers => view! { <Teachers /> }.into_any(),
-    }
+    };
+    view! { {content} <p class="paper-link" aria-hidden="true">{lessons::absolute(&page.address())}</p> }.into_any()
 }
 
 /// A bench, made when it is shown first and hidden while another one is. It stays, because signals that outlive a view keep

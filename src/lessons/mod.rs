@@ -21,8 +21,8 @@ pub use catalogue::Catalogue;
 pub use classroom::{Classroom, use_classroom};
 pub use load::LoadError;
 pub use panel::LessonPanel;
-pub use place::SidePage;
 use place::lesson_address;
+pub use place::{SidePage, absolute};
 pub use teachers::{LessonFiles, Teachers};
 
 use crate::lab::{Lab, Notice, use_lab};

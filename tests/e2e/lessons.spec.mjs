@@ -228,7 +228,12 @@ test('paper is light, also where the page is dark', async ({ lab, page }) => {
   for (const query of ['page=teachers', 'page=glossary', 'lesson=directions']) {
     await page.goto(`${lab.origin}/?${query}&lang=en&theme=dark`);
     await page.locator('#bench').waitFor();
+    await page.evaluate(() => dispatchEvent(new Event('beforeprint')));
     await page.emulateMedia({ media: 'print' });
+    // A lesson with the pictures of its bench, everything with its link.
+    const isLesson = query.startsWith('lesson');
+    await expect(lab.id('handout').locator('figure').first()).toBeVisible({ visible: isLesson });
+    await expect(page.locator(isLesson ? '.handout .link' : '.paper-link')).toContainText(isLesson ? '#lab=' : query);
     const dark = await page.evaluate(() => {
       const shown = [...document.querySelectorAll('main.side-page *, .lesson *')].filter((element) => element.checkVisibility());
       const light = (colour) => colour.match(/[\d.]+/g).slice(0, 3).reduce((sum, part) => sum + Number(part), 0) / 3;
