@@ -161,8 +161,8 @@ fn a_broken_scenario_ends_with_code_2_and_names_the_field() {
         scenario["setup"]["operating_point"] = json!({ "levels": [0.1, 0.1] });
         scenario.to_string().into_bytes()
     };
-    const OWN_RIG: &str = include_str!("../../../quadtank-scenario/tests/data/scenario-v1-own-rig.json");
-    let pulling = OWN_RIG.replacen("\"voltage_min\": 0.0", "\"voltage_min\": -12.0", 1).into_bytes();
+    let own_rig = include_str!("../../../quadtank-scenario/tests/data/scenario-v1-own-rig.json");
+    let pulling = own_rig.replacen("\"voltage_min\": 0.0", "\"voltage_min\": -12.0", 1).into_bytes();
     for (broken, message) in [
         (with("/setup/valves/0", json!(1.5)), "setup.valves[0]: 1.5 is outside 0 to 1"),
         (pulling, "rig.pumps[0].voltage_min: -12 is outside 0 to 1000; pumps do not run backwards"),
