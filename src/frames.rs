@@ -42,7 +42,8 @@ impl FrameScheduler {
         let backstage =
             StoredValue::new_local(Backstage { stopwatch, compute, update_texts, next: None, after_texts: None });
         let scheduler = Self { backstage };
-        // Effects run later than this: whoever made the document may have changed it by then.
+        // The effect below runs for the first time after this function has returned. A lesson or a link that has set another document
+        // by then needs a frame, or the page keeps showing the results of the first one.
         let mut computed = Some(document.get_untracked());
         Effect::new(move || {
             document.track();
