@@ -93,10 +93,12 @@ pub fn test(session: Session) -> Picture {
         let plant = setup.plant();
         let units = [unit_of(plant.transmitter.signal.unit), output_unit(&plant)];
         let mut marks = Vec::new();
+        let style = lab.number_style();
+        let shares = [0.283, 0.632].map(|share| (share, format!("{}\u{a0}%", style.fixed(100.0 * share, 1))));
         if let Ok(fit) = &test.fit {
-            for (time, (share, name)) in fit.times_s.iter().flatten().zip([(0.283, "28.3 %"), (0.632, "63.2 %")]) {
+            for (time, (share, name)) in fit.times_s.iter().flatten().zip(&shares) {
                 let signal = fit.ends[0] + share * (fit.ends[1] - fit.ends[0]);
-                marks.push(((setup.test.step_time_s + time, signal), name));
+                marks.push(((setup.test.step_time_s + time, signal), name.as_str()));
             }
         }
         show(&quadtank_figure::step_test(&StepTestCharts {
