@@ -13,7 +13,14 @@ pub fn locus_values(ratio: &Matrix2<Complex>) -> [Complex; 2] {
     let mean = (ratio[(0, 0)] + ratio[(1, 1)]) * 0.5;
     let half_difference = (ratio[(0, 0)] - ratio[(1, 1)]) * 0.5;
     let root = square_root(half_difference * half_difference + ratio[(0, 1)] * ratio[(1, 0)]);
-    [mean + root, mean - root]
+    // The smaller one is a difference of nearly equal numbers where the sizes are far apart; it follows from the determinant.
+    let determinant = ratio[(0, 0)] * ratio[(1, 1)] - ratio[(0, 1)] * ratio[(1, 0)];
+    let [one, other] = [mean + root, mean - root];
+    if one.norm_sqr() >= other.norm_sqr() {
+        [one, if one == Complex::ZERO { one } else { determinant / one }]
+    } else {
+        [determinant / other, other]
+    }
 }
 
 /// How the loci close over all frequencies, from −∞ to ∞ (Campestrini 2006, Figs. 11 to 13).
@@ -131,6 +138,18 @@ mod tests {
     use nalgebra::Vector2;
 
     use super::*;
+
+    #[test]
+    fn the_smaller_value_keeps_its_digits() {
+        let large = Complex::new(-1.5e11, 3e4);
+        for small in [Complex::ZERO, Complex::new(2e-7, -1e-7)] {
+            for diagonal in [[large, small], [small, large]] {
+                let mut found = locus_values(&Matrix2::from_diagonal(&Vector2::from(diagonal)));
+                found.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
+                assert!((found[0] - small).norm() <= 1e-15 * small.norm() && (found[1] - large).norm() < 1e-4);
+            }
+        }
+    }
 
     #[test]
     fn branches_that_cross_are_followed() {

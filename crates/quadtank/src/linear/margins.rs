@@ -144,12 +144,16 @@ impl<'a> Search<'a> {
                 continue;
             }
             let radii = invariants.radii(values);
-            let is_open = |distance: &dyn Fn(Complex) -> f64| (0..2).any(|i| !is_beyond(distance(values[i]), radii[i]));
-            let crosses = is_open(&|x| self.to_gains(x).min(self.to_phases(x)));
+            let is_within = |distance: f64, i: usize| !is_beyond(distance, radii[i]);
+            let crosses = (0..2).any(|i| {
+                is_within(self.to_phases(values[i]), i)
+                    || is_within(self.to_gains(values[i]), i) && !invariants.is_off_negative_axis(values[i], cell)
+            });
             if crosses {
                 self.meet_crossings(cell, at_low, at_high);
             }
-            if (crosses || is_open(&|x| self.to_disc(x))) && cell.half_width() > NARROWEST * cell.low {
+            let is_nearer = (0..2).any(|i| is_within(self.to_disc(values[i]), i));
+            if (crosses || is_nearer) && cell.half_width() > NARROWEST * cell.low {
                 let [left, right] = cell.halves();
                 pieces.push_back(Piece { cell: left, ends: [at_low, values] });
                 pieces.push_back(Piece { cell: right, ends: [values, at_high] });
@@ -309,6 +313,22 @@ mod tests {
         ));
         assert_relative_eq!(found.gain_up.unwrap(), 2.5, max_relative = 1e-9);
         assert_relative_eq!(found.distance, 0.6, max_relative = 1e-9);
+    }
+
+    #[test]
+    fn two_integrators_with_little_damping_have_margins() {
+        // a (T s + 1)/(T s²) on the axis to all but a T of its argument: a PI controller of small gain around a large tank.
+        let (a, time) = (7.3e-5, 20.0);
+        let element = TransferFunction::new(vec![a, a * time], vec![0.0, 0.0, time], 0.0).unwrap();
+        let plant = diagonal(element.clone(), element.scaled(0.0));
+        let ratio = ratio(&plant, 2);
+        let mut search = Search::new(&ratio);
+        let found = search.run().unwrap();
+        assert!(search.evaluations.get() < MOST_EVALUATIONS / 4, "{}", search.evaluations.get());
+        assert_eq!((found.gain_up, found.gain_down), (None, None));
+        // |L| = 1 where ω⁴ = (a/T)² (1 + (T ω)²), and the argument is that of 1 + j T ω, less π.
+        let squared = 0.5 * (a * a + (a.powi(4) + 4.0 * (a / time).powi(2)).sqrt());
+        assert_relative_eq!(found.phase.unwrap(), (time * squared.sqrt()).atan(), max_relative = 1e-8);
     }
 
     #[test]

@@ -100,6 +100,9 @@ impl<'a> ReturnRatio<'a> {
     }
 }
 
+/// Highest power of ω that a locus is multiplied with.
+const HIGHEST_POWER: u32 = 8;
+
 /// What the eigenvalues of L follow from, over a cell.
 pub(super) struct Invariants {
     /// Largest absolute values of the elements of L, whatever the dead times do.
@@ -121,6 +124,33 @@ impl Invariants {
         values.map(|value| self.radius_along(value).min(by_discriminant))
     }
 
+    /// Whether the locus through one of the values keeps off the negative real axis in the cell.
+    ///
+    /// It does if its product with a power of ω does, which changes no argument. With the power that the locus falls with, the
+    /// product is nearly constant: a loop with two integrators leaves the axis so slowly that its own bound, which grows with
+    /// its value, would need thousands of cells.
+    pub fn is_off_negative_axis(&self, value: Complex, cell: Cell) -> bool {
+        let fall = -(self.slope_along(value) / value).re * cell.middle() / cell.half_width();
+        let powers = (0..HIGHEST_POWER).take_while(|&power| f64::from(power) + 0.5 < fall);
+        let factor = powers.fold(TaylorModel::ONE, |product, _| product * TaylorModel::relative_frequency(cell));
+        let scaled = Self {
+            largest: self.largest,
+            ratio: self.ratio,
+            trace: self.trace * factor,
+            determinant: self.determinant * (factor * factor),
+            discriminant: self.discriminant * (factor * factor),
+        };
+        // The factor is 1 in the middle of the cell.
+        let [radius, _] = scaled.radii([value; 2]);
+        let distance = if value.re < 0.0 { value.im.abs() } else { size_of(value) };
+        distance > radius
+    }
+
+    /// Slope of a locus across the cell, by the derivative of `x² − T x + D = 0`.
+    fn slope_along(&self, value: Complex) -> Complex {
+        (self.trace.slope * value - self.determinant.slope) / (value * 2.0 - self.trace.value)
+    }
+
     /// `λ = m ± √q` with the mean m and the discriminant q within r of its value: a root moves by at most √r, and by r/√|q|.
     /// Good where both loci are nearly the same.
     fn radius_by_discriminant(&self) -> f64 {
@@ -133,7 +163,7 @@ impl Invariants {
     /// it is at most the ρ with `ρ (g − ρ) = |e|`. Infinite where no such ρ exists in all the cell.
     fn radius_along(&self, value: Complex) -> f64 {
         let (trace, determinant) = (self.trace, self.determinant);
-        let slope = (trace.slope * value - determinant.slope) / (value * 2.0 - trace.value);
+        let slope = self.slope_along(value);
         let tangent = TaylorModel { value, slope, rest: 0.0 };
         let residual = (tangent * tangent + -(trace * tangent) + determinant).size();
         let gap = tangent.scaled(2.0) + -trace;

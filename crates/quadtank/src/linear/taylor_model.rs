@@ -42,6 +42,11 @@ impl TaylorModel {
         Self { value, slope: Complex::ZERO, rest: 0.0 }
     }
 
+    /// The frequency, relative to the middle of the cell.
+    pub fn relative_frequency(cell: Cell) -> Self {
+        Self { slope: Complex::from(cell.half_width() / cell.middle()), ..Self::ONE }
+    }
+
     /// Largest distance from the value in the middle.
     pub fn radius(&self) -> f64 {
         size_of(self.slope) + self.rest
@@ -155,6 +160,7 @@ mod tests {
             let delayed = other * TaylorModel::dead_time(1.7, cell);
             assert!(holds(&one, cell, |w| at(&resonance, w)) > 0.5);
             assert!(holds(&delayed, cell, |w| at(&lags, w)) > 0.5);
+            holds(&(one * TaylorModel::relative_frequency(cell)), cell, |w| at(&resonance, w) * (w / cell.middle()));
             holds(&(one * delayed + -one), cell, |w| at(&resonance, w) * (at(&lags, w) - 1.0));
             holds(&delayed.disc(), cell, |w| at(&lags, w));
         }
