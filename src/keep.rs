@@ -11,14 +11,19 @@ use super::lab::{Lab, Notice};
 use super::share::{self, show_address};
 use super::storage::LAST;
 
-/// How long a document has to stay as it is until it is kept (ms): a drag is one step, and browsers allow an address to be
-/// replaced only so often (Safari: 100 times in 30 s).
+/// How long a document has to stay as it is until it is kept (ms): many changes in a row are one step, and browsers allow an address
+/// to be replaced only so often (Safari: 100 times in 30 s).
 const SETTLED_MS: u32 = 400;
 
 /// From now on everything that is done in the laboratory is kept.
 pub fn keep(lab: Lab) {
     offer_last(lab);
     let timer = StoredValue::new_local(None::<Timeout>);
+    // A drag is one step however long the hand rests on its way: what has settled by then waits until it lets go.
+    let is_held = StoredValue::new(false);
+    let is_due = StoredValue::new(false);
+    let settled = move || if is_held.get_value() { is_due.set_value(true) } else { settle(lab) };
+    let start_timer = move || timer.set_value(Some(Timeout::new(SETTLED_MS, settled)));
     let mut known = None;
     Effect::new(move || {
         let bench = lab.bench.get();
@@ -26,12 +31,25 @@ pub fn keep(lab: Lab) {
         lab.depth.track();
         // The document that a bench begins with is known, also when the bench is shown for the first time.
         if known.replace(bench.id) == Some(bench.id) {
-            timer.set_value(Some(Timeout::new(SETTLED_MS, move || settle(lab))));
+            start_timer();
         }
     });
-    let on_key = window_event_listener(ev::keydown, move |event| undo_by_key(lab, &event));
+    let let_go = move || {
+        is_held.set_value(false);
+        if is_due.get_value() {
+            is_due.set_value(false);
+            start_timer();
+        }
+    };
+    let listeners = [
+        window_event_listener(ev::keydown, move |event| undo_by_key(lab, &event)),
+        window_event_listener(ev::pointerdown, move |_| is_held.set_value(true)),
+        window_event_listener(ev::pointerup, move |_| let_go()),
+        window_event_listener(ev::pointercancel, move |_| let_go()),
+        window_event_listener(ev::blur, move |_| let_go()),
+    ];
     on_cleanup(move || {
-        on_key.remove();
+        listeners.into_iter().for_each(|listener| listener.remove());
         timer.dispose();
     });
 }

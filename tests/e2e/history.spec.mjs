@@ -32,12 +32,16 @@ test('steps are undone and done again by buttons and keys, and begin afresh is a
   expect(await lab.value('gamma1-number')).toBe(0.5);
 });
 
-test('a drag is one step', async ({ lab, page }) => {
+test('a drag is one step, also where the hand rests on its way', async ({ lab, page }) => {
   await lab.open('lang=en');
   const from = await lab.middle('valve-handle');
   await page.mouse.move(from.x, from.y);
   await page.mouse.down();
   await page.mouse.move(from.x - 50, from.y + 30, { steps: 10 });
+  // Longer than what counts as settled.
+  await page.waitForTimeout(700);
+  await expect(lab.id('undo')).toBeDisabled();
+  await page.mouse.move(from.x - 80, from.y + 60, { steps: 5 });
   await page.mouse.up();
   await lab.settle();
   await kept(lab);
