@@ -48,6 +48,8 @@ impl Bench {
             set_point_steps: vec![step(0, 100.0), step(1, 1500.0)],
             load_steps: vec![],
             measurement: Measurement { noise_std: 0.0, seed: 1, quantised: false },
+            initial_levels: None,
+            pump_voltage_steps: Vec::new(),
         };
         Self { rig, op, law, experiment }
     }

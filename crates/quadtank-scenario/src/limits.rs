@@ -89,6 +89,8 @@ pub const TIME_S: Limits = Limits::new(0.0, DURATION_S.max);
 pub const SET_POINT_STEP: Limits = Limits::new(-LEVEL.max, LEVEL.max);
 /// Flow added to that of a pump (m³/s).
 pub const LOAD_FLOW: Limits = Limits::new(-0.01, 0.01);
+/// Constant flow that a tank receives from outside (m³/s).
+pub const INFLOW: Limits = Limits::new(0.0, 0.01);
 /// Area of a leak (m²).
 pub const LEAK_AREA: Limits = Limits::new(0.0, 0.01);
 /// Standard deviation of the measurement noise (m).
@@ -97,6 +99,8 @@ pub const NOISE_STD: Limits = Limits::new(0.0, 1.0);
 pub const SEED: Limits = Limits::new(0.0, u32::MAX as f64);
 /// Steps in one list of an experiment.
 pub const MAX_STEPS: usize = 8;
+/// Steps of pumps that are moved by hand: enough for a pseudo-random binary sequence of seven bits on both.
+pub const MAX_PUMP_STEPS: usize = 260;
 
 /// Cross-section of a tank at any level (m²).
 pub const TANK_AREA: Limits = Limits::new(1e-5, 10.0);

@@ -25,7 +25,16 @@ pub fn version(found: u32, expected: u32) -> Checked {
 pub fn setup(setup: &Setup, at: &str) -> Checked {
     plant(&setup.plant, &format!("{at}.plant"))?;
     pi_loops(&setup.controller, &format!("{at}.controller"))?;
+    initial_levels(&setup.experiment, &setup.plant, at)?;
     duration(&setup.experiment, setup.controller.sampling_time_s, at)
+}
+
+/// No tank of the setup at a path is higher filled at the start than it has walls.
+pub fn initial_levels(experiment: &Experiment, plant: &PlantSpec, at: &str) -> Checked {
+    let Some(levels) = experiment.initial_levels else { return Ok(()) };
+    levels.iter().zip(plant.rig().tanks).enumerate().try_for_each(|(tank, (&level, Tank { height, .. }))| {
+        Limits { max: height, ..limits::LEVEL }.check(&format!("{at}.experiment.initial_levels[{tank}]"), level)
+    })
 }
 
 /// The shown part of the time axis does not end before it begins.

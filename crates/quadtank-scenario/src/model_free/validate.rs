@@ -15,6 +15,7 @@ pub fn setup(setup: &ModelFreeSetup, at: &str) -> Result<(), ScenarioError> {
         let limits = Limits { min: sampling_time_s.min(1.0), ..limits::SAMPLING_TIME_S };
         limits.check(&format!("{at}.compare.sampling_time_s"), compare.sampling_time_s)?;
     }
+    validate::initial_levels(&setup.experiment, &setup.plant, at)?;
     validate::duration(&setup.experiment, sampling_time_s, at)?;
     let frequency = limits::valve_frequency(setup.experiment.duration_s);
     validate::each(&setup.valves, &format!("{at}.valves"), |valve, at| {

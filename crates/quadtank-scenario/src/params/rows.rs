@@ -44,6 +44,8 @@ pub const PARAMS: &[Param] = &[
     row("plant.parameters.rig.sensor.resolution", "V", limits::SENSOR_RESOLUTION, Linear, "Smallest difference of a quantised signal; 0 for an ideal sensor"),
     row("plant.parameters.rig.gravity", "m/s²", limits::GRAVITY, Linear, "Acceleration of gravity"),
 
+    row("plant.parameters.rig.inflow[]", "m³/s", limits::INFLOW, Linear, "Constant flow that the tank receives from outside of the rig; absent for none"),
+
     // Where it stands.
     row("valves[]", "", limits::VALVE, Linear, "Valve fractions γ1, γ2: the share of the flow of each pump that goes to the lower tank"),
     row("operating_point.pump_voltage[]", "V", limits::PUMP_VOLTAGE, Linear, "Voltages of pumps 1 and 2 at rest; the levels follow"),
@@ -88,6 +90,12 @@ pub const PARAMS: &[Param] = &[
     row("experiment.load_steps[].load.pump_flow.flow", "m³/s", limits::LOAD_FLOW, Linear, "Flow added to that of the pump, ahead of its valve"),
     row("experiment.load_steps[].load.leak.tank", "", INDEX_OF_TANK, Linear, "Index of the tank, 0 to 3 for tanks 1 to 4"),
     row("experiment.load_steps[].load.leak.area", "m²", limits::LEAK_AREA, Linear, "Area of the hole in the bottom of the tank"),
+    row("experiment.load_steps[].load.tank_flow.tank", "", INDEX_OF_TANK, Linear, "Index of the tank, 0 to 3 for tanks 1 to 4"),
+    row("experiment.load_steps[].load.tank_flow.flow", "m³/s", limits::LOAD_FLOW, Linear, "Flow into the tank from outside of the rig, added to its constant inflow"),
+    row("experiment.initial_levels[]", "m", limits::LEVEL, Linear, "Levels of tanks 1 to 4 that the run begins at, within the walls; absent for those of the operating point"),
+    row("experiment.pump_voltage_steps[].pump", "", INDEX_OF_PAIR, Linear, "Index of the pump that is moved by hand: 0 for pump 1, 1 for pump 2. A pump with a step here follows no controller"),
+    row("experiment.pump_voltage_steps[].time_s", "s", limits::TIME_S, Linear, "Time of the step: the first sample at or after it"),
+    row("experiment.pump_voltage_steps[].voltage", "V", limits::PUMP_VOLTAGE, Linear, "Voltage of the pump from then on, held within its limits"),
     row("experiment.measurement.noise_std", "m", limits::NOISE_STD, Linear, "Standard deviation of the white noise at each sample; 0 for none"),
     row("experiment.measurement.seed", "", limits::SEED, Linear, "Seed of the noise: the same seed gives the same run"),
 
@@ -215,6 +223,7 @@ pub const LISTS: &[List] = &[
     List { path: "pinned_loops", max: LevelLoopScenario::MAX_PINNED },
     List { path: "experiment.set_point_steps", max: limits::MAX_STEPS },
     List { path: "experiment.load_steps", max: limits::MAX_STEPS },
+    List { path: "experiment.pump_voltage_steps", max: limits::MAX_PUMP_STEPS },
     List { path: "plant.elements[][].numerator", max: limits::MAX_COEFFICIENTS },
     List { path: "plant.elements[][].denominator", max: limits::MAX_COEFFICIENTS },
     List { path: "plant.parameters.actuator.curve", max: limits::MAX_CURVE_POINTS },

@@ -75,10 +75,19 @@ pub fn sessions() -> [Value; 3] {
     [on_a_rig(), on_elements(), on_the_column()]
 }
 
+/// A run with a pump that is moved by hand.
+pub fn by_hand() -> Value {
+    let mut document: Value = serde_json::from_str(include_str!("../data/everything-acts.json")).unwrap();
+    document["setup"]["experiment"]["pump_voltage_steps"] =
+        json!([{ "pump": 0, "time_s": 5.0, "voltage": 4.0 }, { "pump": 0, "time_s": 20.0, "voltage": 5.0 }]);
+    document
+}
+
 /// All of them, each of which can be read.
 pub fn all() -> Vec<Value> {
     let texts = FILES.into_iter().chain(MODEL_FREE.lines()).chain(LEVEL_LOOPS.lines());
-    let documents: Vec<Value> = texts.map(|text| serde_json::from_str(text).unwrap()).chain(sessions()).collect();
+    let documents: Vec<Value> =
+        texts.map(|text| serde_json::from_str(text).unwrap()).chain(sessions()).chain([by_hand()]).collect();
     for document in &documents {
         assert!(document_from_json(&document.to_string()).is_ok(), "{:?}", document_from_json(&document.to_string()));
     }

@@ -11,7 +11,7 @@ use quadtank_scenario::tuning::warnings;
 use quadtank_scenario::{Document, document_from_json, level_loop};
 use serde_json::{Value, json};
 
-use super::examples::{leaves, pointer, sessions};
+use super::examples::{by_hand, leaves, pointer, sessions};
 
 /// What is meant to change no answer, by the beginning or the end of its path, and why.
 const EXCEPTIONS: [(&str, &str); 6] = [
@@ -189,6 +189,14 @@ fn run_and_driven(text: &str) -> [Value; 2] {
 #[test]
 fn in_a_run_of_the_tank() {
     assert_eq!(ignored(&run_and_driven(include_str!("../data/everything-acts.json"))), [""; 0]);
+}
+
+/// A pump that is moved by hand leaves the settings of its loop idle, so this is a document of its own.
+#[test]
+fn in_a_run_with_a_pump_by_hand() {
+    let idle = idle(&by_hand());
+    assert!(idle.iter().all(|path| !path.contains("pump_voltage_steps")), "{idle:?}");
+    assert!(idle.iter().any(|path| path.contains("controller.loops")), "{idle:?}");
 }
 
 #[test]

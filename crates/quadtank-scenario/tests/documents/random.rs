@@ -9,7 +9,7 @@ use quadtank::control::{
 };
 use quadtank::literature::{DisplayUnit, PresetId};
 use quadtank::plant::{CrossSection, Outlet, Pump, QuadrupleTank, Sensor, Tank, ValveSchedule};
-use quadtank::sim::{Experiment, Load, LoadStep, Measurement, SetPointStep};
+use quadtank::sim::{Experiment, Load, LoadStep, Measurement, PumpVoltageStep, SetPointStep};
 use quadtank::study::model_free::{ModelFreeSetup, StartSpec};
 use quadtank::study::quadruple_tank::{OperatingPointSpec, PlantSpec, Setup};
 use quadtank_scenario::model_free::ModelFreeScenario;
@@ -60,14 +60,16 @@ fn rig() -> impl Strategy<Value = QuadrupleTank> {
     let sensor = (within(limits::SENSOR_GAIN), within(limits::SENSOR_RANGE), within(limits::SENSOR_RESOLUTION))
         .prop_map(|(gain, range, resolution)| Sensor { gain, range, resolution });
     let parts = ([tank(), tank(), tank(), tank()], [pump(), pump()], pair(limits::VALVE), sensor);
-    (parts, within(limits::POWER_GAIN), within(limits::GRAVITY)).prop_map(
-        |((tanks, pumps, valves, sensor), power_gain, gravity)| QuadrupleTank {
+    let inflow = prop_oneof![Just([0.0; 4]), prop::array::uniform4(within(limits::INFLOW))];
+    (parts, within(limits::POWER_GAIN), within(limits::GRAVITY), inflow).prop_map(
+        |((tanks, pumps, valves, sensor), power_gain, gravity, inflow)| QuadrupleTank {
             tanks,
             pumps,
             valves,
             power_gain,
             sensor,
             gravity,
+            inflow,
         },
     )
 }
@@ -115,16 +117,24 @@ fn experiment(steps: usize) -> impl Strategy<Value = Experiment> {
     let load = prop_oneof![
         (0..2_usize, within(limits::LOAD_FLOW)).prop_map(|(pump, flow)| Load::PumpFlow { pump, flow }),
         (0..4_usize, within(limits::LEAK_AREA)).prop_map(|(tank, area)| Load::Leak { tank, area }),
+        (0..4_usize, within(limits::LOAD_FLOW)).prop_map(|(tank, flow)| Load::TankFlow { tank, flow }),
     ];
+    let by_hand = (0..2_usize, within(limits::TIME_S), within(limits::PUMP_VOLTAGE))
+        .prop_map(|(pump, time_s, voltage)| PumpVoltageStep { pump, time_s, voltage });
+    // Every tank is that high.
+    let level = Limits { max: limits::TANK_HEIGHT.min, ..limits::LEVEL };
+    let start = (prop::option::of(prop::array::uniform4(within(level))), vec(by_hand, 0..=steps));
     let load = (within(limits::TIME_S), load).prop_map(|(time_s, load)| LoadStep { time_s, load });
     let measurement = (within(limits::NOISE_STD), any::<u32>(), any::<bool>())
         .prop_map(|(noise_std, seed, quantised)| Measurement { noise_std, seed, quantised });
-    (within(limits::DURATION_S), vec(set_point, 0..=steps), vec(load, 0..=steps), measurement).prop_map(
-        |(duration_s, set_point_steps, load_steps, measurement)| Experiment {
+    (within(limits::DURATION_S), vec(set_point, 0..=steps), vec(load, 0..=steps), measurement, start).prop_map(
+        |(duration_s, set_point_steps, load_steps, measurement, (initial_levels, pump_voltage_steps))| Experiment {
             duration_s,
             set_point_steps,
             load_steps,
             measurement,
+            initial_levels,
+            pump_voltage_steps,
         },
     )
 }

@@ -20,6 +20,7 @@ fn departure(run: &Trajectory, start: &OperatingPoint) -> f64 {
 fn resting(mut setup: Setup, shares: [f64; 2], by_levels: bool) -> Setup {
     setup.experiment.measurement.noise_std = 0.0;
     setup.experiment.measurement.quantised = false;
+    setup.experiment.initial_levels = None;
     for settings in &mut setup.controller.loops {
         settings.mode = LoopMode::Automatic;
     }

@@ -97,6 +97,7 @@ fn rig(
             power_gain: POWER_GAIN,
             sensor: Sensor { gain: 1.0 / (30.0 * MM), range: 300.0 * MM, resolution: 10.0 / 2_f64.powi(11) },
             gravity: 9787.9 * MM,
+            inflow: [0.0; 4],
         },
         pump_voltage: CONTROLLER_OUTPUT.map(|c| POWER_GAIN * c),
         pi,

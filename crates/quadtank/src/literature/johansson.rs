@@ -60,6 +60,7 @@ fn rig(
             power_gain: 1.0,
             sensor: Sensor { gain: 0.50 / CM, range: height, resolution: 0.0 },
             gravity: 981.0 * CM,
+            inflow: [0.0; 4],
         },
         pump_voltage,
         pi,

@@ -30,6 +30,7 @@ pub(super) fn case(id: PresetId, gamma: f64) -> Preset {
         power_gain: 1.0,
         sensor: Sensor { gain: 1.0 / CM, range: HEIGHT, resolution: 0.0 },
         gravity: 981.0 * CM,
+        inflow: [0.0; 4],
     };
     Preset {
         id,
@@ -112,6 +113,16 @@ impl PublishedExperiment {
             Self::S3 => (REST, 320.0, vec![step(0, 20.0, 0.02)]),
         };
         let measurement = Measurement { noise_std: 0.0, seed: 1, quantised: false };
-        (start, Experiment { duration_s, set_point_steps, load_steps: Vec::new(), measurement })
+        (
+            start,
+            Experiment {
+                duration_s,
+                set_point_steps,
+                load_steps: Vec::new(),
+                measurement,
+                initial_levels: None,
+                pump_voltage_steps: Vec::new(),
+            },
+        )
     }
 }

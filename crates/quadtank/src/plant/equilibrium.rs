@@ -23,7 +23,7 @@ impl QuadrupleTank {
     /// The levels that the given pump voltages (V) hold, by the flow balance of each tank (Cocota 2009, §3.2.1); walls
     /// and voltage limits are ignored. A negative voltage pumps nothing.
     pub fn free_equilibrium(&self, pump_voltage: [f64; 2]) -> OperatingPoint {
-        let [q1, q2, q3, q4] = self.valve_flows(&pump_voltage, &Disturbance::default());
+        let [q1, q2, q3, q4] = self.feed_flows(&pump_voltage, &Disturbance::default());
         let inflow = [q1 + q3, q2 + q4, q3, q4];
         let levels = std::array::from_fn(|j| self.tanks[j].level_for_outflow(inflow[j], self.gravity));
         OperatingPoint { levels, pump_voltage }
@@ -39,7 +39,8 @@ impl QuadrupleTank {
     }
 
     /// The pump voltages that hold the given levels (m) of tanks 1 and 2, and the levels of tanks 3 and 4 that follow:
-    /// `[q1; q2] = [γ1 k1, (1 − γ2) k2; (1 − γ1) k1, γ2 k2] [ϑ1; ϑ2]` with `q = k_l a √(2 g h)` (Cocota 2009, §3.2.1).
+    /// `[q1; q2] = [γ1 k1, (1 − γ2) k2; (1 − γ1) k1, γ2 k2] [ϑ1; ϑ2]` with `q = k_l a √(2 g h)` (Cocota 2009, §3.2.1), less what
+    /// comes from outside.
     ///
     /// # Errors
     /// - [`PlantError::LevelOutOfRange`]: a given level is negative or above the walls, or an upper tank would overflow.
@@ -68,7 +69,7 @@ impl QuadrupleTank {
         if !matches!(found, Err(PlantError::SingularPlant { .. })) {
             return found;
         }
-        let flow = [0, 1].map(|tank| self.tanks[tank].outflow(levels[tank], self.gravity));
+        let flow = self.pumped_at_rest(levels);
         let point = self.free_equilibrium([0, 1].map(|pump| flow[pump] / self.pumps[pump].gain));
         let holds = (0..2).all(|i| (point.levels[i] - levels[i]).abs() <= SINGULAR_MARGIN * levels[i].abs());
         if holds { self.checked(point) } else { found }
@@ -88,13 +89,17 @@ impl QuadrupleTank {
         let solve = |[q1, q2]: [f64; 2]| {
             [(gamma_2 * q1 - above_2 * q2) / (determinant * k1), (gamma_1 * q2 - above_1 * q1) / (determinant * k2)]
         };
-        let outflow = [0, 1].map(|tank| self.tanks[tank].outflow(levels[tank], self.gravity));
-        let [v1, v2] = solve(outflow);
+        let flow = self.pumped_at_rest(levels);
+        let [v1, v2] = solve(flow);
         // A step of iterative refinement: near the singular line Cramer's rule leaves more of the balance than rounding.
-        let left =
-            [outflow[0] - gamma_1 * k1 * v1 - above_2 * k2 * v2, outflow[1] - gamma_2 * k2 * v2 - above_1 * k1 * v1];
+        let left = [flow[0] - gamma_1 * k1 * v1 - above_2 * k2 * v2, flow[1] - gamma_2 * k2 * v2 - above_1 * k1 * v1];
         let [more_1, more_2] = solve(left);
         [v1 + more_1, v2 + more_2]
+    }
+
+    /// What the pumps have to bring each lower tank, by way of its upper one too, so that it rests at its level (m³/s).
+    fn pumped_at_rest(&self, levels: [f64; 2]) -> [f64; 2] {
+        [0, 1].map(|i| self.tanks[i].outflow(levels[i], self.gravity) - self.inflow[i] - self.inflow[i + 2])
     }
 
     fn checked(&self, operating_point: OperatingPoint) -> Result<OperatingPoint, PlantError> {

@@ -68,6 +68,15 @@ pub struct QuadrupleTank {
     pub sensor: Sensor,
     /// Acceleration of gravity (m/s²).
     pub gravity: f64,
+    /// Constant flow that each tank receives from outside of the rig (m³/s), as from the disturbance pumps of the modified
+    /// four-tank system (Azam and Jørgensen 2015).
+    #[serde(default, skip_serializing_if = "is_nothing")]
+    pub inflow: [f64; 4],
+}
+
+/// Whether no tank receives anything from outside, as on most rigs.
+fn is_nothing(inflow: &[f64; 4]) -> bool {
+    *inflow == [0.0; 4]
 }
 
 /// Loads that act on the plant beside its inputs.
@@ -77,6 +86,8 @@ pub struct Disturbance {
     pub pump_flow: [f64; 2],
     /// Area of an additional hole in the bottom of each tank whose water leaves the plant (m²).
     pub leak_area: [f64; 4],
+    /// Flow added to that which each tank receives from outside (m³/s); may be negative.
+    pub tank_flow: [f64; 4],
 }
 
 impl QuadrupleTank {
@@ -89,8 +100,8 @@ impl QuadrupleTank {
     /// Rates of change of the four levels (m/s) at the given levels (m) and pump voltages (V) under the given loads
     /// (Cocota 2009, eqs. 3.1–3.4).
     ///
-    /// Neither walls nor voltage limits are applied. A level below 0 drains nothing, and a pump flow that a load turns
-    /// negative counts as none.
+    /// Neither walls nor voltage limits are applied. A level below 0 drains nothing, and a flow of a pump or from outside that a
+    /// load turns negative counts as none.
     #[inline]
     pub fn derivative(&self, levels: &[f64; 4], pump_voltage: &[f64; 2], disturbance: &Disturbance) -> [f64; 4] {
         let net = self.net_inflows(levels, pump_voltage, disturbance);
@@ -105,11 +116,31 @@ impl QuadrupleTank {
         pump_voltage: &[f64; 2],
         disturbance: &Disturbance,
     ) -> [f64; 4] {
-        let inflow = self.valve_flows(pump_voltage, disturbance);
+        let inflow = self.feed_flows(pump_voltage, disturbance);
         let speed = levels.map(|level| torricelli_speed(level, self.gravity));
         let outflow: [f64; 4] = from_fn(|j| self.tanks[j].outlet.effective_area() * speed[j]);
         let from_above = [outflow[2], outflow[3], 0.0, 0.0];
         from_fn(|j| inflow[j] + from_above[j] - outflow[j] - disturbance.leak_area[j] * speed[j])
+    }
+
+    /// Flow that each tank receives but for what drains into it (m³/s): through the valves and from outside.
+    #[inline]
+    pub fn feed_flows(&self, pump_voltage: &[f64; 2], disturbance: &Disturbance) -> [f64; 4] {
+        self.feed_flows_at(self.valves, pump_voltage, disturbance)
+    }
+
+    /// The same with the valves at `[γ1, γ2]`.
+    #[inline]
+    pub fn feed_flows_at(&self, valves: [f64; 2], pump_voltage: &[f64; 2], disturbance: &Disturbance) -> [f64; 4] {
+        let through_valves = self.valve_flows_at(valves, pump_voltage, disturbance);
+        let from_outside = self.flows_from_outside(disturbance);
+        from_fn(|j| through_valves[j] + from_outside[j])
+    }
+
+    /// Flow that each tank receives from outside of the rig (m³/s).
+    #[inline]
+    pub fn flows_from_outside(&self, disturbance: &Disturbance) -> [f64; 4] {
+        from_fn(|j| (self.inflow[j] + disturbance.tank_flow[j]).max(0.0))
     }
 
     /// Flow that each tank receives through the valves (m³/s): `γ1 q1`, `γ2 q2`, `(1 − γ2) q2`, `(1 − γ1) q1`.

@@ -3,7 +3,7 @@
 use crate::control::{DecentralisedPi, Pairing, RunningPi};
 use crate::plant::{Disturbance, OperatingPoint, QuadrupleTank};
 
-use super::experiment::{Experiment, Load, LoadStep, SetPointStep};
+use super::experiment::{Experiment, Load, LoadStep, PumpVoltageStep, SetPointStep};
 use super::noise::Noise;
 use super::trajectory::{Event, EventKind, Trajectory};
 use super::walls::Watch;
@@ -126,6 +126,28 @@ impl<'a> References<'a> {
     }
 }
 
+/// Pumps that are moved by hand, at the first sample at or after the given times.
+struct HandMoved<'a> {
+    /// Voltage (V) of a pump that is moved by hand; `None` for one that follows its controller.
+    voltage: [Option<f64>; 2],
+    pending: Vec<&'a PumpVoltageStep>,
+}
+
+impl<'a> HandMoved<'a> {
+    fn new(experiment: &'a Experiment, op: &OperatingPoint) -> Self {
+        let voltage = [0, 1].map(|pump| experiment.is_by_hand(pump).then_some(op.pump_voltage[pump]));
+        let steps = experiment.pump_voltage_steps.iter().filter(|step| step.pump < 2);
+        Self { voltage, pending: latest_first(steps, |step| step.time_s) }
+    }
+
+    fn at(&mut self, time: f64) -> [Option<f64>; 2] {
+        while let Some(step) = self.pending.pop_if(|step| step.time_s <= time) {
+            self.voltage[step.pump] = Some(step.voltage);
+        }
+        self.voltage
+    }
+}
+
 /// Loads that begin at their exact times.
 pub(super) struct Loads<'a> {
     acting: Disturbance,
@@ -146,7 +168,8 @@ impl<'a> Loads<'a> {
             match step.load {
                 Load::PumpFlow { pump, flow } if pump < 2 => self.acting.pump_flow[pump] += flow,
                 Load::Leak { tank, area } if tank < 4 => self.acting.leak_area[tank] += area,
-                Load::PumpFlow { .. } | Load::Leak { .. } => (),
+                Load::TankFlow { tank, flow } if tank < 4 => self.acting.tank_flow[tank] += flow,
+                Load::PumpFlow { .. } | Load::Leak { .. } | Load::TankFlow { .. } => (),
             }
         }
         &self.acting
@@ -185,6 +208,13 @@ pub(super) fn output_at_rest(plant: &QuadrupleTank, op: &OperatingPoint) -> [f64
     op.pump_voltage.map(|voltage| voltage / plant.power_gain)
 }
 
+/// What a law sees: time (s), references and measured signals of levels 1 and 2 (V).
+struct Sample {
+    time: f64,
+    reference: [f64; 2],
+    measured: [f64; 2],
+}
+
 /// A law with the limits of the pumps that its loops drive.
 struct Loops<'a> {
     pairing: Pairing,
@@ -199,11 +229,16 @@ impl<'a> Loops<'a> {
         Self { pairing, law, limits, power_gain: plant.power_gain }
     }
 
-    /// One sample: new outputs from references and measured signals (V). Notes the pumps that are at a limit.
-    fn step(&mut self, time: f64, reference: [f64; 2], measured: [f64; 2], events: &mut Events) -> [f64; 2] {
-        let output = self.law.step(time, reference, measured);
-        for (i, (&output, (min, max))) in output.iter().zip(self.limits).enumerate() {
-            if output <= min || output >= max {
+    /// One sample: new outputs from references and measured signals (V), and those of pumps that are moved by hand. Notes the
+    /// pumps that are at a limit.
+    fn step(&mut self, at: Sample, by_hand: [Option<f64>; 2], events: &mut Events) -> [f64; 2] {
+        let Sample { time, reference, measured } = at;
+        let mut output = self.law.step(time, reference, measured);
+        for (i, (output, (min, max))) in output.iter_mut().zip(self.limits).enumerate() {
+            if let Some(voltage) = by_hand[self.pairing.pump_of(i)] {
+                *output = (voltage / self.power_gain).max(min).min(max);
+            }
+            if *output <= min || *output >= max {
                 events.note(time, EventKind::Saturated { pump: self.pairing.pump_of(i) });
             }
         }
@@ -236,6 +271,7 @@ pub(super) fn run(
     let slack = TIME_SLACK * axis.sampling_time_s;
     let mut references = References::new([op.levels[0], op.levels[1]], &experiment.set_point_steps);
     let mut loads = Loads::new(&experiment.load_steps);
+    let mut hand_moved = HandMoved::new(experiment, op);
     let mut loops = Loops::new(plant, pairing, law);
     let mut noise = Noise::new(&experiment.measurement);
     let mut events = Events::default();
@@ -249,7 +285,8 @@ pub(super) fn run(
             let [r1, r2] = references.at(time + slack);
             let reference = [plant.sensor.measure(r1), plant.sensor.measure(r2)];
             let measured = noise.measure(&plant.sensor, [levels[0], levels[1]]);
-            output = loops.step(time, reference, measured, &mut events);
+            let by_hand = hand_moved.at(time + slack);
+            output = loops.step(Sample { time, reference, measured }, by_hand, &mut events);
             voltage = loops.pump_voltage(output);
         }
         process.set_inputs(&voltage, &loads.acting);

@@ -2,6 +2,8 @@ use std::array::from_fn;
 
 use serde::{Deserialize, Serialize};
 
+use crate::plant::OperatingPoint;
+
 /// A step of a reference of at most this size has no figures (m): no sensor resolves it, and rounding errors of a level, which
 /// are up to 2e-15 m, would show in shares of a still smaller one.
 pub(super) const LEAST_STEP: f64 = 1e-9;
@@ -45,14 +47,22 @@ pub enum Load {
         /// Area of the hole (m²).
         area: f64,
     },
+    /// Flow into a tank from outside of the rig, added to what it receives from there anyway.
+    TankFlow {
+        /// Index of the tank, 0 to 3.
+        tank: usize,
+        /// Additional flow (m³/s).
+        flow: f64,
+    },
 }
 
 impl Load {
-    /// What the load acts on, as an index (0 and 1 for the pumps, 2 to 5 for the tanks), and the size of the change.
+    /// What the load acts on, as an index (0 and 1 for the pumps, 2 to 5 for leaks, 6 to 9 for the tanks), and the size of the change.
     fn change(self) -> (usize, f64) {
         match self {
             Self::PumpFlow { pump, flow } => (pump, flow),
             Self::Leak { tank, area } => (2 + tank, area),
+            Self::TankFlow { tank, flow } => (6 + tank, flow),
         }
     }
 }
@@ -66,6 +76,19 @@ pub struct LoadStep {
     pub time_s: f64,
     /// What acts from then on.
     pub load: Load,
+}
+
+/// A step of the voltage of a pump that is moved by hand.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct PumpVoltageStep {
+    /// Index of the pump, 0 or 1.
+    pub pump: usize,
+    /// When (s): at the first sample at or after it.
+    pub time_s: f64,
+    /// The voltage from then on (V).
+    pub voltage: f64,
 }
 
 /// What the sensors add to the true level.
@@ -94,6 +117,13 @@ pub struct Experiment {
     pub load_steps: Vec<LoadStep>,
     /// Sensors.
     pub measurement: Measurement,
+    /// Levels that the run begins at (m); absent for those of the operating point.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub initial_levels: Option<[f64; 4]>,
+    /// Steps of the voltages of pumps that are moved by hand, as an input sequence. A pump that has one here follows no controller:
+    /// until its first step it keeps the voltage of the operating point.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub pump_voltage_steps: Vec<PumpVoltageStep>,
 }
 
 impl Experiment {
@@ -103,9 +133,23 @@ impl Experiment {
         before.map(|s| s.size).fold(rest, |sum, size| sum + size)
     }
 
+    /// The levels that a run begins at (m), which are those of the operating point where none are given.
+    pub fn first_levels<'a>(&'a self, operating_point: &'a OperatingPoint) -> &'a [f64; 4] {
+        self.initial_levels.as_ref().unwrap_or(&operating_point.levels)
+    }
+
+    /// Whether a pump follows a sequence and no controller.
+    pub fn is_by_hand(&self, pump: usize) -> bool {
+        self.pump_voltage_steps.iter().any(|step| step.pump == pump)
+    }
+
     /// Whether anything but the references acts on the loops.
     pub fn is_disturbed(&self) -> bool {
-        !self.load_steps.is_empty() || self.measurement.noise_std > 0.0 || self.measurement.quantised
+        !self.load_steps.is_empty()
+            || self.initial_levels.is_some()
+            || !self.pump_voltage_steps.is_empty()
+            || self.measurement.noise_std > 0.0
+            || self.measurement.quantised
     }
 
     /// The reference step (m) that comes first, in all levels that step at that time; `None` when no reference moves. Steps
@@ -141,14 +185,18 @@ impl Experiment {
         steps.map(|step| step.time_s).filter(|&time_s| time_s >= self.duration_s).min_by(f64::total_cmp)
     }
 
-    /// When a load first changes after `time_s` (s). Loads that cancel or have no size change nothing.
-    pub(super) fn next_load_s(&self, time_s: f64) -> Option<f64> {
-        self.load_changes_s().filter(|&begin| begin > time_s).min_by(f64::total_cmp)
+    /// When a load, or a pump that is moved by hand, first changes after `time_s` (s). Loads that cancel or have no size change nothing.
+    pub(super) fn next_change_s(&self, time_s: f64) -> Option<f64> {
+        self.changes_s().filter(|&begin| begin > time_s).min_by(f64::total_cmp)
     }
 
-    /// When a load last changed before `time_s` (s).
-    pub(super) fn last_load_s(&self, time_s: f64) -> Option<f64> {
-        self.load_changes_s().filter(|&begin| begin < time_s).max_by(f64::total_cmp)
+    /// When one of them last changed before `time_s` (s).
+    pub(super) fn last_change_s(&self, time_s: f64) -> Option<f64> {
+        self.changes_s().filter(|&begin| begin < time_s).max_by(f64::total_cmp)
+    }
+
+    fn changes_s(&self) -> impl Iterator<Item = f64> {
+        self.load_changes_s().chain(self.pump_voltage_steps.iter().map(|step| step.time_s))
     }
 
     /// When loads change (s), those left out that cancel or have no size.
@@ -171,6 +219,8 @@ mod tests {
             set_point_steps: steps.iter().map(|&(level, time_s, size)| SetPointStep { level, time_s, size }).collect(),
             load_steps: vec![],
             measurement: Measurement { noise_std: 0.0, seed: 1, quantised: false },
+            initial_levels: None,
+            pump_voltage_steps: Vec::new(),
         }
     }
 
@@ -194,6 +244,8 @@ mod tests {
         assert!(with(|e| e.load_steps.push(LoadStep { time_s: 5.0, load: Load::PumpFlow { pump: 0, flow: 1e-6 } })));
         assert!(with(|e| e.measurement.noise_std = 1e-4));
         assert!(with(|e| e.measurement.quantised = true));
+        assert!(with(|e| e.initial_levels = Some([0.1; 4])));
+        assert!(with(|e| e.pump_voltage_steps.push(PumpVoltageStep { pump: 1, time_s: 5.0, voltage: 3.0 })));
     }
 
     #[test]
@@ -226,7 +278,7 @@ mod tests {
             flow(30.0, 0, 1e-6),
             flow(30.0, 1, -1e-6),
         ];
-        assert_eq!([0.0, 30.0, 40.0].map(|after| experiment.next_load_s(after)), [Some(30.0), Some(40.0), None]);
-        assert_eq!([30.0, 40.0, 99.0].map(|before| experiment.last_load_s(before)), [None, Some(30.0), Some(40.0)]);
+        assert_eq!([0.0, 30.0, 40.0].map(|after| experiment.next_change_s(after)), [Some(30.0), Some(40.0), None]);
+        assert_eq!([30.0, 40.0, 99.0].map(|before| experiment.last_change_s(before)), [None, Some(30.0), Some(40.0)]);
     }
 }

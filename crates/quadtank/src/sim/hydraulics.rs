@@ -31,7 +31,7 @@ pub(super) struct Hydraulics {
     pub(super) outlet: [f64; 4],
     /// Flow per √level through outlets and leaks (m^2.5/s).
     pub(super) drain: [f64; 4],
-    /// Flow from the pumps into each tank (m³/s).
+    /// Flow from the pumps and from outside into each tank (m³/s).
     pub(super) pumped: [f64; 4],
     /// Level of each tank (m).
     level: [f64; 4],
@@ -68,7 +68,7 @@ impl Hydraulics {
 
     /// Sets the inputs that hold from now on.
     pub(super) fn set_inputs(&mut self, plant: &QuadrupleTank, pump_voltage: &[f64; 2], disturbance: &Disturbance) {
-        self.pumped = plant.valve_flows(pump_voltage, disturbance);
+        self.pumped = plant.feed_flows(pump_voltage, disturbance);
         self.drain = from_fn(|i| self.outlet[i] + disturbance.leak_area[i] * self.root_gravity);
     }
 

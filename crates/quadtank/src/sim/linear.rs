@@ -30,7 +30,13 @@ struct LinearModel<'a> {
 }
 
 impl<'a> LinearModel<'a> {
-    fn new(plant: &'a QuadrupleTank, op: &'a OperatingPoint, jacobian: &'a Jacobian, duration: f64) -> Self {
+    fn new(
+        plant: &'a QuadrupleTank,
+        op: &'a OperatingPoint,
+        jacobian: &'a Jacobian,
+        levels: &[f64; 4],
+        duration: f64,
+    ) -> Self {
         let leak_rate = std::array::from_fn(|tank| {
             let level = op.levels[tank];
             (2.0 * plant.gravity * level).sqrt() / plant.tanks[tank].section.area(level)
@@ -39,7 +45,7 @@ impl<'a> LinearModel<'a> {
             plant,
             op,
             jacobian,
-            deviation: Vector4::zeros(),
+            deviation: Vector4::from_fn(|tank, _| levels[tank] - op.levels[tank]),
             leak_rate,
             forcing: Vector4::zeros(),
             hold: ZeroOrderHold::new(&jacobian.a, duration),
@@ -63,13 +69,16 @@ impl Process for LinearModel<'_> {
     fn set_inputs(&mut self, pump_voltage: &[f64; 2], disturbance: &Disturbance) {
         let u1 = pump_voltage[0] - self.op.pump_voltage[0] + self.voltage_of(0, disturbance.pump_flow[0]);
         let u2 = pump_voltage[1] - self.op.pump_voltage[1] + self.voltage_of(1, disturbance.pump_flow[1]);
-        let ([a1, a2, a3, a4], [l1, l2, l3, l4]) = (disturbance.leak_area, self.leak_rate);
+        let load = |tank: usize| {
+            let rise = disturbance.tank_flow[tank] / self.plant.tanks[tank].section.area(self.op.levels[tank]);
+            rise - self.leak_rate[tank] * disturbance.leak_area[tank]
+        };
         let b = &self.jacobian.b;
         self.forcing = Vector4::new(
-            b.m11 * u1 + b.m12 * u2 - l1 * a1,
-            b.m21 * u1 + b.m22 * u2 - l2 * a2,
-            b.m31 * u1 + b.m32 * u2 - l3 * a3,
-            b.m41 * u1 + b.m42 * u2 - l4 * a4,
+            b.m11 * u1 + b.m12 * u2 + load(0),
+            b.m21 * u1 + b.m22 * u2 + load(1),
+            b.m31 * u1 + b.m32 * u2 + load(2),
+            b.m41 * u1 + b.m42 * u2 + load(3),
         );
         self.push = self.hold.push(&self.forcing);
     }
@@ -91,7 +100,7 @@ impl Process for LinearModel<'_> {
 /// Runs an experiment on the linear model around `op` with the same sampled controllers and limits as
 /// [`simulate`](super::simulate), in absolute levels (m).
 ///
-/// Loads are inputs of the model: the flow of a pump exactly, a leak with the outflow that it has at the operating
+/// Loads are inputs of the model: the flow of a pump or into a tank exactly, a leak with the outflow that it has at the operating
 /// point. The model knows no walls, so its levels may leave the tank; they stay finite because the plant itself is
 /// stable and the limits of the pumps bound its inputs. A dry tank stays dry. There are no events.
 pub fn simulate_linear(
@@ -102,7 +111,7 @@ pub fn simulate_linear(
     experiment: &Experiment,
 ) -> Trajectory {
     let row_spacing = course::row_spacing(experiment, controller.sampling_time_s);
-    let mut model = LinearModel::new(plant, op, jacobian, row_spacing);
+    let mut model = LinearModel::new(plant, op, jacobian, experiment.first_levels(op), row_spacing);
     let mut trajectory = course::run_pi(&mut model, plant, op, controller, experiment);
     trajectory.events.clear();
     trajectory
@@ -135,6 +144,8 @@ mod tests {
             set_point_steps: vec![],
             load_steps: vec![LoadStep { time_s: 10.0, load }],
             measurement: Measurement { noise_std: 0.0, seed: 1, quantised: false },
+            initial_levels: None,
+            pump_voltage_steps: Vec::new(),
         };
         let jacobian = preset.plant.linearise(&op);
         let runs = [
@@ -148,7 +159,8 @@ mod tests {
     fn a_small_load_moves_the_linear_model_as_it_moves_the_plant() {
         let leaks = (0..4).map(|tank| Load::Leak { tank, area: 1e-9 });
         let flows = (0..2).map(|pump| Load::PumpFlow { pump, flow: 1e-9 });
-        for load in leaks.chain(flows) {
+        let from_outside = (0..4).map(|tank| Load::TankFlow { tank, flow: 1e-9 });
+        for load in leaks.chain(flows).chain(from_outside) {
             let [nonlinear, linear] = moved_by(load);
             assert!(nonlinear.iter().any(|x| x.abs() > 1e-6), "{load:?} {nonlinear:?}");
             for i in 0..4 {

@@ -180,6 +180,8 @@ mod tests {
             set_point_steps: steps.iter().map(|&(level, time_s)| SetPointStep { level, time_s, size: STEP }).collect(),
             load_steps,
             measurement: Measurement { noise_std: 0.0, seed: 0, quantised: false },
+            initial_levels: None,
+            pump_voltage_steps: Vec::new(),
         }
     }
 

@@ -25,7 +25,7 @@ mod walls;
 mod zero_dynamics;
 
 pub use course::{MAX_JUDGED_WORK, MAX_ROWS, MAX_RUN_WORK};
-pub use experiment::{Experiment, Load, LoadStep, Measurement, SetPointStep};
+pub use experiment::{Experiment, Load, LoadStep, Measurement, PumpVoltageStep, SetPointStep};
 pub use held_tank::HeldTank;
 pub use linear::simulate_linear;
 pub use metrics::{LoopMetrics, loop_metrics, loop_metrics_judging};

@@ -24,9 +24,9 @@ struct MovingRig<'a> {
 }
 
 impl<'a> MovingRig<'a> {
-    fn new(plant: &QuadrupleTank, valves: &'a [ValveSchedule; 2], start: &OperatingPoint) -> Self {
+    fn new(plant: &QuadrupleTank, valves: &'a [ValveSchedule; 2], levels: &[f64; 4]) -> Self {
         let plant = plant.with_valves(valves.map(|valve| valve.at(0.0)));
-        let water = Hydraulics::new(&plant, &start.levels);
+        let water = Hydraulics::new(&plant, levels);
         Self { plant, valves, water, voltage: [0.0; 2], disturbance: Disturbance::default() }
     }
 }
@@ -58,7 +58,7 @@ impl Process for MovingRig<'_> {
             let breaks = valves.iter().flat_map(ValveSchedule::breaks_s).flatten();
             let next = breaks.filter(|&at| now < at && at < end).fold(end, f64::min);
             let last = next.next_down();
-            let flows = |t: f64| plant.valve_flows_at(valves.map(|valve| valve.at(t.min(last))), voltage, disturbance);
+            let flows = |t: f64| plant.feed_flows_at(valves.map(|valve| valve.at(t.min(last))), voltage, disturbance);
             water.advance_with(now, next - now, longest, flows, events);
             now = next;
         }
@@ -107,8 +107,8 @@ impl Law for Recorded {
 
 /// Runs an experiment on the nonlinear plant with valves that move, under the model-free law.
 ///
-/// The valves of `plant` count for nothing. The run starts at `start`, which need not be an equilibrium: references begin at
-/// its levels, φ̂ at `−α̂` times its voltages. Samples, loads and walls are as in [`simulate`](super::simulate); the schedules
+/// The valves of `plant` count for nothing. The run starts at `start`, which need not be an equilibrium, or at the levels that the
+/// experiment gives: references begin at the levels of `start`, φ̂ at `−α̂` times its voltages. Samples, loads and walls are as in [`simulate`](super::simulate); the schedules
 /// enter the integration itself, not only at samples.
 ///
 /// # Errors
@@ -125,7 +125,8 @@ pub fn simulate_model_free(
     let running = law.start(plant.controller_limits(), output, [start.levels[0], start.levels[1]])?;
     let mut recorded = Recorded { law: running, sensor_gain: plant.sensor.gain, estimates: Default::default() };
     let sampled = Sampled { law: &mut recorded, pairing, sampling_time_s };
-    let trajectory = course::run(&mut MovingRig::new(plant, valves, start), plant, start, sampled, experiment);
+    let mut rig = MovingRig::new(plant, valves, experiment.first_levels(start));
+    let trajectory = course::run(&mut rig, plant, start, sampled, experiment);
     let rows_per_sample = course::rows_per_sample(experiment, sampling_time_s);
     let true_values = true_values(plant, valves, law, experiment, &trajectory, rows_per_sample);
     Ok(ModelFreeRun { trajectory, rows_per_sample, estimates: recorded.estimates, true_values })
@@ -140,7 +141,8 @@ pub fn simulate_with_valves(
     controller: &DecentralisedPi,
     experiment: &Experiment,
 ) -> (Trajectory, usize) {
-    let run = course::run_pi(&mut MovingRig::new(plant, valves, start), plant, start, controller, experiment);
+    let mut rig = MovingRig::new(plant, valves, experiment.first_levels(start));
+    let run = course::run_pi(&mut rig, plant, start, controller, experiment);
     (run, course::rows_per_sample(experiment, controller.sampling_time_s))
 }
 

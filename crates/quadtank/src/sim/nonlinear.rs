@@ -34,11 +34,11 @@ impl Process for Rig<'_> {
 
 /// Runs an experiment on the nonlinear plant with two sampled PI loops.
 ///
-/// The run starts at the operating point, its levels clipped to the walls, with the controllers at rest there. Samples
-/// are at `k Ts`; pump voltages are held between them. A reference steps at the first sample at or after its time, a
-/// load begins at its exact time. A tank that receives more than drains at the top of its wall stays full, and the excess
-/// leaves the plant. There is a row per sample, and rows in between where samples are
-/// further apart than 1/1500 of the duration. A run of more than [`MAX_ROWS`](super::MAX_ROWS) rows is cut there.
+/// The run starts at the operating point, or at the levels that the experiment gives, clipped to the walls, with the controllers
+/// as at rest at the operating point. Samples are at `k Ts`; pump voltages are held between them. A reference, or a pump that is
+/// moved by hand, steps at the first sample at or after its time, a load begins at its exact time. A tank that receives more than
+/// drains at the top of its wall stays full, and the excess leaves the plant. There is a row per sample, and rows in between where
+/// samples are further apart than 1/1500 of the duration. A run of more than [`MAX_ROWS`](super::MAX_ROWS) rows is cut there.
 ///
 /// # Examples
 /// A step of one level by 1 cm on the rig of Johansson (2000), and what becomes of it:
@@ -62,6 +62,8 @@ impl Process for Rig<'_> {
 ///     set_point_steps: vec![SetPointStep { level: 0, time_s: 100.0, size: 0.01 }],
 ///     load_steps: vec![],
 ///     measurement: Measurement { noise_std: 0.0, seed: 0, quantised: false },
+///     initial_levels: None,
+///     pump_voltage_steps: vec![],
 /// };
 /// let run = simulate(&rig.plant, &rest, &controller, &experiment);
 /// let [stepped, other] = loop_metrics(&run, &rig.plant, &controller, &experiment);
@@ -75,6 +77,6 @@ pub fn simulate(
     controller: &DecentralisedPi,
     experiment: &Experiment,
 ) -> Trajectory {
-    let mut rig = Rig { plant, water: Hydraulics::new(plant, &op.levels) };
+    let mut rig = Rig { plant, water: Hydraulics::new(plant, experiment.first_levels(op)) };
     course::run_pi(&mut rig, plant, op, controller, experiment)
 }

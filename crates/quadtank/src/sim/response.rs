@@ -103,13 +103,13 @@ impl<'a> Response<'a> {
         let earlier_steps = [0, 1].into_iter().flat_map(steps_of).filter(|earlier| earlier.row < first);
         let moved_s = earlier_steps
             .map(|earlier| trajectory.time_s[earlier.row])
-            .chain(experiment.last_load_s(begin_s - slack))
+            .chain(experiment.last_change_s(begin_s - slack))
             .fold(0.0, f64::max);
         let rest_s = begin_s - AT_REST_FOR * (begin_s - moved_s);
         let rest = trajectory.time_s.partition_point(|&time| time < rest_s - slack).min(first);
         let end_s = later_steps
             .map(|later| trajectory.time_s[later.row])
-            .chain(experiment.next_load_s(begin_s + slack))
+            .chain(experiment.next_change_s(begin_s + slack))
             .chain(trajectory.time_s.last().copied())
             .fold(f64::INFINITY, f64::min);
         // The last row is at the end itself, where the level does not show yet what begins there.

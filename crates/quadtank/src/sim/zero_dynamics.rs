@@ -44,19 +44,19 @@ impl<'a> ZeroDynamics<'a> {
     }
 
     /// The pump voltages (V) that hold the outputs with the upper tanks at `upper` (m): what a lower tank does not get from
-    /// above its own pump must give, `γ_i k_i v_i = q_i − q_{i+2}`.
+    /// above and from outside its own pump must give, `γ_i k_i v_i = q_i − q_{i+2}`.
     pub fn voltages(&self, upper: [f64; 2]) -> [f64; 2] {
         let plant = self.plant;
         [0, 1].map(|i| {
             let from_above = plant.tanks[i + 2].outflow(upper[i].max(0.0), plant.gravity);
-            (self.outflow[i] - from_above) / (plant.valves[i] * plant.pumps[i].gain)
+            (self.outflow[i] - from_above - plant.inflow[i]) / (plant.valves[i] * plant.pumps[i].gain)
         })
     }
 
     /// Rates of change of the upper levels (m/s) at `upper` (m). Linear around the equilibrium, they have the transmission
     /// zeros as eigenvalues.
     pub fn rates(&self, upper: [f64; 2]) -> [f64; 2] {
-        let flows = self.plant.valve_flows(&self.voltages(upper), &Disturbance::default());
+        let flows = self.plant.feed_flows(&self.voltages(upper), &Disturbance::default());
         [0, 1].map(|i| {
             let (tank, level) = (&self.plant.tanks[i + 2], upper[i].max(0.0));
             (flows[i + 2] - tank.outflow(level, self.plant.gravity)) / tank.section.area(level)

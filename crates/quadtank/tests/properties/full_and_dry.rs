@@ -168,6 +168,8 @@ fn a_closed_loop_drives_a_tank_over_its_wall() {
         set_point_steps: vec![SetPointStep { level: 0, time_s: 100.0, size }],
         load_steps: vec![],
         measurement: Measurement { noise_std: 0.0, seed: 1, quantised: false },
+        initial_levels: None,
+        pump_voltage_steps: Vec::new(),
     };
     let run = simulate(&preset.plant, &op, &law, &experiment);
     let mut reference = Reference::new(&preset.plant, op.levels);

@@ -30,7 +30,7 @@ fn plant() -> impl Strategy<Value = QuadrupleTank> {
     ([tank(), tank(), tank(), tank()], [pump(), pump()], valves, 9.7..9.9).prop_map(
         |(tanks, pumps, valves, gravity)| {
             let sensor = Sensor { gain: 50.0, range: 0.3, resolution: 0.0 };
-            QuadrupleTank { tanks, pumps, valves, power_gain: 1.0, sensor, gravity }
+            QuadrupleTank { tanks, pumps, valves, power_gain: 1.0, sensor, gravity, inflow: [0.0; 4] }
         },
     )
 }

@@ -93,8 +93,7 @@ prop_compose! {
                 set_point_steps: steps.into_iter()
                     .map(|(level, time_s, size)| SetPointStep { level, time_s, size }).collect(),
                 load_steps,
-                measurement: Measurement { noise_std, seed, quantised },
-            },
+                measurement: Measurement { noise_std, seed, quantised }, initial_levels: None, pump_voltage_steps: Vec::new() },
         }
     }
 }
@@ -119,6 +118,8 @@ fn gentle(id: PresetId, relative_step: f64) -> Setup {
             set_point_steps: vec![SetPointStep { level: 0, time_s: 10.0, size: relative_step * op.levels[0] }],
             load_steps: vec![],
             measurement: NO_NOISE,
+            initial_levels: None,
+            pump_voltage_steps: Vec::new(),
         },
     }
 }

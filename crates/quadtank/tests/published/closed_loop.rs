@@ -65,7 +65,14 @@ fn non_minimum_phase_law() -> DecentralisedPi {
 }
 
 fn experiment(duration_s: f64, set_point_steps: Vec<SetPointStep>) -> Experiment {
-    Experiment { duration_s, set_point_steps, load_steps: vec![], measurement: NO_NOISE }
+    Experiment {
+        duration_s,
+        set_point_steps,
+        load_steps: vec![],
+        measurement: NO_NOISE,
+        initial_levels: None,
+        pump_voltage_steps: Vec::new(),
+    }
 }
 
 /// Both loops in manual mode at the operating point; +10 % of the flow of pump 1 at 250 s, then of pump 2. A load on the

@@ -39,6 +39,8 @@ fn experiment(duration_s: f64, steps: &[(usize, f64, f64)]) -> Experiment {
             .collect(),
         load_steps: Vec::new(),
         measurement: Measurement { noise_std: 0.0, seed: 1, quantised: false },
+        initial_levels: None,
+        pump_voltage_steps: Vec::new(),
     }
 }
 

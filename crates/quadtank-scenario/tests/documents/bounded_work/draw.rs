@@ -10,7 +10,7 @@ use quadtank::linear::TransferFunction;
 use quadtank::literature::campestrini::PublishedPlant;
 use quadtank::literature::{DisplayUnit, PresetId};
 use quadtank::plant::{CrossSection, Outlet, Pump, QuadrupleTank, Sensor, Tank, ValveSchedule};
-use quadtank::sim::{Experiment, Load, LoadStep, Measurement, SetPointStep};
+use quadtank::sim::{Experiment, Load, LoadStep, Measurement, PumpVoltageStep, SetPointStep};
 use quadtank::study::model_free::{ModelFreeSetup, StartSpec};
 use quadtank::study::quadruple_tank::{OperatingPointSpec, PlantSpec, Setup};
 use quadtank::study::relay_tuning::{
@@ -101,6 +101,7 @@ impl Draw {
                 resolution: self.number(limits::SENSOR_RESOLUTION),
             },
             gravity: self.number(limits::GRAVITY),
+            inflow: if self.one_in(2) { [0.0; 4] } else { std::array::from_fn(|_| self.number(limits::INFLOW)) },
         };
         PlantSpec::Parameters { rig, display_unit: DisplayUnit::Cm }
     }
@@ -137,12 +138,20 @@ impl Draw {
         };
         let load = |draw: &mut Self| LoadStep {
             time_s: draw.number(limits::TIME_S),
-            load: if draw.one_in(2) {
-                Load::PumpFlow { pump: draw.index(2), flow: draw.number(limits::LOAD_FLOW) }
-            } else {
-                Load::Leak { tank: draw.index(4), area: draw.number(limits::LEAK_AREA) }
+            load: match draw.index(3) {
+                0 => Load::PumpFlow { pump: draw.index(2), flow: draw.number(limits::LOAD_FLOW) },
+                1 => Load::Leak { tank: draw.index(4), area: draw.number(limits::LEAK_AREA) },
+                _ => Load::TankFlow { tank: draw.index(4), flow: draw.number(limits::LOAD_FLOW) },
             },
         };
+        let by_hand = |draw: &mut Self| PumpVoltageStep {
+            pump: draw.index(2),
+            time_s: draw.number(limits::TIME_S),
+            voltage: draw.number(limits::PUMP_VOLTAGE),
+        };
+        // Every tank is that high.
+        let level = Limits { max: limits::TANK_HEIGHT.min, ..limits::LEVEL };
+        let steps_by_hand = if self.one_in(2) { 0 } else { self.index(limits::MAX_PUMP_STEPS + 1) };
         let [set_points, loads] = [self.index(limits::MAX_STEPS + 1), self.index(limits::MAX_STEPS + 1)];
         Experiment {
             duration_s,
@@ -153,6 +162,8 @@ impl Draw {
                 seed: 1,
                 quantised: self.one_in(2),
             },
+            initial_levels: self.one_in(4).then(|| std::array::from_fn(|_| self.number(level))),
+            pump_voltage_steps: (0..steps_by_hand).map(|_| by_hand(self)).collect(),
         }
     }
 

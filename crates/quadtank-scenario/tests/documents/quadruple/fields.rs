@@ -2,8 +2,8 @@
 
 use quadtank::control::LoopMode;
 use quadtank::literature::PresetId;
-use quadtank::sim::Load;
-use quadtank::study::quadruple_tank::{OperatingPointSpec, setup_of};
+use quadtank::sim::{Load, PumpVoltageStep};
+use quadtank::study::quadruple_tank::{OperatingPointSpec, PlantSpec, setup_of};
 use quadtank_scenario::{DOCUMENT_LIMIT, Scenario, ScenarioError, View, from_json, limits, to_json, to_link};
 use serde_json::{Value, json};
 
@@ -15,6 +15,13 @@ pub fn full() -> Value {
     let setup = &mut scenario.setup;
     setup.controller.loops[0].mode = LoopMode::Manual { output: 5.0, until_s: 60.0 };
     setup.experiment.load_steps[1].load = Load::Leak { tank: 3, area: 1e-6 };
+    setup.experiment.load_steps[3].load = Load::TankFlow { tank: 2, flow: 1e-6 };
+    setup.experiment.initial_levels = Some([0.02, 0.01, 0.08, 0.03]);
+    setup.experiment.pump_voltage_steps =
+        [0, 1].map(|pump| PumpVoltageStep { pump, time_s: 100.0, voltage: 3.0 }).to_vec();
+    if let PlantSpec::Parameters { rig, .. } = &mut setup.plant {
+        rig.inflow = [0.0, 0.0, 1e-6, 2e-6];
+    }
     let mut pinned = setup_of(PresetId::JohanssonMinimumPhase);
     pinned.operating_point = OperatingPointSpec::Levels([0.1, 0.12]);
     scenario.pinned = vec![pinned];
@@ -23,7 +30,7 @@ pub fn full() -> Value {
 }
 
 /// Fields (by the path that an error gives, and by JSON pointer) and a number that is out of their range.
-pub const LEAVES: [(&str, &str, f64); 42] = [
+pub const LEAVES: [(&str, &str, f64); 48] = [
     (
         "setup.plant.parameters.rig.tanks[2].section.area_at_empty",
         "/setup/plant/parameters/rig/tanks/2/section/area_at_empty",
@@ -53,6 +60,7 @@ pub const LEAVES: [(&str, &str, f64); 42] = [
     ("setup.plant.parameters.rig.sensor.resolution", "/setup/plant/parameters/rig/sensor/resolution", 5e-324),
     ("setup.plant.parameters.rig.sensor.resolution", "/setup/plant/parameters/rig/sensor/resolution", 0.9e-9),
     ("setup.plant.parameters.rig.gravity", "/setup/plant/parameters/rig/gravity", 0.0),
+    ("setup.plant.parameters.rig.inflow[2]", "/setup/plant/parameters/rig/inflow/2", -1e-6),
     ("setup.valves[1]", "/setup/valves/1", -0.1),
     ("setup.operating_point.pump_voltage[0]", "/setup/operating_point/pump_voltage/0", -3.0),
     ("setup.controller.loops[0].gain", "/setup/controller/loops/0/gain", 1e-4),
@@ -74,6 +82,12 @@ pub const LEAVES: [(&str, &str, f64); 42] = [
     ("setup.experiment.load_steps[1].time_s", "/setup/experiment/load_steps/1/time_s", 1e6),
     ("setup.experiment.load_steps[1].load.leak.area", "/setup/experiment/load_steps/1/load/leak/area", 1.0),
     ("setup.experiment.load_steps[2].load.pump_flow.flow", "/setup/experiment/load_steps/2/load/pump_flow/flow", 1.0),
+    ("setup.experiment.load_steps[3].load.tank_flow.flow", "/setup/experiment/load_steps/3/load/tank_flow/flow", 1.0),
+    // No tank of the full document is that high.
+    ("setup.experiment.initial_levels[3]", "/setup/experiment/initial_levels/3", 0.95),
+    ("setup.experiment.initial_levels[0]", "/setup/experiment/initial_levels/0", -0.01),
+    ("setup.experiment.pump_voltage_steps[1].time_s", "/setup/experiment/pump_voltage_steps/1/time_s", -1.0),
+    ("setup.experiment.pump_voltage_steps[0].voltage", "/setup/experiment/pump_voltage_steps/0/voltage", -1.0),
     ("setup.experiment.measurement.noise_std", "/setup/experiment/measurement/noise_std", -0.1),
     ("pinned[0].valves[0]", "/pinned/0/valves/0", 7.0),
     ("pinned[0].operating_point.levels[1]", "/pinned/0/operating_point/levels/1", 70.0),
@@ -120,6 +134,8 @@ fn an_index_beyond_its_list_names_itself() {
         ("setup.experiment.set_point_steps[0].level", "/setup/experiment/set_point_steps/0/level"),
         ("setup.experiment.load_steps[0].load.pump_flow.pump", "/setup/experiment/load_steps/0/load/pump_flow/pump"),
         ("setup.experiment.load_steps[1].load.leak.tank", "/setup/experiment/load_steps/1/load/leak/tank"),
+        ("setup.experiment.load_steps[3].load.tank_flow.tank", "/setup/experiment/load_steps/3/load/tank_flow/tank"),
+        ("setup.experiment.pump_voltage_steps[1].pump", "/setup/experiment/pump_voltage_steps/1/pump"),
     ] {
         let mut document = full();
         *document.pointer_mut(pointer).unwrap() = json!(4);
@@ -133,6 +149,7 @@ fn too_many_entries_are_counted() {
     for (path, pointer, count, max) in [
         ("setup.experiment.set_point_steps", "/setup/experiment/set_point_steps", 9, limits::MAX_STEPS),
         ("setup.experiment.load_steps", "/setup/experiment/load_steps", 30, limits::MAX_STEPS),
+        ("setup.experiment.pump_voltage_steps", "/setup/experiment/pump_voltage_steps", 261, limits::MAX_PUMP_STEPS),
         ("pinned", "/pinned", Scenario::MAX_PINNED + 1, Scenario::MAX_PINNED),
     ] {
         let mut document = full();

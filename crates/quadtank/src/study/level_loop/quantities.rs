@@ -18,6 +18,11 @@ const fn q(name: &'static str, unit: &'static str, description: &'static str, re
 }
 
 /// The plant at the rest of the experiment.
+/// A number that there is.
+fn finite(value: f64) -> Option<f64> {
+    Some(value).filter(|value| value.is_finite())
+}
+
 fn plant(results: &Results) -> Option<&PlantAnswer> {
     results.plant.as_ref().as_ref().ok()
 }
@@ -126,11 +131,11 @@ pub const QUANTITIES: &[Quantity<Results>] = &[
     q("rest.travel", "1", "Travel X of the valve at rest, 0 to 1.", |r| Some(plant(r)?.rest.travel)),
     q("rest.opening", "1", "Opening f(X) of the valve at rest, 0 to 1.", |r| Some(plant(r)?.rest.opening)),
     q("rest.output", "signal", "Controller output at rest.", |r| Some(plant(r)?.rest.output)),
-    q("model.slope", "1/s", "Slope K/τ of the linear model at rest, lags of the instruments apart.", |r| Some(plant(r)?.gains.slope_gain())),
-    q("model.gain", "1", "Gain K of the linear model at rest, signal per signal; none for a tank that integrates.", |r| plant(r)?.gains.process_gain()),
+    q("model.slope", "1/s", "Slope K/τ of the linear model at rest, lags of the instruments apart; none where a quick-opening valve is shut.", |r| finite(plant(r)?.gains.slope_gain())),
+    q("model.gain", "1", "Gain K of the linear model at rest, signal per signal; none for a tank that integrates, and where a quick-opening valve is shut.", |r| finite(plant(r)?.gains.process_gain()?)),
     q("model.time_constant", "s", "Time constant τ = R A of the tank at rest; none for a tank that integrates.", |r| plant(r)?.gains.time_constant()),
     q("model.dead_time", "s", "Dead time θ that stands for the lags of the instruments in the rules, by the half rule (Skogestad 2003).", |r| Some(plant(r)?.model.dead_time_s())),
-    q("half_rule.slope", "1/s", "Slope K/τ of the model of the rules, with half of a lag in τ by the half rule.", |r| Some(plant(r)?.model.slope())),
+    q("half_rule.slope", "1/s", "Slope K/τ of the model of the rules, with half of a lag in τ by the half rule.", |r| finite(plant(r)?.model.slope())),
     q("half_rule.time_constant", "s", "Time constant of the model of the rules, by the half rule; none for a tank that integrates.", |r| plant(r)?.model.time_constant_s()),
     q("test.slope", "1/s", "Slope K/τ of the model that was read from the step test.", |r| Some(tested(r)?.slope())),
     q("test.gain", "1", "Gain K of the model of the step test, signal per signal; none for a ramp.", |r| tested(r)?.gain()),

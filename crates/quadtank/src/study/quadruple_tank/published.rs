@@ -42,6 +42,8 @@ pub fn setup_of(id: PresetId) -> Setup {
             set_point_steps: vec![step(0), step(1)],
             load_steps: Vec::new(),
             measurement: Measurement { noise_std: 0.0, seed: 1, quantised: false },
+            initial_levels: None,
+            pump_voltage_steps: Vec::new(),
         },
     }
 }

@@ -40,13 +40,18 @@ pub fn run(setup: &Setup) -> Result<Run, StudyError> {
 }
 
 impl Run {
-    /// The run of a setup that is prepared; `stability` is that of its sampled linear loop, if it is known.
+    /// The run of a setup that is prepared; `stability` is that of its sampled linear loop, if it is known, with both loops closed.
     ///
     /// # Errors
     /// As [`run`], but for the operating point.
     pub fn of(prepared: &Prepared, setup: &Setup, stability: Option<Stability>) -> Result<Self, StudyError> {
         let Prepared { plant, operating_point: start, jacobian } = prepared;
         let Setup { controller, experiment, .. } = setup;
+        let stability = if experiment.pump_voltage_steps.is_empty() {
+            stability
+        } else {
+            closed_loop(jacobian, &setup.acting_controller(), plant.power_gain).ok().map(|closed| closed.stability)
+        };
         let runs = |experiment: &Experiment| {
             let nonlinear = whole(simulate(plant, start, controller, experiment))?;
             Ok::<_, StudyError>((nonlinear, simulate_linear(plant, start, jacobian, controller, experiment)))
@@ -91,6 +96,7 @@ mod tests {
     use super::*;
     use crate::control::Pairing;
     use crate::literature::PresetId;
+    use crate::sim::PumpVoltageStep;
     use crate::study::quadruple_tank::setup_of;
 
     #[test]
@@ -171,6 +177,24 @@ mod tests {
             assert_eq!((noisy.window_iae, noisy.other_peak), (calm.window_iae, calm.other_peak));
             assert!(noisy.total_variation > 10.0 * calm.total_variation && noisy.iae > calm.iae);
         }
+    }
+
+    #[test]
+    fn a_pump_that_is_moved_by_hand_opens_its_loop() {
+        let mut setup = setup_of(PresetId::JohanssonMinimumPhase);
+        setup.controller.pairing = Pairing::Swapped;
+        // Loop 2 drives pump 1 of the swapped pairing, which makes the two loops unstable together.
+        setup.experiment.pump_voltage_steps = vec![PumpVoltageStep { pump: 0, time_s: 1500.0, voltage: 4.0 }];
+        let run = run(&setup).unwrap();
+        let voltage = |time_s: f64| {
+            let row = run.nonlinear.row_at(time_s).unwrap();
+            [run.nonlinear.pump_voltage[0][row], run.linear.pump_voltage[0][row]]
+        };
+        assert_eq!((voltage(1499.0), voltage(1500.0)), ([3.0; 2], [4.0; 2]));
+        let [first, second] = run.metrics;
+        // Level 1 is that of pump 2, which still follows it; the window ends where the hand moves the other pump.
+        assert_eq!((first.no_response, first.window_s.map(|s| s + 100.0)), (None, first.step_time_s.map(|_| 1500.0)));
+        assert!(second.total_variation > 0.0);
     }
 
     #[test]

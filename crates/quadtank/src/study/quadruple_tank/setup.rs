@@ -75,6 +75,17 @@ impl Setup {
         self.plant.rig().with_valves(self.valves)
     }
 
+    /// The controller as it acts in the experiment: a loop whose pump is moved by hand is open.
+    pub fn acting_controller(&self) -> DecentralisedPi {
+        let mut acting = self.controller;
+        for (index, settings) in acting.loops.iter_mut().enumerate() {
+            if self.experiment.is_by_hand(self.controller.pairing.pump_of(index)) {
+                settings.gain = 0.0;
+            }
+        }
+        acting
+    }
+
     /// This setup in the experiment of `present`, so that both runs can be compared: rig, valves and controller are its own. The
     /// operating point is that of `present` too where both have the same rig; one of another rig says nothing of this one.
     #[must_use]

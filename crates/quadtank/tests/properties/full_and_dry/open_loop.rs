@@ -44,6 +44,8 @@ impl OpenLoop {
             set_point_steps: vec![],
             load_steps: self.loads.clone(),
             measurement: Measurement { noise_std: 0.0, seed: 1, quantised: false },
+            initial_levels: None,
+            pump_voltage_steps: Vec::new(),
         }
     }
 

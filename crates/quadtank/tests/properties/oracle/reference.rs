@@ -29,6 +29,7 @@ impl Parameters {
             power_gain: 1.0,
             sensor: Sensor { gain: self.sensor_gain, range: f64::INFINITY, resolution: 0.0 },
             gravity: self.gravity,
+            inflow: [0.0; 4],
         }
     }
 }

@@ -106,6 +106,8 @@ impl Loop {
             set_point_steps: self.steps.iter().map(step).collect(),
             load_steps: vec![],
             measurement: Measurement { noise_std: 0.0, seed: 0, quantised: false },
+            initial_levels: None,
+            pump_voltage_steps: Vec::new(),
         }
     }
 }
