@@ -39,6 +39,8 @@ pub struct Responses<'a> {
     pub references: [&'a [f64]; 2],
     /// The linear model.
     pub linear: Option<RunColumns<'a>>,
+    /// A record of a rig, behind all else, with its name. Signals that were not recorded are empty.
+    pub recorded: Option<(RunColumns<'a>, &'a str)>,
     /// Pinned runs with their names.
     pub pinned: Vec<(RunColumns<'a>, &'a str)>,
     /// Levels are shown in metres times this: 100 for centimetres.
@@ -103,9 +105,10 @@ pub fn responses<'a>(spec: &Responses<'a>) -> [Chart<'a>; 2] {
 
 /// The runs with their pens, from the back to the front.
 fn runs<'a>(spec: &Responses<'a>) -> impl Iterator<Item = (RunColumns<'a>, Pen, &'a str)> {
+    let recorded = spec.recorded.map(|(run, name)| (run, Pen::Trail, name));
     let pinned = (0..).zip(&spec.pinned).map(|(place, &(run, name))| (run, Pen::Pinned(place), name));
     let linear = spec.linear.map(|run| (run, Pen::Dotted, spec.texts.linear));
-    pinned.chain([(spec.nonlinear, Pen::Solid, "")]).chain(linear)
+    recorded.into_iter().chain(pinned).chain([(spec.nonlinear, Pen::Solid, "")]).chain(linear)
 }
 
 fn level_layers<'a>(spec: &Responses<'a>) -> Vec<Layer<'a>> {
@@ -167,7 +170,8 @@ fn qualified<'a>(name: &'a str, which: &str, pen: Pen) -> Cow<'a, str> {
 
 /// The runs that stretch a range but do not make it.
 fn beside<'a>(spec: &Responses<'a>) -> impl Iterator<Item = RunColumns<'a>> {
-    spec.linear.into_iter().chain(spec.pinned.iter().map(|&(run, _)| run))
+    let others = spec.pinned.iter().chain(&spec.recorded);
+    spec.linear.into_iter().chain(others.map(|&(run, _)| run))
 }
 
 /// Range of the levels (m).
@@ -191,6 +195,7 @@ fn legend(spec: &Responses) -> Vec<Entry> {
     // The levels have their names at their curves.
     let mut legend = vec![entry(Pen::Dashed, Role::Muted, texts.reference)];
     legend.extend(spec.linear.map(|_| entry(Pen::Dotted, Role::Muted, texts.linear)));
+    legend.extend(spec.recorded.map(|(_, name)| entry(Pen::Trail, Role::Muted, name)));
     let pinned = (0..).zip(&spec.pinned);
     legend.extend(pinned.map(|(place, (_, name))| entry(Pen::Pinned(place), Role::Muted, name)));
     legend.retain(|entry| !entry.text.is_empty());

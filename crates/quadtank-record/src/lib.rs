@@ -6,10 +6,12 @@ mod error;
 mod mapping;
 mod number;
 mod record;
+mod replay;
 mod table;
 
 pub use agreement::{Agreement, RecordAgreement, agreement};
 pub use error::RecordError;
 pub use mapping::{ColumnMeaning, Mapping, Signal, Unit};
 pub use record::Record;
+pub use replay::replay;
 pub use table::{Column, MAX_BYTES, Table};

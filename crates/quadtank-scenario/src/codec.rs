@@ -13,7 +13,7 @@ use super::tuning::TuningScenario;
 use super::{BenchDocument, Scenario, ScenarioError, reader};
 
 /// Longest document that is read (bytes): far more than any scenario needs.
-pub const DOCUMENT_LIMIT: usize = 64 * 1024;
+pub const DOCUMENT_LIMIT: usize = 1024 * 1024;
 
 /// A document of any kind.
 #[derive(Clone, Debug, PartialEq)]

@@ -99,8 +99,8 @@ pub const NOISE_STD: Limits = Limits::new(0.0, 1.0);
 pub const SEED: Limits = Limits::new(0.0, u32::MAX as f64);
 /// Steps in one list of an experiment.
 pub const MAX_STEPS: usize = 8;
-/// Steps of pumps that are moved by hand: what a document of 64 KB holds beside all else.
-pub const MAX_PUMP_STEPS: usize = 1000;
+/// Steps of pumps that are moved by hand: a record of 2,000 rows in which a controller moved both at every row.
+pub const MAX_PUMP_STEPS: usize = 4000;
 
 /// Cross-section of a tank at any level (m²).
 pub const TANK_AREA: Limits = Limits::new(1e-5, 10.0);

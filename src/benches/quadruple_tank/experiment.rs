@@ -5,6 +5,7 @@ use leptos::prelude::*;
 
 use super::flags::{locks, panels};
 use super::session::{Session, use_session};
+use super::start::{PumpControls, StartControls};
 use crate::controls::{ParamControl, ParamNumber, ParamRow};
 use crate::shown::{ShownUnit, to_shown};
 use crate::texts::{say, terms, tr};
@@ -54,20 +55,18 @@ const REFERENCE_TIME: ParamControl<Setup> = ParamControl {
 const LOAD: ParamControl<Setup> = ParamControl {
     ids: [("load-size", "load-size-number"); 2],
     name: |lab, _| tr!(lab, experiment.load_size),
-    path: |s, _| {
-        if is_leak(s) {
-            "experiment.load_steps[].load.leak.area"
-        } else {
-            "experiment.load_steps[].load.pump_flow.flow"
-        }
+    path: |s, _| match first_load(&s.experiment) {
+        Some(Load::Leak { .. }) => "experiment.load_steps[].load.leak.area",
+        Some(Load::TankFlow { .. }) => "experiment.load_steps[].load.tank_flow.flow",
+        Some(Load::PumpFlow { .. }) | None => "experiment.load_steps[].load.pump_flow.flow",
     },
     read: |s, _| match first_load(&s.experiment) {
-        Some(Load::PumpFlow { flow, .. }) => flow,
+        Some(Load::PumpFlow { flow, .. } | Load::TankFlow { flow, .. }) => flow,
         Some(Load::Leak { area, .. }) => area,
         None => 0.0,
     },
     write: |s, _, size| match s.experiment.load_steps.first_mut().map(|step| &mut step.load) {
-        Some(Load::PumpFlow { flow, .. }) => *flow = size,
+        Some(Load::PumpFlow { flow, .. } | Load::TankFlow { flow, .. }) => *flow = size,
         Some(Load::Leak { area, .. }) => *area = size,
         None => {}
     },
@@ -197,12 +196,18 @@ pub fn ExperimentCard() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
     let further = move || session.document.with(|s| further_steps(&s.setup.experiment));
-    let about = move || view! { <span class="remark">{say!(lab, experiment.remark)}</span> };
+    let begins = move || {
+        let is_given = session.document.with(|s| s.setup.experiment.initial_levels.is_some());
+        if is_given { tr!(lab, experiment.from_levels) } else { tr!(lab, experiment.remark) }
+    };
+    let about = move || view! { <span class="remark">{begins}</span> };
     view! {
         <Card name="experiment" panel=panels::EXPERIMENT title=say!(lab, experiment.title) terms=TERMS beside=about>
             <Timed size=&REFERENCE time=&REFERENCE_TIME index=0 />
             <Timed size=&REFERENCE time=&REFERENCE_TIME index=1 />
             <LoadControls />
+            <StartControls />
+            <PumpControls />
             <ParamRow session control=&NOISE />
             <ParamRow session control=&DURATION />
             <Tick
@@ -256,17 +261,22 @@ enum LoadPlace {
     Nowhere,
     Pump(usize),
     Tank(usize),
+    Inflow(usize),
 }
 
 impl LoadPlace {
-    const ALL: [Self; 7] =
-        [Self::Nowhere, Self::Pump(0), Self::Pump(1), Self::Tank(0), Self::Tank(1), Self::Tank(2), Self::Tank(3)];
+    fn all() -> impl Iterator<Item = Self> {
+        let pumps = (0..2).map(Self::Pump);
+        let tanks = (0..4).map(Self::Tank);
+        std::iter::once(Self::Nowhere).chain(pumps).chain(tanks).chain((0..4).map(Self::Inflow))
+    }
 
     fn of(setup: &Setup) -> Self {
         match first_load(&setup.experiment) {
             None => Self::Nowhere,
             Some(Load::PumpFlow { pump, .. }) => Self::Pump(pump),
             Some(Load::Leak { tank, .. }) => Self::Tank(tank),
+            Some(Load::TankFlow { tank, .. }) => Self::Inflow(tank),
         }
     }
 
@@ -276,6 +286,7 @@ impl LoadPlace {
             Self::Nowhere => None,
             Self::Pump(pump) => Some(Load::PumpFlow { pump, flow: FIRST_LOAD_FLOW }),
             Self::Tank(tank) => Some(Load::Leak { tank, area: FIRST_LEAK_AREA }),
+            Self::Inflow(tank) => Some(Load::TankFlow { tank, flow: FIRST_LOAD_FLOW }),
         }
     }
 
@@ -284,6 +295,7 @@ impl LoadPlace {
             Self::Nowhere => Choice::new(self, "none", tr!(lab, experiment.load_none)),
             Self::Pump(k) => Choice::new(self, format!("pump{k}"), tr!(lab, experiment.load_pump, pump = k + 1)),
             Self::Tank(k) => Choice::new(self, format!("leak{k}"), tr!(lab, experiment.load_leak, tank = k + 1)),
+            Self::Inflow(k) => Choice::new(self, format!("inflow{k}"), tr!(lab, experiment.load_inflow, tank = k + 1)),
         }
     }
 }
@@ -312,7 +324,7 @@ fn LoadControls() -> impl IntoView {
             <Select
                 id="load-kind"
                 labelled="load-kind"
-                choices=Signal::derive(move || LoadPlace::ALL.map(|place| place.choice(lab)).to_vec())
+                choices=Signal::derive(move || LoadPlace::all().map(|place| place.choice(lab)).collect::<Vec<_>>())
                 chosen=session.part(LoadPlace::of)
                 on_choose=choose
                 disabled=lab.locks(locks::EXPERIMENT)

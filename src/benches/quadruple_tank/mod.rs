@@ -13,6 +13,8 @@ mod poles;
 mod preset;
 mod process;
 mod published;
+mod record;
+mod record_view;
 mod replay;
 mod responses;
 mod rga;
@@ -20,6 +22,7 @@ mod rig;
 mod sentences;
 mod session;
 mod set_points;
+mod start;
 mod valves;
 mod why;
 

@@ -1,5 +1,6 @@
 //! The charts of the home bench, from the results of the laboratory. Building them follows what they read.
 
+use super::record::OpenRecord;
 use super::session::Session;
 use crate::lab::Lab;
 use crate::shown::{per_metre, unit_name};
@@ -12,6 +13,7 @@ use quadtank_figure::{
     self, Chart, Flag, Levels, PoleZero, PoleZeroTexts, ResponseTexts, Responses, Role, RunColumns, ValvePlane,
     ValvePlaneTexts,
 };
+use quadtank_record::Record;
 use quadtank_scenario::{roots_to_csv, run_to_csv, valve_map_to_csv};
 
 use leptos::prelude::*;
@@ -117,6 +119,12 @@ pub fn levels(session: Session, held: RwSignal<Option<(f64, f64)>>) -> Picture {
 /// Most events that have a flag: more would hide the curves.
 const MOST_FLAGS: usize = 4;
 
+/// What the response charts show of a record.
+fn columns_of(record: &Record) -> RunColumns<'_> {
+    let Record { time_s, levels: [level_1, level_2, ..], pump_voltage, .. } = record;
+    RunColumns { time_s, levels: [level_1, level_2], voltages: pump_voltage.each_ref().map(Vec::as_slice) }
+}
+
 /// When levels settled, tanks ran over or dry, and pumps came to a limit.
 fn flags(lab: Lab, run: &Run) -> Vec<Flag> {
     let settled = run.metrics.iter().enumerate().filter_map(|(k, m)| {
@@ -162,7 +170,10 @@ pub fn responses(session: Session, held: RwSignal<Option<(f64, f64)>>) -> Pictur
             let columns = pinned.result.as_ref().as_ref().map_or(NOTHING, |run| RunColumns::of(&run.nonlinear));
             (columns, name.as_str())
         });
+        let opened = session.own.record.get();
+        let (record, measured) = (opened.as_ref().and_then(OpenRecord::record), tr!(lab, record.curve));
         visit(&quadtank_figure::responses(&Responses {
+            recorded: record.map(|record| (columns_of(record), measured.as_str())),
             nonlinear: RunColumns::of(&run.nonlinear),
             references: [&run.nonlinear.references[0], &run.nonlinear.references[1]],
             linear: (!hide_linear.get()).then(|| RunColumns::of(&run.linear)),

@@ -7,6 +7,7 @@ use super::metrics::{MetricsTable, why};
 use super::moment::{RigState, use_moment};
 use super::pictures;
 use super::pins;
+use super::record_view::RecordFold;
 use super::session::{Session, use_session};
 use super::set_points::SetPoints;
 use crate::errors::of_study_error;
@@ -79,6 +80,7 @@ pub fn ResponsesCard() -> impl IntoView {
                     <MetricsTable />
                 </details>
                 <DataTable picture=for_table id="data-table" />
+                {(!lab.flags.with_value(|flags| flags.embed)).then(|| view! { <RecordFold /> })}
             </div>
         </Card>
     }

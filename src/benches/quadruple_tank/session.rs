@@ -12,6 +12,7 @@ use quadtank::study::{PinnedResults, StudyError};
 use quadtank_scenario::Scenario;
 
 use super::flags::{self, locks, panels};
+use super::record::OpenRecord;
 use crate::depth::Depth;
 use crate::lab::Lab;
 use crate::session::{self, Bench, Lock, Outcome, Panel, part_of};
@@ -48,6 +49,8 @@ impl Found {
 pub struct Own {
     /// The unit in which levels are shown.
     pub unit: Memo<DisplayUnit>,
+    /// A record of a rig over the responses.
+    pub record: RwSignal<Option<OpenRecord>>,
     /// Where a replay of the run stands (s).
     pub playback: RwSignal<Option<f64>>,
     /// Whether the levels at rest are held when valves are turned in Explore, instead of the pump voltages.
@@ -97,6 +100,7 @@ impl Bench for QuadrupleTank {
     fn own(document: RwSignal<Scenario>) -> Own {
         Own {
             unit: Memo::new(move |_| document.with(|document| document.setup.plant.display_unit())),
+            record: RwSignal::new(None),
             playback: RwSignal::new(None),
             holds_levels: RwSignal::new(true),
             held: StoredValue::new(None),

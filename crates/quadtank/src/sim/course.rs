@@ -96,13 +96,11 @@ pub(super) fn rows_per_sample(experiment: &Experiment, sampling_time_s: f64) -> 
     TimeAxis::new(experiment.duration_s, sampling_time_s).rows_per_sample
 }
 
-/// The few steps of an experiment, the next one last.
+/// The steps of an experiment, the next one last; those at the same time keep their order.
 fn latest_first<'a, T>(steps: impl Iterator<Item = &'a T>, time_s: impl Fn(&T) -> f64) -> Vec<&'a T> {
-    let mut pending: Vec<&T> = Vec::new();
-    for step in steps {
-        let place = pending.partition_point(|later| time_s(later) > time_s(step));
-        pending.insert(place, step);
-    }
+    let mut pending: Vec<&T> = steps.collect();
+    pending.sort_by(|one, other| time_s(one).total_cmp(&time_s(other)));
+    pending.reverse();
     pending
 }
 

@@ -1,6 +1,7 @@
 //! Plant + controller + experiment → trajectories, events and metrics; and the zero dynamics of the nonlinear plant. [`level`] has
 //! runs of one level loop.
 
+mod binary_sequence;
 mod comparison;
 mod course;
 mod experiment;
@@ -24,6 +25,7 @@ mod two_loops;
 mod walls;
 mod zero_dynamics;
 
+pub use binary_sequence::{BinarySequence, binary_moves};
 pub use course::{MAX_JUDGED_WORK, MAX_ROWS, MAX_RUN_WORK};
 pub use experiment::{Experiment, Load, LoadStep, Measurement, PumpVoltageStep, SetPointStep};
 pub use held_tank::HeldTank;

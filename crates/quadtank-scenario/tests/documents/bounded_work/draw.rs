@@ -151,7 +151,8 @@ impl Draw {
         };
         // Every tank is that high.
         let level = Limits { max: limits::TANK_HEIGHT.min, ..limits::LEVEL };
-        let steps_by_hand = if self.one_in(2) { 0 } else { self.index(limits::MAX_PUMP_STEPS + 1) };
+        let steps_by_hand =
+            if self.one_in(2) { 0 } else { self.index(if self.one_in(20) { limits::MAX_PUMP_STEPS } else { 40 }) };
         let [set_points, loads] = [self.index(limits::MAX_STEPS + 1), self.index(limits::MAX_STEPS + 1)];
         Experiment {
             duration_s,

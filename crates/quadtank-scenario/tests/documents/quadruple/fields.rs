@@ -149,7 +149,7 @@ fn too_many_entries_are_counted() {
     for (path, pointer, count, max) in [
         ("setup.experiment.set_point_steps", "/setup/experiment/set_point_steps", 9, limits::MAX_STEPS),
         ("setup.experiment.load_steps", "/setup/experiment/load_steps", 30, limits::MAX_STEPS),
-        ("setup.experiment.pump_voltage_steps", "/setup/experiment/pump_voltage_steps", 1001, limits::MAX_PUMP_STEPS),
+        ("setup.experiment.pump_voltage_steps", "/setup/experiment/pump_voltage_steps", 4001, limits::MAX_PUMP_STEPS),
         ("pinned", "/pinned", Scenario::MAX_PINNED + 1, Scenario::MAX_PINNED),
     ] {
         let mut document = full();

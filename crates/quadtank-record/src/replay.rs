@@ -1,0 +1,154 @@
+//! The experiment that a record is a record of.
+
+use quadtank::plant::OperatingPoint;
+use quadtank::sim::{Measurement, SetPointStep};
+use quadtank::study::quadruple_tank::Setup;
+use quadtank_scenario::limits;
+
+use crate::{Record, RecordError};
+
+/// A reference that moves by no more than this (m) stands still.
+const STILL: f64 = 1e-9;
+
+/// The setup in the experiment of a record: it begins at the first levels of the record, at rest where one was not recorded, and lasts as
+/// long. Pumps whose voltages were recorded follow them; where none was, the references follow the recorded ones. What the experiment of
+/// the setup did to the rig is not done; the measurement has no noise.
+///
+/// With both pumps recorded no controller acts, and the sampling time becomes the spacing of the record, so that every move of a pump
+/// is met.
+///
+/// # Errors
+/// [`RecordError::TooManyMoves`] where pumps or references move more often than an experiment holds.
+pub fn replay(record: &Record, setup: &Setup) -> Result<Setup, RecordError> {
+    let mut replayed = setup.clone();
+    let rest = setup.operating_point().ok();
+    let moves = record.pump_moves(limits::MAX_PUMP_STEPS)?;
+    if record.pump_voltage.iter().all(|column| !column.is_empty()) {
+        replayed.controller.sampling_time_s = limits::SAMPLING_TIME_S.clamp(spacing(record));
+    }
+    let duration = limits::duration_s(replayed.controller.sampling_time_s);
+    let experiment = &mut replayed.experiment;
+    experiment.duration_s = duration.clamp(record.duration_s());
+    experiment.load_steps.clear();
+    experiment.set_point_steps = match rest {
+        Some(rest) if moves.is_empty() => reference_steps(record, &rest)?,
+        _ => Vec::new(),
+    };
+    experiment.pump_voltage_steps = moves;
+    experiment.measurement = Measurement { noise_std: 0.0, ..experiment.measurement };
+    experiment.initial_levels = first_levels(record, setup, rest.as_ref());
+    Ok(replayed)
+}
+
+/// The first levels of the record within the walls (m), or those of the rest; `None` where there is neither, and where none was recorded.
+fn first_levels(record: &Record, setup: &Setup, rest: Option<&OperatingPoint>) -> Option<[f64; 4]> {
+    if record.levels.iter().all(Vec::is_empty) {
+        return None;
+    }
+    let mut levels = [0.0; 4];
+    for (tank, level) in levels.iter_mut().enumerate() {
+        let recorded = record.levels[tank].iter().copied().find(|value| !value.is_nan());
+        let height = setup.plant.rig().tanks[tank].height;
+        *level = recorded.or(rest.map(|rest| rest.levels[tank]))?.clamp(0.0, height);
+    }
+    Some(levels)
+}
+
+/// Time between most rows (s): the median.
+fn spacing(record: &Record) -> f64 {
+    let mut between: Vec<f64> = record.time_s.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    between.sort_by(f64::total_cmp);
+    between.get(between.len() / 2).copied().unwrap_or(1.0)
+}
+
+/// The moves of the recorded references away from those at rest.
+fn reference_steps(record: &Record, rest: &OperatingPoint) -> Result<Vec<SetPointStep>, RecordError> {
+    let mut steps = Vec::new();
+    for (level, column) in record.references.iter().enumerate() {
+        let mut last = rest.levels[level];
+        for (&time_s, &reference) in record.time_s.iter().zip(column).filter(|(_, reference)| !reference.is_nan()) {
+            if (reference - last).abs() > STILL {
+                steps.push(SetPointStep { level, time_s, size: reference - last });
+                last = reference;
+            }
+        }
+    }
+    if steps.len() > limits::MAX_STEPS {
+        return Err(RecordError::TooManyMoves { moves: steps.len(), max: limits::MAX_STEPS });
+    }
+    Ok(steps)
+}
+
+#[cfg(test)]
+mod tests {
+    use quadtank::literature::PresetId;
+    use quadtank::study::quadruple_tank::{run, setup_of};
+    use quadtank_scenario::{Scenario, document_from_json, run_to_csv, to_json};
+
+    use super::*;
+    use crate::{Mapping, Table, agreement};
+
+    /// A record is what the laboratory writes of a run.
+    fn recorded(setup: &Setup) -> Record {
+        let table = Table::read(run_to_csv(&run(setup).unwrap()).as_bytes()).unwrap();
+        Record::of(&table, &Mapping::guess(&table), 50.0).unwrap()
+    }
+
+    #[test]
+    fn a_run_that_is_written_and_read_is_done_again() {
+        let mut setup = setup_of(PresetId::JohanssonMinimumPhase);
+        setup.experiment.duration_s = 1500.0;
+        let record = recorded(&setup);
+        let replayed = replay(&record, &setup).unwrap();
+        assert_eq!(replayed.experiment.duration_s, 1500.0);
+        assert!(replayed.experiment.is_by_hand(0) && replayed.experiment.is_by_hand(1));
+        let found = agreement(&record, &run(&replayed).unwrap().nonlinear);
+        for of_level in found.levels.iter().take(2) {
+            // What is left is the time of a move: a row of the record may be a little after the sample at which the pump moved.
+            assert!(of_level.unwrap().fit_percent.unwrap() > 99.9, "{of_level:?}");
+        }
+        assert!(found.pump_voltage[0].unwrap().rmse < 1e-9);
+        // It is a document that can be kept.
+        let json = to_json(&Scenario::from(replayed)).unwrap();
+        assert!(document_from_json(&json).is_ok());
+    }
+
+    #[test]
+    fn references_are_followed_where_no_pump_was_recorded() {
+        let mut setup = setup_of(PresetId::JohanssonMinimumPhase);
+        let record = Record { pump_voltage: Default::default(), ..recorded(&setup) };
+        let replayed = replay(&record, &setup).unwrap();
+        assert!(replayed.experiment.pump_voltage_steps.is_empty());
+        let sizes: Vec<f64> = replayed.experiment.set_point_steps.iter().map(|step| step.size).collect();
+        let expected: Vec<f64> = setup.experiment.set_point_steps.iter().map(|step| step.size).collect();
+        assert_eq!(sizes.len(), expected.len());
+        assert!(sizes.iter().zip(expected).all(|(size, expected)| (size - expected).abs() < 1e-12), "{sizes:?}");
+        let found = agreement(&record, &run(&replayed).unwrap().nonlinear);
+        assert!(found.levels[0].unwrap().rmse < 1e-6, "{found:?}");
+    }
+
+    #[test]
+    fn more_moves_than_an_experiment_holds_are_counted() {
+        let setup = setup_of(PresetId::JohanssonMinimumPhase);
+        let record = Record {
+            time_s: (0..5000).map(f64::from).collect(),
+            pump_voltage: [(0..5000).map(|k| f64::from(k % 2)).collect(), vec![]],
+            ..Record::default()
+        };
+        let error = RecordError::TooManyMoves { moves: 5000, max: limits::MAX_PUMP_STEPS };
+        assert_eq!(replay(&record, &setup), Err(error));
+    }
+
+    #[test]
+    fn levels_that_were_not_recorded_begin_at_rest() {
+        let setup = setup_of(PresetId::JohanssonMinimumPhase);
+        let rest = setup.operating_point().unwrap().levels;
+        let record = Record {
+            time_s: vec![0.0, 50.0],
+            levels: [vec![0.05, 0.06], vec![9.0, 9.0], vec![], vec![]],
+            ..Record::default()
+        };
+        // A level above its wall is one at its wall.
+        assert_eq!(replay(&record, &setup).unwrap().experiment.initial_levels, Some([0.05, 0.2, rest[2], rest[3]]));
+    }
+}

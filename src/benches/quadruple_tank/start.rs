@@ -1,0 +1,162 @@
+//! Where the run begins, and who moves the pumps.
+
+use leptos::prelude::*;
+use quadtank::sim::binary_moves;
+use quadtank::study::quadruple_tank::Setup;
+use quadtank_scenario::Limits;
+
+use super::flags::locks;
+use super::session::use_session;
+use crate::controls::{ParamControl, ParamNumber};
+use crate::lab::Lab;
+use crate::shown::{ShownUnit, unit_name};
+use crate::texts::{say, tr};
+use crate::widgets::{Choice, Select};
+
+/// How far a pseudo-random sequence moves a pump to either side, as a share of its range.
+const RANDOM_SHARE: f64 = 0.05;
+/// Bits of such a sequence in an experiment.
+const RANDOM_BITS: f64 = 60.0;
+
+const LOWER: ParamControl<Setup> = ParamControl {
+    ids: [("", "start-level1"), ("", "start-level2")],
+    name: |lab, k| tr!(lab, experiment.start_level, number = k + 1),
+    read: |s, k| initial_level(s, k),
+    write: |s, k, level| set_initial_level(s, k, level),
+    within: |s, k| Limits::new(0.0, s.plant().tanks[k].height),
+    ..LEVEL
+};
+const UPPER: ParamControl<Setup> = ParamControl {
+    ids: [("", "start-level3"), ("", "start-level4")],
+    name: |lab, k| tr!(lab, experiment.start_level, number = k + 3),
+    read: |s, k| initial_level(s, k + 2),
+    write: |s, k, level| set_initial_level(s, k + 2, level),
+    within: |s, k| Limits::new(0.0, s.plant().tanks[k + 2].height),
+    ..LEVEL
+};
+const LEVEL: ParamControl<Setup> = ParamControl {
+    path: |_, _| "experiment.initial_levels[]",
+    shown_unit: Some(|s| ShownUnit::length(s.plant.display_unit())),
+    digits: Some(2),
+    ..ParamControl::locked_by(locks::EXPERIMENT)
+};
+
+fn initial_level(setup: &Setup, tank: usize) -> f64 {
+    setup.experiment.initial_levels.map_or(0.0, |levels| levels[tank])
+}
+
+fn set_initial_level(setup: &mut Setup, tank: usize, level: f64) {
+    if let Some(levels) = &mut setup.experiment.initial_levels {
+        levels[tank] = level;
+    }
+}
+
+/// At rest, or from levels that are given: at first those of the rest.
+#[component]
+pub fn StartControls() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let is_given = session.part(|s| s.experiment.initial_levels.is_some());
+    let choose = move |given: bool| {
+        session.edit(|s| {
+            let heights = s.plant().tanks.map(|tank| tank.height);
+            let rest = s.operating_point().map_or([0.0; 4], |point| point.levels);
+            let within = [0, 1, 2, 3].map(|tank| rest[tank].clamp(0.0, heights[tank]));
+            s.experiment.initial_levels = given.then_some(within);
+        });
+    };
+    let choices = Signal::derive(move || {
+        vec![
+            Choice::new(false, "rest", tr!(lab, experiment.start_rest)),
+            Choice::new(true, "levels", tr!(lab, experiment.start_levels)),
+        ]
+    });
+    let fields = move || {
+        view! {
+            <div class="levels" role="group" aria-label=say!(lab, experiment.start)>
+                {[&LOWER, &UPPER].into_iter().enumerate().flat_map(|(row, control)| [0, 1].map(|index| {
+                    let symbol = ["h₁", "h₂", "h₃", "h₄"][2 * row + index];
+                    view! { <span class="field"><span aria-hidden="true">{symbol}</span><ParamNumber session control index /></span> }
+                })).collect_view()}
+                <span class="unit">{move || unit_name(session.own.unit.get())}</span>
+            </div>
+        }
+    };
+    view! {
+        <div class="row load">
+            <label for="start-kind">{say!(lab, experiment.start)}</label>
+            <Select id="start-kind" labelled="start-kind" choices chosen=is_given on_choose=choose disabled=lab.locks(locks::EXPERIMENT) />
+        </div>
+        {move || is_given.get().then(fields)}
+    }
+}
+
+/// Who moves the pumps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Pumps {
+    /// Their controllers.
+    Controlled,
+    /// A hand, in pseudo-random steps that are still to be made.
+    Random,
+    /// A hand, in so many steps that the document holds.
+    Given(usize),
+}
+
+impl Pumps {
+    fn of(setup: &Setup) -> Self {
+        match setup.experiment.pump_voltage_steps.len() {
+            0 => Self::Controlled,
+            steps => Self::Given(steps),
+        }
+    }
+
+    fn choice(self, lab: Lab) -> Choice<Self> {
+        match self {
+            Self::Controlled => Choice::new(self, "controlled", tr!(lab, experiment.pumps_controlled)),
+            Self::Random => Choice::new(self, "random", tr!(lab, experiment.pumps_random)),
+            Self::Given(count) => Choice::new(self, "given", tr!(lab, experiment.pumps_given, count = count)),
+        }
+    }
+}
+
+/// Controllers, or a sequence of steps by hand.
+#[component]
+pub fn PumpControls() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let chosen = session.part(Pumps::of);
+    let choose = move |pumps: Pumps| {
+        session.edit(|s| match pumps {
+            Pumps::Controlled => s.experiment.pump_voltage_steps.clear(),
+            Pumps::Random => move_at_random(s),
+            Pumps::Given(_) => {}
+        });
+    };
+    let choices = Signal::derive(move || {
+        let given = Some(chosen.get()).filter(|pumps| matches!(pumps, Pumps::Given(_)));
+        [Pumps::Controlled, Pumps::Random].into_iter().chain(given).map(|pumps| pumps.choice(lab)).collect::<Vec<_>>()
+    });
+    let is_by_hand = move || matches!(chosen.get(), Pumps::Given(_));
+    view! {
+        <div class="row load">
+            <label for="pumps-kind">{say!(lab, experiment.pumps)}</label>
+            <Select id="pumps-kind" labelled="pumps-kind" choices chosen on_choose=choose disabled=lab.locks(locks::EXPERIMENT) />
+        </div>
+        <p class="remark" hidden=move || !is_by_hand()>{say!(lab, experiment.pumps_remark)}</p>
+    }
+}
+
+/// Pseudo-random steps around the operating point, within the limits of the pumps. Every step is at a sample.
+fn move_at_random(setup: &mut Setup) {
+    let Ok(point) = setup.operating_point() else { return };
+    let pumps = setup.plant().pumps;
+    let end = |side: f64| {
+        [0, 1].map(|k| {
+            let range = pumps[k].voltage_max - pumps[k].voltage_min;
+            (point.pump_voltage[k] + side * RANDOM_SHARE * range).max(pumps[k].voltage_min).min(pumps[k].voltage_max)
+        })
+    };
+    let sampling = setup.controller.sampling_time_s;
+    let clock_s = (setup.experiment.duration_s / RANDOM_BITS / sampling).ceil() * sampling;
+    setup.experiment.pump_voltage_steps = binary_moves(end(-1.0), end(1.0), clock_s, setup.experiment.duration_s);
+}
