@@ -28,31 +28,33 @@ pub struct RecordAgreement {
 
 /// Compares a run with a record at the recorded times. Levels of the run are interpolated between its rows; its voltages hold.
 pub fn agreement(record: &Record, run: &Trajectory) -> RecordAgreement {
-    let of = |recorded: &[f64], simulated: &[f64], held: bool| {
-        let values = values(run, simulated, held);
-        compared(record.time_s.iter().zip(recorded).filter_map(|(&time, &y)| Some((y, values(time)?))))
+    let of = |recorded: &[f64], simulated: &dyn Fn(f64) -> Option<f64>| {
+        compared(record.time_s.iter().zip(recorded).filter_map(|(&time, &y)| Some((y, simulated(time)?))))
     };
-    RecordAgreement {
-        levels: [0, 1, 2, 3].map(|tank| of(&record.levels[tank], &run.levels[tank], false)),
-        pump_voltage: [0, 1].map(|pump| of(&record.pump_voltage[pump], &run.pump_voltage[pump], true)),
-    }
+    let level = |tank: usize| of(&record.levels[tank], &|time| interpolated(run, &run.levels[tank], time));
+    let voltage = |pump: usize| of(&record.pump_voltage[pump], &|time| held(run, &run.pump_voltage[pump], time));
+    RecordAgreement { levels: [0, 1, 2, 3].map(level), pump_voltage: [0, 1].map(voltage) }
 }
 
-/// A column of a run as a function of time (s), where it has one.
-fn values(run: &Trajectory, column: &[f64], held: bool) -> impl Fn(f64) -> Option<f64> {
-    move |time| {
-        let last = *run.time_s.last()?;
-        if time < *run.time_s.first()? || time > last {
-            return None;
-        }
-        let after = run.time_s.partition_point(|&t| t <= time);
-        let before = after - 1;
-        let (y0, t0) = (column[before], run.time_s[before]);
-        match (column.get(after), run.time_s.get(after)) {
-            (Some(&y1), Some(&t1)) if !held => Some(y0 + (y1 - y0) * (time - t0) / (t1 - t0)),
-            _ => Some(y0),
-        }
-    }
+/// A column of a run at a time (s), between its rows; `None` where the run is not.
+pub(crate) fn interpolated(run: &Trajectory, column: &[f64], time: f64) -> Option<f64> {
+    let after = row_after(run, time)?;
+    let (y0, t0) = (column[after - 1], run.time_s[after - 1]);
+    Some(match (column.get(after), run.time_s.get(after)) {
+        (Some(&y1), Some(&t1)) => y0 + (y1 - y0) * (time - t0) / (t1 - t0),
+        _ => y0,
+    })
+}
+
+/// A column of a run at a time (s), as of the row before it.
+fn held(run: &Trajectory, column: &[f64], time: f64) -> Option<f64> {
+    Some(column[row_after(run, time)? - 1])
+}
+
+/// The first row after a time within the run (s).
+fn row_after(run: &Trajectory, time: f64) -> Option<usize> {
+    let (first, last) = (*run.time_s.first()?, *run.time_s.last()?);
+    (first <= time && time <= last).then(|| run.time_s.partition_point(|&t| t <= time))
 }
 
 /// Recorded and simulated values against each other; holes are left out.

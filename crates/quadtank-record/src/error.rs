@@ -94,4 +94,18 @@ pub enum RecordError {
         /// How often they may.
         max: usize,
     },
+    /// No parameter is free, or no level was recorded.
+    #[error("nothing to fit: choose parameters, and record levels")]
+    NothingToFit,
+    /// Fewer values than parameters.
+    #[error("{values} recorded values do not tell {parameters} parameters")]
+    TooFewValues {
+        /// Values that can be compared.
+        values: usize,
+        /// Free parameters.
+        parameters: usize,
+    },
+    /// The experiment of the record cannot be run on the rig.
+    #[error("the experiment of the record cannot be run on this rig")]
+    CannotRun,
 }

@@ -36,15 +36,17 @@ pub fn replay(record: &Record, setup: &Setup) -> Result<Setup, RecordError> {
     };
     experiment.pump_voltage_steps = moves;
     experiment.measurement = Measurement { noise_std: 0.0, ..experiment.measurement };
-    experiment.initial_levels = first_levels(record, setup, rest.as_ref());
+    experiment.initial_levels = first_levels(record, setup);
     Ok(replayed)
 }
 
-/// The first levels of the record within the walls (m), or those of the rest; `None` where there is neither, and where none was recorded.
-fn first_levels(record: &Record, setup: &Setup, rest: Option<&OperatingPoint>) -> Option<[f64; 4]> {
+/// The first levels of the record within the walls (m), or those of the setup at rest; `None` where there is neither, and where none was
+/// recorded.
+pub(crate) fn first_levels(record: &Record, setup: &Setup) -> Option<[f64; 4]> {
     if record.levels.iter().all(Vec::is_empty) {
         return None;
     }
+    let rest = setup.operating_point().ok();
     let mut levels = [0.0; 4];
     for (tank, level) in levels.iter_mut().enumerate() {
         let recorded = record.levels[tank].iter().copied().find(|value| !value.is_nan());
@@ -115,7 +117,7 @@ mod tests {
 
     #[test]
     fn references_are_followed_where_no_pump_was_recorded() {
-        let mut setup = setup_of(PresetId::JohanssonMinimumPhase);
+        let setup = setup_of(PresetId::JohanssonMinimumPhase);
         let record = Record { pump_voltage: Default::default(), ..recorded(&setup) };
         let replayed = replay(&record, &setup).unwrap();
         assert!(replayed.experiment.pump_voltage_steps.is_empty());

@@ -3,6 +3,7 @@
 mod controller;
 mod experiment;
 mod explore;
+mod fit_view;
 mod flags;
 mod marks;
 mod metrics;

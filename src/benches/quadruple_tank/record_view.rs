@@ -6,6 +6,7 @@ use leptos::html::Input;
 use leptos::prelude::*;
 use quadtank_record::{Agreement, ColumnMeaning, MAX_BYTES, RecordError, Signal as Recorded, Unit, agreement, replay};
 
+use super::fit_view::FitControls;
 use super::flags::locks;
 use super::record::OpenRecord;
 use super::session::{Session, use_session};
@@ -115,7 +116,7 @@ fn OpenFile() -> impl IntoView {
             {move || told().map(|(_, text)| text)}
         </p>
         <Columns />
-        {move || is_record.get().then(|| view! { <AgreementTable /><RunButton /> })}
+        {move || is_record.get().then(|| view! { <AgreementTable /><RunButton /><FitControls /> })}
     }
 }
 
@@ -325,7 +326,7 @@ fn unit_text(lab: Lab, unit: Unit) -> String {
 }
 
 /// Why a file is no record, or cannot be run.
-fn why(lab: Lab, error: &RecordError) -> String {
+pub fn why(lab: Lab, error: &RecordError) -> String {
     let style = lab.number_style();
     let megabytes = |bytes: usize| style.fixed(bytes as f64 / MEGABYTE, 0);
     match error {
@@ -355,5 +356,10 @@ fn why(lab: Lab, error: &RecordError) -> String {
             tr!(lab, record.time_back, line = line, before = before, after = after)
         }
         RecordError::TooManyMoves { moves, max } => tr!(lab, record.too_many, moves = moves, max = max),
+        RecordError::NothingToFit => tr!(lab, record.nothing_to_fit),
+        RecordError::TooFewValues { values, parameters } => {
+            tr!(lab, record.too_few, values = values, parameters = parameters)
+        }
+        RecordError::CannotRun => tr!(lab, record.cannot_run),
     }
 }

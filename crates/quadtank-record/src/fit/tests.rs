@@ -1,0 +1,103 @@
+use quadtank::literature::PresetId;
+use quadtank::sim::binary_moves;
+use quadtank::study::quadruple_tank::{PlantSpec, Setup, run, setup_of};
+
+use super::*;
+
+/// A record of a rig whose parameters are known, moved by pseudo-random steps, and what is believed of the rig.
+fn recorded(change: impl Fn(&mut quadtank::plant::QuadrupleTank), noise_std: f64) -> (Record, Setup) {
+    let mut setup = setup_of(PresetId::JohanssonMinimumPhase);
+    setup.experiment.duration_s = 1500.0;
+    setup.experiment.set_point_steps.clear();
+    setup.experiment.pump_voltage_steps = binary_moves([2.5, 2.5], [3.5, 3.5], 40.0, 1500.0);
+    let mut truth = setup.clone();
+    let mut rig = truth.plant();
+    change(&mut rig);
+    truth.valves = rig.valves;
+    truth.plant = PlantSpec::Parameters { rig, display_unit: setup.plant.display_unit() };
+    let run = run(&truth).unwrap().nonlinear;
+    // Noise by a fixed sequence of signs, which is white enough.
+    let signs: Vec<bool> = quadtank::sim::BinarySequence::from_bit(11).take(127).collect();
+    let noisy = |tank: usize| -> Vec<f64> {
+        let noise = |row: usize| if signs[(7 * row + 31 * tank) % 127] { noise_std } else { -noise_std };
+        run.levels[tank].iter().enumerate().map(|(row, level)| level + noise(row)).collect()
+    };
+    let record = Record {
+        levels: [noisy(0), noisy(1), vec![], vec![]],
+        pump_voltage: run.pump_voltage.clone(),
+        time_s: run.time_s.clone(),
+        ..Record::default()
+    };
+    (record, setup)
+}
+
+fn fitted(record: &Record, setup: &Setup, names: &[&str]) -> FitReport {
+    let parameters: Vec<Parameter> = names.iter().map(|name| Parameter::of_name(name).unwrap()).collect();
+    let mut fit = Fit::new(setup, record, &parameters).unwrap();
+    while !fit.is_over() {
+        fit.advance();
+    }
+    fit.report()
+}
+
+#[test]
+fn valves_and_pump_gains_are_found_within_two_percent() {
+    let (record, setup) = recorded(
+        |rig| {
+            rig.valves = [0.55, 0.68];
+            rig.pumps[0].gain *= 1.2;
+            rig.pumps[1].gain *= 0.85;
+        },
+        5e-4,
+    );
+    let report = fitted(&record, &setup, &["gamma1", "gamma2", "k1", "k2"]);
+    assert!(report.converged && report.alike.is_empty() && report.vague.is_empty(), "{report:?}");
+    let rig = setup.plant();
+    let truth = [0.55, 0.68, 1.2 * rig.pumps[0].gain, 0.85 * rig.pumps[1].gain];
+    for (estimate, truth) in report.estimates.iter().zip(truth) {
+        assert!((estimate.value / truth - 1.0).abs() < 0.02, "{estimate:?} {truth}");
+        let error = estimate.standard_error.unwrap();
+        assert!((estimate.value - truth).abs() < 5.0 * error + 1e-4 * truth, "{estimate:?} {truth}");
+        assert!(!estimate.is_at_bound);
+    }
+    assert!(report.rmse[0] > 0.005 && report.rmse[1] < 6e-4, "{:?}", report.rmse);
+}
+
+#[test]
+fn outlets_and_offsets_are_found_too() {
+    let (mut record, setup) = recorded(|rig| rig.tanks[0].outlet.area *= 1.1, 0.0);
+    record.levels[1].iter_mut().for_each(|level| *level += 0.004);
+    let report = fitted(&record, &setup, &["a1", "offset2"]);
+    let area = 1.1 * setup.plant().tanks[0].outlet.area;
+    assert!((report.estimates[0].value / area - 1.0).abs() < 1e-3, "{report:?}");
+    assert!((report.estimates[1].value - 0.004).abs() < 1e-4, "{report:?}");
+}
+
+#[test]
+fn what_a_record_cannot_tell_is_said() {
+    // At rest the flow into tank 1 is γ1 k1 v1 alone: neither factor can be told from the other where nothing moves.
+    let mut setup = setup_of(PresetId::JohanssonMinimumPhase);
+    let rest = setup.operating_point().unwrap();
+    setup.experiment.set_point_steps.clear();
+    let rows = 100;
+    let record = Record {
+        time_s: (0..rows).map(f64::from).collect(),
+        levels: [vec![rest.levels[0]; 100], vec![], vec![], vec![]],
+        pump_voltage: rest.pump_voltage.map(|voltage| vec![voltage; 100]),
+        ..Record::default()
+    };
+    let report = fitted(&record, &setup, &["gamma1", "k1"]);
+    assert!(report.correlation.is_none() || report.alike == [[0, 1]], "{report:?}");
+}
+
+#[test]
+fn without_levels_or_parameters_there_is_nothing_to_fit() {
+    let (record, setup) = recorded(|_| (), 0.0);
+    assert_eq!(Fit::new(&setup, &record, &[]).unwrap_err(), RecordError::NothingToFit);
+    let bare = Record { levels: Default::default(), ..record.clone() };
+    assert_eq!(Fit::new(&setup, &bare, &[Parameter::Valve(0)]).unwrap_err(), RecordError::NothingToFit);
+    let short =
+        Record { time_s: vec![0.0, 20.0], levels: [vec![0.1, 0.1], vec![], vec![], vec![]], ..Record::default() };
+    let error = Fit::new(&setup, &short, &[Parameter::Valve(0), Parameter::Valve(1)]).unwrap_err();
+    assert_eq!(error, RecordError::TooFewValues { values: 2, parameters: 2 });
+}
