@@ -29,6 +29,7 @@ mod model_free;
 mod plot;
 mod published;
 mod quantities;
+mod record;
 mod report;
 mod scorm;
 mod tune;
@@ -39,6 +40,7 @@ use check::{CheckFault, CheckOptions};
 use files::{bytes_of, file_name, is_standard_stream, print, print_json, write_file};
 use level_loop::SearchOptions;
 use published::{Case, case_of, list_of_cases, list_of_presets, preset_parser};
+use record::{RecordFault, RecordOptions};
 use scorm::{ScormFault, ScormOptions};
 
 /// The quadruple-tank laboratory without a screen.
@@ -81,6 +83,12 @@ enum Command {
         #[arg(long, value_enum, default_value_t = Format::Csv)]
         format: Format,
     },
+    /// Hold a run of the quadruple tank against a measured record, or fit the rig to it
+    ///
+    /// The run does what the record did: it begins at its first levels, lasts as long, and its pumps follow the recorded voltages, or
+    /// its references the recorded ones where no pump was recorded. The answer is JSON: RMSE, largest difference and fit in percent of
+    /// each signal, and fitted parameters with standard errors and correlation.
+    Record(RecordOptions),
     /// Draw a chart of a scenario
     Plot {
         #[command(flatten)]
@@ -203,6 +211,8 @@ enum Failure {
     #[error("{0}")]
     Check(#[from] CheckFault),
     #[error("{0}")]
+    Record(#[from] RecordFault),
+    #[error("{0}")]
     Scorm(#[from] ScormFault),
     /// The faults of lessons, each of which is told by then.
     #[error("the lesson has faults")]
@@ -280,6 +290,7 @@ fn execute(command: Command) -> Result<(), Failure> {
         Command::Presets { name: None } => print(&list_of_presets()),
         Command::Presets { name: Some(id) } => print_document(id.name(), to_json(&Scenario::from(setup_of(id)))),
         Command::Check(options) => check::run(&options),
+        Command::Record(options) => record::execute(&options),
         Command::Scorm(options) => scorm::run(&options),
         Command::Schema { lesson: true, .. } => print_json(&lesson_schema()),
         Command::Schema { version, report: None, .. } => print_json(&schema_of(version)),

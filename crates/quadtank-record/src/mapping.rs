@@ -30,6 +30,17 @@ impl Signal {
         Self::PumpVoltage(1),
     ];
 
+    /// Its name on the command line: `time`, `level1`, `reference2`, `pump1`.
+    pub fn name(self) -> String {
+        let (word, index) = match self {
+            Self::Time => return "time".to_owned(),
+            Self::Level(index) => ("level", index),
+            Self::Reference(index) => ("reference", index),
+            Self::PumpVoltage(index) => ("pump", index),
+        };
+        format!("{word}{}", index + 1)
+    }
+
     /// The units that it may be written in; the first one where nothing else is said.
     pub const fn units(self) -> &'static [Unit] {
         use Unit::{
@@ -84,6 +95,14 @@ impl Unit {
             Self::Inch => "in",
             Self::SensorVolt | Self::Volt => "V",
             Self::Millivolt => "mV",
+        }
+    }
+
+    /// Its name on the command line: the symbol, but for volts of a level sensor.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::SensorVolt => "sensor-V",
+            other => other.symbol(),
         }
     }
 

@@ -185,9 +185,8 @@ fn ColumnRow(index: usize, name: String, first: Option<f64>) -> impl IntoView {
     let choose_unit = move |unit: Unit| set(meaning.get_untracked().map(|meaning| ColumnMeaning { unit, ..meaning }));
     let signals = Signal::derive(move || {
         let none = Choice::new(None, "none", tr!(lab, record.left_out));
-        let all = Recorded::ALL
-            .into_iter()
-            .map(|signal| Choice::new(Some(signal), signal_id(signal), signal_name(lab, signal)));
+        let all =
+            Recorded::ALL.into_iter().map(|signal| Choice::new(Some(signal), signal.name(), signal_name(lab, signal)));
         std::iter::once(none).chain(all).collect::<Vec<_>>()
     });
     let units = Signal::derive(move || {
@@ -299,16 +298,6 @@ fn RunButton() -> impl IntoView {
             </button>
             <span class="remark" role="status" class:warm=move || refused.with(Option::is_some)>{told}</span>
         </p>
-    }
-}
-
-/// The name of a signal in the page.
-fn signal_id(signal: Recorded) -> String {
-    match signal {
-        Recorded::Time => "time".to_owned(),
-        Recorded::Level(tank) => format!("level{}", tank + 1),
-        Recorded::Reference(level) => format!("reference{}", level + 1),
-        Recorded::PumpVoltage(pump) => format!("pump{}", pump + 1),
     }
 }
 

@@ -53,6 +53,7 @@ fn responses(setup: &Setup, style: &Style) -> Result<String, StudyError> {
     };
     let [pump_1, pump_2] = plant.pumps;
     let charts = quadtank_figure::responses(&Responses {
+        recorded: None,
         nonlinear: RunColumns::of(&run.nonlinear),
         references: run.nonlinear.references.each_ref().map(Vec::as_slice),
         linear: Some(RunColumns::of(&run.linear)),

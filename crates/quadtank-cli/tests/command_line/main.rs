@@ -7,6 +7,7 @@ mod level_loop;
 mod model_free;
 mod quadruple;
 mod quantities;
+mod record;
 mod reports;
 mod schema;
 mod set;

@@ -57,6 +57,7 @@ impl Run {
 pub fn response_spec<'a>(run: &'a Run, linear: Option<&'a Run>, pinned: Option<&'a Run>) -> Responses<'a> {
     Responses {
         nonlinear: run.columns(),
+        recorded: None,
         references: [&run.references[0], &run.references[1]],
         linear: linear.map(Run::columns),
         pinned: pinned.map(|run| (run.columns(), "pinned")).into_iter().collect(),

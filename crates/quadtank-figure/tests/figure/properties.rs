@@ -135,6 +135,7 @@ proptest! {
         let usual = Run::step(1.0);
         let spec = Responses {
             nonlinear: run,
+            recorded: None,
             references: [&level, &level],
             linear: Some(run),
             pinned: vec![(usual.columns(), "pinned")],

@@ -1,0 +1,162 @@
+//! A measured record beside a run of the quadruple tank, and the rig fitted to it.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use quadtank::sim::Trajectory;
+use quadtank::study::quadruple_tank::{Setup, run};
+use quadtank_record::{
+    ColumnMeaning, Fit, FitReport, MAX_BYTES, Mapping, Parameter, Record, RecordAgreement, RecordError, Signal, Table,
+    agreement, replay,
+};
+use quadtank_scenario::{Document, Scenario, ScenarioError, to_json};
+use serde::Serialize;
+use thiserror::Error;
+
+use super::files::{bytes_of, file_name, print_json, write_file};
+use super::{Failure, Source, document_of, told};
+
+/// A scenario and a record.
+#[derive(Args)]
+pub struct RecordOptions {
+    #[command(flatten)]
+    source: Source,
+    /// Record: CSV or TSV with names of columns such as `t (s)`, `h1 (cm)`, `u1 (V)`
+    record: PathBuf,
+    /// What a column is, by its number from 1, if its name does not say: `2=level1:mm`, `3=none`; may be repeated
+    #[arg(long = "column", value_name = "N=SIGNAL[:UNIT]", value_parser = column_of)]
+    columns: Vec<(usize, Option<ColumnMeaning>)>,
+    /// Compare with the experiment of the scenario, not with that of the record
+    #[arg(long)]
+    own_experiment: bool,
+    /// Fit this parameter of the rig to the record; may be repeated: gamma1, gamma2, k1, k2, a1 to a4, offset1, offset2
+    #[arg(long = "fit", value_name = "PARAMETER", conflicts_with = "own_experiment", value_parser = parameter_of)]
+    parameters: Vec<Parameter>,
+    /// Write the scenario that was compared, with the fitted rig
+    #[arg(long, value_name = "OUT")]
+    scenario: Option<PathBuf>,
+}
+
+/// Why there is no report.
+#[derive(Debug, Error)]
+pub enum RecordFault {
+    #[error("{file}: {error}")]
+    Record { file: String, error: RecordError },
+    #[error("{file}: there is no column {column}; it has {count}")]
+    NoColumn { file: String, column: usize, count: usize },
+    #[error("a record is held against a run of the quadruple tank, version 1")]
+    OtherBench,
+}
+
+/// What is printed.
+#[derive(Serialize)]
+struct Report {
+    columns: Vec<ColumnReport>,
+    rows: usize,
+    duration_s: f64,
+    /// Cells that are holes, and rows that repeat a time: neither is compared.
+    missing: usize,
+    repeated: usize,
+    agreement: RecordAgreement,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fit: Option<FitReport>,
+}
+
+#[derive(Serialize)]
+struct ColumnReport {
+    name: String,
+    meaning: Option<ColumnMeaning>,
+}
+
+fn parameter_of(name: &str) -> Result<Parameter, String> {
+    let known = || Parameter::ALL.map(Parameter::name).join(", ");
+    Parameter::of_name(name).ok_or_else(|| format!("it is one of {}", known()))
+}
+
+/// `2=level1:mm`
+fn column_of(text: &str) -> Result<(usize, Option<ColumnMeaning>), String> {
+    const HOW: &str = "a number of a column from 1, =, and time, level1 to level4, reference1, reference2, pump1, pump2 or none, \
+                       with : and a unit if need be";
+    let (column, meaning) = text.split_once('=').ok_or(HOW)?;
+    let column = column.parse().ok().filter(|&column| column > 0).ok_or(HOW)?;
+    let (signal, unit) = meaning.split_once(':').map_or((meaning, None), |(signal, unit)| (signal, Some(unit)));
+    if signal == "none" {
+        return Ok((column, None));
+    }
+    let signal = Signal::ALL.into_iter().find(|known| known.name() == signal).ok_or(HOW)?;
+    let unit = match unit {
+        None => signal.units()[0],
+        Some(symbol) => *signal.units().iter().find(|unit| unit.name() == symbol).ok_or_else(|| {
+            format!(
+                "the units of {} are {}",
+                signal.name(),
+                signal.units().iter().map(|unit| unit.name()).collect::<Vec<_>>().join(", ")
+            )
+        })?,
+    };
+    Ok((column, Some(ColumnMeaning { signal, unit })))
+}
+
+/// Reads both, compares, fits, and prints what was found.
+pub fn execute(options: &RecordOptions) -> Result<(), Failure> {
+    let Document::Quadruple(mut scenario) = document_of(&options.source)? else {
+        return Err(RecordFault::OtherBench.into());
+    };
+    let (table, mapping) = table_of(options)?;
+    let wrong = |error| RecordFault::Record { file: file_name(&options.record), error };
+    let record = Record::of(&table, &mapping, scenario.setup.plant().sensor.gain).map_err(wrong)?;
+    let mut found = None;
+    if !options.parameters.is_empty() {
+        let fit = fitted(&scenario.setup, &record, &options.parameters).map_err(wrong)?;
+        scenario.setup = fit.setup(&scenario.setup);
+        found = Some(fit.report());
+    }
+    if !options.own_experiment {
+        scenario.setup = replay(&record, &scenario.setup).map_err(wrong)?;
+    }
+    let run = nonlinear(&options.source.file, &scenario.setup)?;
+    if let Some(out) = &options.scenario {
+        write_file(out, told(out, to_json(&Scenario { pinned: Vec::new(), ..scenario.clone() }))? + "\n")?;
+    }
+    print_json(&Report {
+        columns: table
+            .columns
+            .into_iter()
+            .zip(mapping.0)
+            .map(|(column, meaning)| ColumnReport { name: column.name, meaning })
+            .collect(),
+        rows: record.time_s.len(),
+        duration_s: record.duration_s(),
+        missing: record.missing,
+        repeated: record.repeated,
+        agreement: agreement(&record, &run),
+        fit: found,
+    })
+}
+
+/// The table of the record, and what its columns are.
+fn table_of(options: &RecordOptions) -> Result<(Table, Mapping), Failure> {
+    let file = file_name(&options.record);
+    let table = Table::read(&bytes_of(&options.record, MAX_BYTES)?)
+        .map_err(|error| RecordFault::Record { file: file.clone(), error })?;
+    let mut mapping = Mapping::guess(&table);
+    for &(column, meaning) in &options.columns {
+        let count = table.columns.len();
+        let place = mapping.0.get_mut(column - 1).ok_or(RecordFault::NoColumn { file: file.clone(), column, count })?;
+        *place = meaning;
+    }
+    Ok((table, mapping))
+}
+
+fn fitted(setup: &Setup, record: &Record, parameters: &[Parameter]) -> Result<Fit, RecordError> {
+    let mut fit = Fit::new(setup, record, parameters)?;
+    while !fit.is_over() {
+        fit.advance();
+    }
+    Ok(fit)
+}
+
+fn nonlinear(file: &Path, setup: &Setup) -> Result<Trajectory, Failure> {
+    let found = run(setup).map_err(|error| ScenarioError::Study { setup: "setup", error });
+    Ok(told(file, found)?.nonlinear)
+}
