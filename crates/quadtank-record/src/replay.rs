@@ -109,7 +109,7 @@ mod tests {
             // What is left is the time of a move: a row of the record may be a little after the sample at which the pump moved.
             assert!(of_level.unwrap().fit_percent.unwrap() > 99.9, "{of_level:?}");
         }
-        assert!(found.pump_voltage[0].unwrap().rmse < 1e-9);
+        assert!(found.pump_voltage[0].unwrap().rmse <= 1e-4);
         // It is a document that can be kept.
         let json = to_json(&Scenario::from(replayed)).unwrap();
         assert!(document_from_json(&json).is_ok());

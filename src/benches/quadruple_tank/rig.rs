@@ -169,10 +169,14 @@ fn share(tank: &Tank, level: f64) -> f64 {
     (level / tank.height).clamp(0.0, 1.0)
 }
 
-/// The water that runs: into each tank from its pump, and out of each tank.
+/// How far from the left wall of its tank water from outside falls.
+const OUTSIDE_AT: f64 = 8.0;
+
+/// The water that runs: into each tank from its pump and from outside, and out of each tank.
 fn streams(plant: &QuadrupleTank, moment: &RigState) -> impl IntoView + use<> {
     let most = plant.pumps.iter().map(|p| p.gain * p.voltage_max).fold(f64::MIN_POSITIVE, f64::max);
     let inflow = plant.valve_flows(&moment.pump_voltage, &Disturbance::default());
+    let outside = plant.flows_from_outside(&Disturbance::default());
     let outflow = plant.outflows(&moment.levels);
     let stream = |class: &str, x: f64, (from, to): (f64, f64), flow: f64| {
         let width = format!("{:.2}", (flow / most).clamp(0.0, 1.5).sqrt() * WIDEST_STREAM);
@@ -185,7 +189,11 @@ fn streams(plant: &QuadrupleTank, moment: &RigState) -> impl IntoView + use<> {
         let below = if k < 2 { 268.0 } else { surface(k - 2) };
         stream("drain", left + TANK.0 / 2.0, (top + TANK.1 + 1.0, below), outflow[k])
     });
-    falling.chain(drains).collect_view()
+    let from_outside = TANKS.into_iter().enumerate().filter(|&(k, _)| outside[k] > 0.0).map(|(k, (left, top))| {
+        // At the wall that no pipe of a pump comes to.
+        stream("drain", left + OUTSIDE_AT, (top - 8.0, surface(k)), outside[k])
+    });
+    falling.chain(drains).chain(from_outside).collect_view()
 }
 
 fn pump(lab: Lab, index: usize, voltage: Option<f64>) -> impl IntoView {

@@ -1,7 +1,6 @@
 //! Where the run begins, and who moves the pumps.
 
 use leptos::prelude::*;
-use quadtank::sim::binary_moves;
 use quadtank::study::quadruple_tank::Setup;
 use quadtank_scenario::Limits;
 
@@ -12,11 +11,6 @@ use crate::lab::Lab;
 use crate::shown::{ShownUnit, unit_name};
 use crate::texts::{say, tr};
 use crate::widgets::{Choice, Select};
-
-/// How far a pseudo-random sequence moves a pump to either side, as a share of its range.
-const RANDOM_SHARE: f64 = 0.05;
-/// Bits of such a sequence in an experiment.
-const RANDOM_BITS: f64 = 60.0;
 
 const LOWER: ParamControl<Setup> = ParamControl {
     ids: [("", "start-level1"), ("", "start-level2")],
@@ -128,7 +122,7 @@ pub fn PumpControls() -> impl IntoView {
     let choose = move |pumps: Pumps| {
         session.edit(|s| match pumps {
             Pumps::Controlled => s.experiment.pump_voltage_steps.clear(),
-            Pumps::Random => move_at_random(s),
+            Pumps::Random => s.experiment.pump_voltage_steps = s.random_moves(),
             Pumps::Given(_) => {}
         });
     };
@@ -144,19 +138,4 @@ pub fn PumpControls() -> impl IntoView {
         </div>
         <p class="remark" hidden=move || !is_by_hand()>{say!(lab, experiment.pumps_remark)}</p>
     }
-}
-
-/// Pseudo-random steps around the operating point, within the limits of the pumps. Every step is at a sample.
-fn move_at_random(setup: &mut Setup) {
-    let Ok(point) = setup.operating_point() else { return };
-    let pumps = setup.plant().pumps;
-    let end = |side: f64| {
-        [0, 1].map(|k| {
-            let range = pumps[k].voltage_max - pumps[k].voltage_min;
-            (point.pump_voltage[k] + side * RANDOM_SHARE * range).max(pumps[k].voltage_min).min(pumps[k].voltage_max)
-        })
-    };
-    let sampling = setup.controller.sampling_time_s;
-    let clock_s = (setup.experiment.duration_s / RANDOM_BITS / sampling).ceil() * sampling;
-    setup.experiment.pump_voltage_steps = binary_moves(end(-1.0), end(1.0), clock_s, setup.experiment.duration_s);
 }

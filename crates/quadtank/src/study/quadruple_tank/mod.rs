@@ -3,6 +3,7 @@
 mod analysis;
 mod first_steps;
 mod guaranteed_margins;
+mod identification;
 mod prepared;
 mod published;
 mod quantities;
