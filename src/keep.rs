@@ -43,7 +43,11 @@ pub fn keep(lab: Lab) {
     };
     let listeners = [
         window_event_listener(ev::keydown, move |event| undo_by_key(lab, &event)),
-        window_event_listener(ev::pointerdown, move |_| is_held.set_value(true)),
+        // A handle keeps the press to itself, and a release may be lost outside of the window: every move says how it is.
+        window_event_listener(
+            ev::pointermove,
+            move |event| if event.buttons() == 0 { let_go() } else { is_held.set_value(true) },
+        ),
         window_event_listener(ev::pointerup, move |_| let_go()),
         window_event_listener(ev::pointercancel, move |_| let_go()),
         window_event_listener(ev::blur, move |_| let_go()),

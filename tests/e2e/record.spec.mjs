@@ -34,7 +34,8 @@ async function openRecord(lab, page, text, name) {
 
 test('a record is read, run and fitted', async ({ lab, page }) => {
   const text = await recorded(lab, page);
-  await lab.open('lang=en');
+  // A preset that is asked for leaves no room for the offer to go on.
+  await lab.open('lang=en&preset=johansson-2000-minimum-phase');
   // What is believed of the rig is wrong.
   await lab.type('gamma1-number', '0.6');
   await openRecord(lab, page, text);

@@ -172,10 +172,10 @@ fn found(session: Session, shown: &Shown) -> impl IntoView + use<> {
         ]
     };
     let told = Signal::derive(move || told(session, &report));
-    let setup = shown.fit.setup(&shown.before.setup);
+    let fit = shown.fit.clone();
     let taken = RwSignal::new(false);
     let take = move |_| {
-        session.edit(|present| (present.plant, present.valves) = (setup.plant, setup.valves));
+        session.edit(|present| *present = fit.setup(present));
         taken.set(true);
     };
     view! {

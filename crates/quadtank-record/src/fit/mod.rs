@@ -111,10 +111,14 @@ impl Fit {
         rmse(&self.problem).unwrap_or(self.first_rmse)
     }
 
-    /// The setup with what has been found, in its own experiment.
+    /// The setup with what has been found, in its own experiment. Where that is the experiment of the record, levels that were not
+    /// recorded begin at the rest of the rig that was found.
     pub fn setup(&self, setup: &Setup) -> Setup {
         let found = self.problem.setup_with(&self.problem.values());
-        Setup { plant: found.plant, valves: found.valves, ..setup.clone() }
+        let fitted = Setup { plant: found.plant, valves: found.valves, ..setup.clone() };
+        let replayed = |setup: &Setup| replay(self.problem.record(), setup).ok();
+        let is_of_record = replayed(setup).is_some_and(|replayed| replayed.experiment == setup.experiment);
+        if is_of_record { replayed(&fitted).unwrap_or(fitted) } else { fitted }
     }
 
     /// What the record says, as far as the search has come.

@@ -71,6 +71,10 @@ impl Problem {
         Self { free, setup, record: record.clone(), compared, at }
     }
 
+    pub fn record(&self) -> &Record {
+        &self.record
+    }
+
     /// How many values are compared.
     pub fn count(&self) -> usize {
         self.compared.len()

@@ -64,6 +64,22 @@ fn valves_and_pump_gains_are_found_within_two_percent() {
 }
 
 #[test]
+fn a_fitted_rig_does_the_experiment_of_the_record_as_the_rig_did() {
+    let (record, mut setup) = recorded(|rig| rig.valves = [0.55, 0.68], 0.0);
+    setup = replay(&record, &setup).unwrap();
+    let mut fit = Fit::new(&setup, &record, &[Parameter::Valve(0), Parameter::Valve(1)]).unwrap();
+    while !fit.is_over() {
+        fit.advance();
+    }
+    let found = fit.setup(&setup);
+    let agrees = crate::agreement(&record, &run(&found).unwrap().nonlinear);
+    assert!(agrees.levels[0].unwrap().fit_percent.unwrap() > 99.5, "{agrees:?}");
+    // Another experiment stays what it was.
+    let other = setup_of(PresetId::JohanssonMinimumPhase);
+    assert_eq!(fit.setup(&other).experiment, other.experiment);
+}
+
+#[test]
 fn outlets_and_offsets_are_found_too() {
     let (mut record, setup) = recorded(|rig| rig.tanks[0].outlet.area *= 1.1, 0.0);
     record.levels[1].iter_mut().for_each(|level| *level += 0.004);

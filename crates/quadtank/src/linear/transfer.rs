@@ -141,7 +141,7 @@ impl TransferFunction {
 }
 
 /// Coefficients of the product of two polynomials.
-fn product(p: &[f64], q: &[f64]) -> Vec<f64> {
+pub(super) fn product(p: &[f64], q: &[f64]) -> Vec<f64> {
     let mut result = vec![0.0; (p.len() + q.len()).saturating_sub(1)];
     for (i, a) in p.iter().enumerate() {
         for (j, b) in q.iter().enumerate() {

@@ -240,7 +240,11 @@ mod tests {
         fn empty(&mut self, _: usize, _: f64) {}
     }
 
-    const LOADS: Disturbance = Disturbance { pump_flow: [1e-6, -1e-6], leak_area: [1e-6, 0.0, 2e-6, 1e-7] };
+    const LOADS: Disturbance = Disturbance {
+        pump_flow: [1e-6, -1e-6],
+        leak_area: [1e-6, 0.0, 2e-6, 1e-7],
+        tank_flow: [0.0, 0.0, 5e-7, -1e-6],
+    };
 
     fn follows_the_equations(take: fn(&mut Hydraulics, f64)) {
         for id in PresetId::ALL {

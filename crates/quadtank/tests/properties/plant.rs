@@ -54,7 +54,7 @@ proptest! {
         plant in plant(), levels in levels(), voltage in voltages(),
         flow in [0.0..1e-5, 0.0..1e-5], leak_area in [0.0..1e-5, 0.0..1e-5, 0.0..1e-5, 0.0..1e-5],
     ) {
-        let load = Disturbance { pump_flow: flow, leak_area };
+        let load = Disturbance { pump_flow: flow, leak_area, ..Disturbance::default() };
         let rates = plant.derivative(&levels, &voltage, &load);
         let stored: f64 = (0..4).map(|j| plant.tanks[j].section.area(levels[j]) * rates[j]).sum();
         let pumped: f64 = (0..2).map(|i| plant.pumps[i].gain * voltage[i] + flow[i]).sum();
