@@ -200,6 +200,10 @@ fn of_steps(session: Session, run: &Run) -> Vec<String> {
     let has_load = session.throttled.setup.with(|s| !s.experiment.load_steps.is_empty());
     let is_manual =
         session.throttled.setup.with(|s| s.controller.loops.iter().all(|l| !matches!(l.mode, LoopMode::Automatic)));
+    let is_by_hand = session.throttled.setup.with(|s| (0..2).all(|pump| s.experiment.is_by_hand(pump)));
+    if reasons == [Some(NoResponse::NoStep); 2] && is_by_hand {
+        return vec![tr!(lab, responses.sentence_by_hand)];
+    }
     if reasons == [Some(NoResponse::NoStep); 2] && is_manual {
         return vec![tr!(lab, responses.sentence_manual)];
     }

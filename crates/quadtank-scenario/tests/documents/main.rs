@@ -17,6 +17,7 @@ mod quadruple;
 mod quantities;
 mod random;
 mod rest;
+mod rigs_of_others;
 mod tuning;
 mod tuning_elements;
 mod valve_corners;

@@ -151,8 +151,8 @@ impl Draw {
         };
         // Every tank is that high.
         let level = Limits { max: limits::TANK_HEIGHT.min, ..limits::LEVEL };
-        let steps_by_hand =
-            if self.one_in(2) { 0 } else { self.index(if self.one_in(20) { limits::MAX_PUMP_STEPS } else { 40 }) };
+        let most_by_hand = if self.one_in(20) { limits::MAX_PUMP_STEPS } else { 40 };
+        let steps_by_hand = if self.one_in(2) { 0 } else { self.index(most_by_hand) };
         let [set_points, loads] = [self.index(limits::MAX_STEPS + 1), self.index(limits::MAX_STEPS + 1)];
         Experiment {
             duration_s,
