@@ -20,6 +20,7 @@ mod replay;
 mod responses;
 mod rga;
 mod rig;
+mod rig_numbers;
 mod sentences;
 mod session;
 mod set_points;

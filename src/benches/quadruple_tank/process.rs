@@ -8,6 +8,7 @@ use super::preset::{PresetRemark, PresetSelect};
 use super::published::PublishedFigures;
 use super::replay::play_cursor;
 use super::rig::Rig;
+use super::rig_numbers::RigNumbers;
 use super::sentences;
 use super::session::use_session;
 use crate::controls::{ParamControl, ParamRow};
@@ -75,6 +76,7 @@ fn Settings() -> impl IntoView {
         </div>
         <Situation />
         <OperatingPoint />
+        <RigNumbers />
     }
 }
 
