@@ -73,10 +73,22 @@ mod tests {
     fn a_count_chooses_the_plural_form_of_the_language() {
         use generated::experiment::further;
         let steps = |language, count| further(language, further { count });
-        assert_eq!(steps(Language::En, 0), "0 further steps come from the file or link.");
-        assert_eq!(steps(Language::En, 1), "1 further step comes from the file or link.");
-        assert_eq!(steps(Language::PtBr, 0), "Mais 0 degrau vem do arquivo ou link.");
-        assert_eq!(steps(Language::PtBr, 2), "Mais 2 degraus vêm do arquivo ou link.");
+        assert_eq!(
+            steps(Language::En, 0),
+            "0 further steps are in the list of all steps, or further loads in the file."
+        );
+        assert_eq!(
+            steps(Language::En, 1),
+            "1 further step is in the list of all steps, or a further load in the file."
+        );
+        assert_eq!(
+            steps(Language::PtBr, 0),
+            "Mais 0 degrau está na lista de todos os degraus, ou mais uma carga no arquivo."
+        );
+        assert_eq!(
+            steps(Language::PtBr, 2),
+            "Mais 2 degraus estão na lista de todos os degraus, ou mais cargas no arquivo."
+        );
     }
 
     #[test]

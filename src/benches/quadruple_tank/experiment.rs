@@ -6,6 +6,7 @@ use leptos::prelude::*;
 use super::flags::{locks, panels};
 use super::session::{Session, use_session};
 use super::start::{PumpControls, StartControls};
+use super::steps::AllSteps;
 use crate::controls::{ParamControl, ParamNumber, ParamRow};
 use crate::shown::{ShownUnit, to_shown};
 use crate::texts::{say, terms, tr};
@@ -218,6 +219,7 @@ pub fn ExperimentCard() -> impl IntoView {
                 on_tick=move |on| session.edit(|s| s.experiment.measurement.quantised = on)
             />
             <p class="remark" hidden=move || further() == 0>{say!(lab, experiment.further, count = further())}</p>
+            <AllSteps />
         </Card>
     }
 }

@@ -25,6 +25,7 @@ mod sentences;
 mod session;
 mod set_points;
 mod start;
+mod steps;
 mod valves;
 mod why;
 
