@@ -272,6 +272,25 @@ test('a rig of another laboratory is typed in, and what cannot be is explained',
   // Levels at rest, 0.6538, 0.6498, 0.6590 and 0.6582 m as computed apart from this program.
   const levels = await lab.page.evaluate(() => [1, 2, 3, 4].map((k) => document.querySelector(`[data-testid="rig-level-${k}"]`)?.textContent));
   expect(levels.join(' ')).toMatch(/65\.3\d.*64\.9\d.*65\.9\d.*65\.8\d/);
+  // Its published sequence of references: 0.65/0.65, 0.30/0.30, 0.50/0.75 and 0.90/0.75 m.
+  await lab.id('duration-number').fill('12000');
+  await lab.id('duration-number').blur();
+  await lab.id('all-steps').locator('summary').click();
+  for (let k = 0; k < 3; k += 1) await lab.id('step-add').click();
+  const steps = [[1, 3000, -35], [2, 3000, -35], [1, 6000, 20], [2, 6000, 45], [1, 9000, 40]];
+  for (const [k, [level, time, size]] of steps.entries()) {
+    await lab.id(`step-level-${k + 1}`).selectOption(`level${level}`);
+    await lab.type(`step-time-${k + 1}`, String(time));
+    await lab.type(`step-size-${k + 1}`, String(size));
+  }
+  await lab.page.waitForTimeout(600);
+  await lab.page.reload();
+  await lab.ready();
+  await lab.id('all-steps').locator('summary').click();
+  const sizes = await Promise.all(steps.map((_, k) => lab.value(`step-size-${k + 1}`)));
+  expect(sizes).toEqual([-35, -35, 20, 45, 40]);
+  await lab.id('step-remove-5').click();
+  await expect(lab.id('step-size-5')).toHaveCount(0);
   await lab.id('rig-numbers').locator('summary').click();
   // An outlet of more than a tenth of the tank is none of Torricelli's.
   await lab.type('rig-outlet1', '90');
