@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs what is missing, in pinned versions: `setup.sh build` what a build needs, `setup.sh` also what the tests need.
+# Installs what is missing, in pinned versions: `setup.sh build` what a build needs, `setup.sh` also what the tests need;
+# `setup.sh exports` what runs exported scripts.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . tools/env.sh
@@ -80,10 +81,13 @@ browser() {
   "${apt[@]}" install -qq --no-install-recommends chromium chromium-driver >/dev/null
 }
 
+what=${1:-all}
 prerequisites
 toolchain
 crates
-build_tools
-node_modules
-[ "${1:-all}" = build ] || browser
+if [ "$what" != exports ]; then
+  build_tools
+  node_modules
+fi
+[ "$what" != all ] || browser
 say "ready (Rust $RUST, trunk $TRUNK, wasm-bindgen $BINDGEN)"
