@@ -28,7 +28,7 @@ check: ## format, lints and native tests: what is quick enough to run before eve
 	@tools/setup.sh build 2>&1
 	@tools/run.sh node tools/test.mjs --quick 2>&1
 
-check-exports: ## run exported scripts in Python and Octave, which hold their figures against those of the laboratory
+check-exports: ## run exported scripts in Python and Octave, which hold their figures against those of the laboratory (ONLY=… for some)
 	@tools/setup.sh exports 2>&1
 	@tools/run.sh node tools/check-exports.mjs 2>&1
 

@@ -68,17 +68,31 @@ node_modules() {
   }
 }
 
+# apt-get as root, as far as that is possible. sudo forgets the environment, so the variable goes behind it.
+apt=(env DEBIAN_FRONTEND=noninteractive apt-get)
+[ "$(id -u)" = 0 ] || apt=(sudo "${apt[@]}")
+can_install() { command -v apt-get >/dev/null && { [ "$(id -u)" = 0 ] || sudo -n true 2>/dev/null; }; }
+
+from_debian() {
+  "${apt[@]}" update -qq
+  "${apt[@]}" install -qq --no-install-recommends "$@" >/dev/null
+}
+
 browser() {
   [ -n "$CHROMIUM" ] && [ -n "$CHROMEDRIVER" ] && return
-  # sudo forgets the environment, so the variable goes behind it.
-  local apt=(env DEBIAN_FRONTEND=noninteractive apt-get)
-  [ "$(id -u)" = 0 ] || apt=(sudo "${apt[@]}")
-  command -v apt-get >/dev/null && { [ "$(id -u)" = 0 ] || sudo -n true 2>/dev/null; } ||
+  can_install ||
     need "Chromium and ChromeDriver are missing and only root can install them. On Debian: apt-get install chromium" \
       "chromium-driver. Elsewhere, name the programs by the variables CHROMIUM and CHROMEDRIVER."
   say "Chromium and ChromeDriver from Debian"
-  "${apt[@]}" update -qq
-  "${apt[@]}" install -qq --no-install-recommends chromium chromium-driver >/dev/null
+  from_debian chromium chromium-driver
+}
+
+# Without it exported scripts run in Python alone, and the check says so.
+octave() {
+  command -v octave-cli >/dev/null && return
+  say "Octave with its package control from Debian"
+  { can_install && from_debian octave octave-control; } ||
+    say "Octave is missing and could not be installed. On Debian: apt-get install octave octave-control"
 }
 
 what=${1:-all}
@@ -90,4 +104,5 @@ if [ "$what" != exports ]; then
   node_modules
 fi
 [ "$what" != all ] || browser
+[ "$what" != exports ] || octave
 say "ready (Rust $RUST, trunk $TRUNK, wasm-bindgen $BINDGEN)"

@@ -14,6 +14,15 @@ const flow = (time_s, pump, flow) => ({ time_s, load: { pump_flow: { pump, flow 
 export const CASES = [
   { name: 'a rig of its own with everything', document: 'crates/quadtank-scenario/tests/data/everything-acts.json', set: {} },
   {
+    name: 'a name and a note that would end a comment',
+    preset: P_MINUS,
+    set: { 'setup.experiment.duration_s': 200 },
+    label: {
+      name: '"""\nraise SystemExit(1)\r%{\n#= */ coding: utf-7 \\',
+      note: "''' \u2028error('not reached')\n%}\nexit(1) ...\n",
+    },
+  },
+  {
     name: 'swapped pairing, weights, no anti-windup',
     preset: P_PLUS,
     set: {

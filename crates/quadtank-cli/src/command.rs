@@ -206,14 +206,20 @@ enum Format {
 /// The language of a script.
 #[derive(Clone, Copy, ValueEnum)]
 enum ScriptLanguage {
-    /// Python with NumPy, SciPy and python-control
+    /// Python with numpy, scipy and python-control
     Python,
+    /// MATLAB with the Control System Toolbox, or GNU Octave with the package control
+    Octave,
+    /// Julia with the package `ControlSystems`; unlike the others not checked
+    Julia,
 }
 
 impl From<ScriptLanguage> for Language {
     fn from(language: ScriptLanguage) -> Self {
         match language {
             ScriptLanguage::Python => Self::Python,
+            ScriptLanguage::Octave => Self::Octave,
+            ScriptLanguage::Julia => Self::Julia,
         }
     }
 }

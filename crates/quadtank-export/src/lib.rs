@@ -58,6 +58,8 @@ pub fn export(scenario: &Scenario, language: Language) -> Result<String, ExportE
     for section in data::sections(&scenario.setup).iter().chain([&expected]) {
         block.push_str(&language.section(section));
     }
+    let block: String =
+        block.lines().map(|line| format!("{}{line}", language.indent()).trim_end().to_owned() + "\n").collect();
     let place = format!("{}{PLACE}", language.comment_mark());
     Ok(language.template().replacen(&place, &block, 1))
 }

@@ -98,7 +98,7 @@ mod tests {
         "-*- coding: utf-7 -*-",
         "$(touch x) ${HOME} `touch x`",
         "\0 \u{1b}[31m \u{202e}reversed \u{200b}",
-        "%{",
+        "%{\n#{\n#=",
     ];
 
     #[test]
@@ -113,7 +113,8 @@ mod tests {
                 assert!(!added.is_empty());
                 for line in added {
                     let is_comment = line
-                        .strip_prefix(language.comment_mark())
+                        .strip_prefix(language.indent())
+                        .and_then(|line| line.strip_prefix(language.comment_mark()))
                         .is_some_and(|rest| rest.is_empty() || rest.starts_with(' '));
                     assert!(is_comment, "{}: {line:?}", language.name());
                     assert!(!line.chars().any(|c| c.is_control() || is_line_break(c) || c == '\u{202e}'), "{line:?}");

@@ -9,9 +9,8 @@ use super::{pipe, preset, run, stderr, stdout};
 #[test]
 fn export_prints_the_script_of_each_language() {
     let document = preset(PresetId::CocotaNonMinimumPhase);
-    for language in Language::ALL {
-        let name = language.name().to_lowercase();
-        let script = stdout(&pipe(&["export", "-", "--as", &name], document.as_bytes()));
+    for (name, language) in [("python", Language::Python), ("octave", Language::Octave), ("julia", Language::Julia)] {
+        let script = stdout(&pipe(&["export", "-", "--as", name], document.as_bytes()));
         assert_eq!(script, export(&from_json(&document).unwrap(), language).unwrap());
     }
 }
