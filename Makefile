@@ -1,10 +1,10 @@
 # Every goal sets up what it needs; the logic is in tools/.
-.PHONY: help setup serve dev build single check test bench fmt
+.PHONY: help setup serve dev build single check check-exports test bench fmt
 
 PORT ?= 8080
 
 help: ## list the goals
-	@sed -n 's/^\([a-z]*\):.*## /  make \1\t/p' Makefile | expand -t 18
+	@sed -n 's/^\([a-z-]*\):.*## /  make \1\t/p' Makefile | expand -t 23
 
 setup: ## install what is missing: toolchain, build tools, Chromium, node modules
 	@tools/setup.sh
@@ -27,6 +27,10 @@ single: build ## the whole laboratory as one file: dist/quadtank.html
 check: ## format, lints and native tests: what is quick enough to run before every commit
 	@tools/setup.sh build 2>&1
 	@tools/run.sh node tools/test.mjs --quick 2>&1
+
+check-exports: ## run exported scripts in Python and Octave, which hold their figures against those of the laboratory (ONLY=… for some)
+	@tools/setup.sh exports 2>&1
+	@tools/run.sh node tools/check-exports.mjs 2>&1
 
 # What a step says on stderr goes to stdout, so that the total stays in the right place.
 test: ## run everything: format, lints, native, browser and end-to-end tests

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs what is missing, in pinned versions: `setup.sh build` what a build needs, `setup.sh` also what the tests need.
+# Installs what is missing, in pinned versions: `setup.sh build` what a build needs, `setup.sh` also what the tests need;
+# `setup.sh exports` what runs exported scripts.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . tools/env.sh
@@ -67,23 +68,41 @@ node_modules() {
   }
 }
 
+# apt-get as root, as far as that is possible. sudo forgets the environment, so the variable goes behind it.
+apt=(env DEBIAN_FRONTEND=noninteractive apt-get)
+[ "$(id -u)" = 0 ] || apt=(sudo "${apt[@]}")
+can_install() { command -v apt-get >/dev/null && { [ "$(id -u)" = 0 ] || sudo -n true 2>/dev/null; }; }
+
+from_debian() {
+  "${apt[@]}" update -qq
+  "${apt[@]}" install -qq --no-install-recommends "$@" >/dev/null
+}
+
 browser() {
   [ -n "$CHROMIUM" ] && [ -n "$CHROMEDRIVER" ] && return
-  # sudo forgets the environment, so the variable goes behind it.
-  local apt=(env DEBIAN_FRONTEND=noninteractive apt-get)
-  [ "$(id -u)" = 0 ] || apt=(sudo "${apt[@]}")
-  command -v apt-get >/dev/null && { [ "$(id -u)" = 0 ] || sudo -n true 2>/dev/null; } ||
+  can_install ||
     need "Chromium and ChromeDriver are missing and only root can install them. On Debian: apt-get install chromium" \
       "chromium-driver. Elsewhere, name the programs by the variables CHROMIUM and CHROMEDRIVER."
   say "Chromium and ChromeDriver from Debian"
-  "${apt[@]}" update -qq
-  "${apt[@]}" install -qq --no-install-recommends chromium chromium-driver >/dev/null
+  from_debian chromium chromium-driver
 }
 
+# Without it exported scripts run in Python alone, and the check says so.
+octave() {
+  command -v octave-cli >/dev/null && return
+  say "Octave with its package control from Debian"
+  { can_install && from_debian octave octave-control; } ||
+    say "Octave is missing and could not be installed. On Debian: apt-get install octave octave-control"
+}
+
+what=${1:-all}
 prerequisites
 toolchain
 crates
-build_tools
-node_modules
-[ "${1:-all}" = build ] || browser
+if [ "$what" != exports ]; then
+  build_tools
+  node_modules
+fi
+[ "$what" != all ] || browser
+[ "$what" != exports ] || octave
 say "ready (Rust $RUST, trunk $TRUNK, wasm-bindgen $BINDGEN)"

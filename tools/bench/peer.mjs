@@ -1,12 +1,10 @@
 // The home tick beside the same tick in python-control and SciPy (benches/peer_tick.py), on the same positions of γ1.
 import { execFileSync } from 'node:child_process';
-import { copyFileSync, existsSync, readFileSync, rmSync } from 'node:fs';
+import { python } from '../python.mjs';
 import { clearMeasures, inBrowser, open, readMeasures, setSlider } from './browser.mjs';
 import { atLeast, ms, progress, quantile, table } from './report.mjs';
 
 const SCRIPT = 'benches/peer_tick.py';
-const REQUIREMENTS = 'benches/peer-requirements.txt';
-const FOLDER = 'target/peer';
 const RATIO_BAR = 150;
 /** A tick of the peer is so long that it needs fewer. */
 const ROUNDS = { laboratory: 10, peer: 2 };
@@ -34,24 +32,10 @@ const laboratoryTicks = (url) =>
     return (await readMeasures(page)).compute;
   });
 
-/** A virtual environment with the pinned versions; made anew when these change. */
-function environment() {
-  const installed = `${FOLDER}/requirements.txt`;
-  if (!existsSync(installed) || readFileSync(installed, 'utf8') !== readFileSync(REQUIREMENTS, 'utf8')) {
-    progress(`python-control and SciPy into ${FOLDER}`);
-    rmSync(FOLDER, { recursive: true, force: true });
-    const stdio = ['ignore', 'ignore', 'inherit'];
-    execFileSync('python3', ['-m', 'venv', FOLDER], { stdio });
-    execFileSync(`${FOLDER}/bin/pip`, ['install', '--quiet', '--only-binary', ':all:', '--requirement', REQUIREMENTS], { stdio });
-    copyFileSync(REQUIREMENTS, installed);
-  }
-  return `${FOLDER}/bin/python`;
-}
-
 function peerTicks() {
-  const python = environment();
+  const interpreter = python(progress);
   progress('the home tick in python-control and SciPy');
-  const found = JSON.parse(execFileSync(python, [SCRIPT, ...positions(ROUNDS.peer)], { encoding: 'utf8' }));
+  const found = JSON.parse(execFileSync(interpreter, [SCRIPT, ...positions(ROUNDS.peer)], { encoding: 'utf8' }));
   const difference = found.answers.difference_of_step.runge_kutta;
   if (!(difference < SAME_RUN)) throw new Error(`the runs of ${SCRIPT} differ by ${difference} of the step`);
   return found;

@@ -7,6 +7,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use quadtank::literature::PresetId;
 use quadtank::study::quadruple_tank::setup_of;
 use quadtank::study::relay_tuning::TuningSetup;
+use quadtank_export::Language;
 use quadtank_lesson::lesson_schema;
 use quadtank_scenario::level_loop::LevelLoopScenario;
 use quadtank_scenario::model_free::ModelFreeScenario;
@@ -109,6 +110,17 @@ enum Command {
         #[arg(long, value_enum, default_value_t = plot::Colours::Light)]
         theme: plot::Colours,
     },
+    /// Print the experiment of the quadruple tank (version 1) as a script in another language
+    ///
+    /// The script needs nothing of this program: parameters, linear analysis, the nonlinear closed loop, and the figures that this
+    /// program finds, which it holds its own against. Noise is left out.
+    Export {
+        #[command(flatten)]
+        source: Source,
+        /// The language of the script
+        #[arg(long = "as", value_enum, value_name = "LANGUAGE")]
+        language: ScriptLanguage,
+    },
     /// List the published rigs, or print the scenario of one
     Presets {
         /// Name of a rig
@@ -199,6 +211,27 @@ enum Format {
     Json,
 }
 
+/// The language of a script.
+#[derive(Clone, Copy, ValueEnum)]
+enum ScriptLanguage {
+    /// Python with numpy, scipy and python-control
+    Python,
+    /// MATLAB with the Control System Toolbox, or GNU Octave with the package control
+    Octave,
+    /// Julia with the package `ControlSystems`; unlike the others not checked
+    Julia,
+}
+
+impl From<ScriptLanguage> for Language {
+    fn from(language: ScriptLanguage) -> Self {
+        match language {
+            ScriptLanguage::Python => Self::Python,
+            ScriptLanguage::Octave => Self::Octave,
+            ScriptLanguage::Julia => Self::Julia,
+        }
+    }
+}
+
 /// Why a command was not carried out.
 #[derive(Debug, Error)]
 enum Failure {
@@ -276,6 +309,7 @@ fn execute(command: Command) -> Result<(), Failure> {
             let drawing = answer(&source, |document| document.plot(&drawing))?;
             if is_standard_stream(&svg) { print(&drawing) } else { write_file(&svg, &drawing) }
         }
+        Command::Export { source, language } => print(&answer(&source, |document| document.export(language.into()))?),
         Command::Cases { table: Some(table), .. } => print(&told(Path::new("this table"), andreis::table(table))?),
         Command::Cases { name: None, .. } => print(&list_of_cases()),
         Command::Cases { name: Some(Case::Tuning(case)), .. } => {

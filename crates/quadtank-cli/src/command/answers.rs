@@ -5,6 +5,7 @@ use quadtank::study::StudyError;
 use quadtank::study::level_loop::{LevelLoopFault, StepTestFault};
 use quadtank::study::quadruple_tank::{analyse, run};
 use quadtank::tuning::TuningError;
+use quadtank_export::{ExportError, Language, export};
 use quadtank_figure::Style;
 use quadtank_scenario::level_loop::{self as level_loops, LevelLoopScenario};
 use quadtank_scenario::model_free::ModelFreeScenario;
@@ -43,6 +44,8 @@ pub enum Fault {
     LevelRun(#[from] LevelRunError),
     #[error("this command needs a relay-tuning session, version 2, or a level loop, version 4")]
     NoTuning,
+    #[error("this command needs an experiment of the quadruple tank, version 1")]
+    NoExport,
     #[error("level_loop.test: {0}")]
     StepTest(#[from] StepTestFault),
     #[error("{error}{}", quantities::suggested_quantities(near))]
@@ -62,6 +65,10 @@ pub trait Answers {
     /// What relay test and design find, or a search for the settings of a level loop.
     fn tune(&self, _: Format, _: &SearchOptions) -> Result<String, Fault> {
         Err(Fault::NoTuning)
+    }
+    /// The experiment as a script.
+    fn export(&self, _: Language) -> Result<String, Fault> {
+        Err(Fault::NoExport)
     }
     /// What the document may not have been meant to say.
     fn warnings(&self) -> Vec<String> {
@@ -94,6 +101,13 @@ impl Answers for Scenario {
 
     fn plot(&self, drawing: &Drawing) -> Result<String, Fault> {
         studied::<Self, _>(plot::svg(&self.setup, drawing.chart, &drawing.style))
+    }
+
+    fn export(&self, language: Language) -> Result<String, Fault> {
+        export(self, language).map_err(|error| match error {
+            ExportError::Scenario(error) => error.into(),
+            ExportError::Study(error) => ScenarioError::Study { setup: Self::ROOT, error }.into(),
+        })
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod documents;
 mod elements;
+mod export;
 mod lessons;
 mod level_loop;
 mod model_free;

@@ -1,0 +1,421 @@
+function quadtank_experiment(option)
+% One experiment on the quadruple-tank process: linear analysis, and the nonlinear plant with two sampled PI loops.
+%
+% The plant is that of K. H. Johansson, "The Quadruple-Tank Process: A Multivariable Laboratory Process with an
+% Adjustable Zero", IEEE Transactions on Control Systems Technology 8(3), 2000, with the tapering tank, the loss
+% coefficients and the power module of J. A. N. Cocota Jr., master's dissertation, COPPE/UFRJ, 2009, whose equations the
+% comments number. Tanks 1 and 2 are the lower ones; tank 3 drains into tank 1, tank 4 into tank 2. Pump 1 feeds tanks 1
+% and 4, pump 2 tanks 2 and 3. All units are SI, signals and voltages are in volts.
+%
+% Exported by Quadtank. Everything is computed here from the parameters and then held against the figures of Quadtank:
+%
+%   quadtank_experiment            prints a line for each group of figures, then "agrees"; the file has this name
+%   quadtank_experiment('plot')    draws the run as well
+%
+% Needs MATLAB with the Control System Toolbox, or GNU Octave (7 or later) with the package control.
+
+  if nargin < 1
+    option = '';
+  end
+  if is_octave()
+    pkg('load', 'control');
+  end
+  p = parameters();
+  [level, voltage] = operating_point(p);
+  agree('levels at rest', level, p.expected_level, p.tank_height);
+  agree('voltages at rest', voltage, p.expected_voltage, max(p.pump_max, abs(p.expected_voltage)));
+  check_linear_analysis(p, level);
+  run = simulate(p, level, voltage);
+  [~, rows] = min(abs(run.time - p.check_time), [], 1);
+  agree('levels of the run', run.level(rows, :), p.expected_run, p.tank_height);
+  disp('agrees');
+  if strcmp(option, 'plot')
+    draw(run);
+  end
+end
+
+function p = parameters()
+% Rig, operating point, controller, experiment, and the figures of Quadtank. Indices count from 1.
+% {{ data }}
+end
+
+function share = tolerance()
+% Largest difference from an expected figure, as a share of the scale that is given with it.
+  share = 1e-6;
+end
+
+function answer = is_octave()
+  answer = exist('OCTAVE_VERSION', 'builtin') ~= 0;
+end
+
+% ---------------------------------------------------------------- the plant
+
+function section = area(p, level)
+% Cross-section of each tank (m^2) at its level (Cocota eq. 2.28; constant for tanks with upright walls).
+  section = p.tank_area + p.tank_area_slope .* max(level, 0);
+end
+
+function pumped = valve_flows(p, voltage, pump_load)
+% Flow from the pumps into each tank (m^3/s). A load adds to the flow of a pump ahead of its valve; no pump sucks.
+  q = max(p.pump_gain .* voltage + pump_load, 0);
+  pumped = [p.gamma(1) * q(1), p.gamma(2) * q(2), (1 - p.gamma(2)) * q(2), (1 - p.gamma(1)) * q(1)];
+end
+
+function outside = outside_flows(p, tank_load)
+% Flow into each tank from outside of the rig (m^3/s). A load adds to it; nothing is drawn that way.
+  outside = max(p.inflow + tank_load, 0);
+end
+
+function [inflow, drain] = flows(p, level, pumped, leak_area)
+% Flow into each tank, and out of it through outlet and leak (m^3/s), by Torricelli's law with a loss coefficient: Cocota
+% eqs. 2.32 and 3.1 to 3.4, Johansson eq. (1).
+  speed = sqrt(2 * p.gravity * max(level, 0));
+  out = p.loss_coefficient .* p.outlet_area .* speed;
+  inflow = pumped + [out(3), out(4), 0, 0];
+  drain = out + leak_area .* speed;
+end
+
+function [level, voltage] = operating_point(p)
+% Levels (m) and pump voltages (V) at rest, by the flow balance of each tank (Cocota section 3.2.1); no walls, no limits.
+  voltage = p.rest_voltage;
+  if isempty(voltage)
+    mixing = [p.gamma(1), 1 - p.gamma(2); 1 - p.gamma(1), p.gamma(2)] * diag(p.pump_gain);
+    [~, needed] = flows(p, [p.rest_level, 0, 0], zeros(1, 4), zeros(1, 4));
+    voltage = (mixing \ (needed(1:2) - p.inflow(1:2) - p.inflow(3:4)).').';
+  end
+  pumped = valve_flows(p, voltage, [0, 0]) + p.inflow;
+  inflow = pumped + [pumped(3), pumped(4), 0, 0];
+  level = (inflow ./ (p.loss_coefficient .* p.outlet_area)) .^ 2 / (2 * p.gravity);
+  if ~isempty(p.rest_level)
+    level(1:2) = p.rest_level;
+  end
+end
+
+% ---------------------------------------------------------------- linear analysis
+
+function [time, wet] = time_constants(p, level)
+% T1 to T4 (s) at rest, T = A/(k_l a) sqrt(2 h/g) (Cocota eqs. 3.14 to 3.17, Johansson section II), and which tanks have a
+% state. One without water follows its inflow at once, and so does an upper one with next to none.
+  time = area(p, level) ./ (p.loss_coefficient .* p.outlet_area) .* sqrt(2 * level / p.gravity);
+  wet = time > 0 & (time > 1e-8 * max(time) | [true, true, false, false]);
+  time(~wet) = 0;
+end
+
+function plant = linear_model(p, level)
+% The model dx/dt = A x + B u, y = C x around rest: levels (m), pump voltages (V), measured signals (V).
+  [time, wet] = time_constants(p, level);
+  section = area(p, level);
+  a = zeros(4); b = zeros(4, 2); c = zeros(2, 4);
+  for lower = 1:2
+    upper = lower + 2; other = 3 - lower;
+    from_above = (1 - p.gamma(other)) * p.pump_gain(other);
+    if wet(upper)
+      a(upper, upper) = -1 / time(upper);
+      b(upper, other) = from_above / section(upper);
+    end
+    if wet(lower)
+      a(lower, lower) = -1 / time(lower);
+      b(lower, lower) = p.gamma(lower) * p.pump_gain(lower) / section(lower);
+      c(lower, lower) = p.sensor_gain;
+      if wet(upper)
+        a(lower, upper) = section(upper) / (section(lower) * time(upper));
+      else
+        b(lower, other) = from_above / section(lower);
+      end
+    end
+  end
+  plant = ss(a(wet, wet), b(wet, :), c(:, wet), zeros(2));
+end
+
+function g = transfer_matrix(p, level)
+% G(s) from pump voltages to measured signals, in the factored form of Johansson, eq. (4).
+  time = time_constants(p, level);
+  section = area(p, level);
+  s = tf('s');
+  gain = @(output, pump) time(output) * p.sensor_gain * p.pump_gain(pump) / section(output);
+  lag = @(tank) time(tank) * s + 1;
+  g = [p.gamma(1) * gain(1, 1) / lag(1), (1 - p.gamma(2)) * gain(1, 2) / (lag(3) * lag(1));
+       (1 - p.gamma(1)) * gain(2, 1) / (lag(4) * lag(2)), p.gamma(2) * gain(2, 2) / lag(2)];
+end
+
+function zeros_of_plant = transmission_zeros(plant)
+% Finite transmission zeros (1/s), by rising real part.
+  if is_octave()
+    zeros_of_plant = zero(plant);
+  else
+    zeros_of_plant = tzero(plant);
+  end
+  zeros_of_plant = zeros_of_plant(abs(zeros_of_plant) < 1e4 * max(abs(pole(plant))));
+  [~, order] = sort(real(zeros_of_plant));
+  zeros_of_plant = reshape(zeros_of_plant(order), 1, []);
+end
+
+function loop = closed_loop(p, plant)
+% The plant under zero-order hold with both PI laws by Tustin's rule, in automatic mode and away from their limits.
+  acting = find(p.gain);  % a loop of gain 0 does nothing
+  share = p.sampling_time ./ p.integral_time;
+  % c = K (1 + Ts/(2 Ti)) e + s and s+ = s + K Ts/Ti e, by loops 1 and 2.
+  b = diag(p.gain .* share); c = eye(2);
+  law = ss(eye(numel(acting)), b(acting, :), c(:, acting), diag(p.gain .* (1 + share / 2)), p.sampling_time);
+  to_pumps = zeros(2);
+  to_pumps(p.pump_of_loop(1), 1) = p.power_gain;
+  to_pumps(p.pump_of_loop(2), 2) = p.power_gain;
+  loop = feedback(c2d(plant, p.sampling_time, 'zoh') * to_pumps * law, eye(2));
+end
+
+% ---------------------------------------------------------------- the controller
+
+function loop = pi_at_rest(p, i, output, signal)
+% A sampled PI loop with limits, back-calculation and manual mode, at rest (Cocota eq. 4.2 and section 4.4).
+  pump = p.pump_of_loop(i);
+  loop.gain = p.gain(i); loop.weight = p.set_point_weight(i);
+  loop.integral_gain = p.gain(i) * p.sampling_time / (2 * p.integral_time(i));
+  % Ts/Tt with Tt = ratio Ti: the share of the excess that a sample takes back from the integral; 0 without anti-windup.
+  loop.tracking_gain = 0;
+  if p.anti_windup(i)
+    loop.tracking_gain = p.sampling_time / max(p.tracking_ratio(i) * p.integral_time(i), p.sampling_time);
+  end
+  loop.manual_output = p.manual_output(i); loop.manual_until = p.manual_until(i);
+  loop.lowest = p.pump_min(pump) / p.power_gain;
+  loop.highest = p.pump_max(pump) / p.power_gain;
+  loop.integral = output;
+  loop.signal_at_rest = signal;
+  loop.previous_error = [];
+end
+
+function [output, loop] = pi_step(loop, time, reference, measured)
+% One sample: the output (V) that holds until the next one, from reference and measured signal (V).
+  fault = reference - measured;
+  proportional = loop.gain * (fault - (1 - loop.weight) * (reference - loop.signal_at_rest));
+  if time < loop.manual_until
+    output = min(max(loop.manual_output, loop.lowest), loop.highest);
+    loop.integral = output - proportional;  % so that the controller takes over without a bump
+  else
+    before = loop.previous_error;
+    if isempty(before)
+      before = fault;
+    end
+    loop.integral = loop.integral + loop.integral_gain * (fault + before);
+    unlimited = proportional + loop.integral;
+    output = min(max(unlimited, loop.lowest), loop.highest);
+    loop.integral = loop.integral + loop.tracking_gain * (output - unlimited);
+  end
+  loop.previous_error = fault;
+end
+
+function signal = measure(p, level)
+% Signals of the sensors (V) at the levels of tanks 1 and 2 (m); with range and resolution where the experiment has them.
+  signal = p.sensor_gain * level;
+  if p.quantised
+    signal = min(max(signal, 0), p.sensor_gain * p.sensor_range);
+    if p.sensor_resolution > 0
+      signal = floor(signal / p.sensor_resolution + 0.5) * p.sensor_resolution;
+    end
+  end
+end
+
+% ---------------------------------------------------------------- the run
+
+function slope = slopes(p, level, pumped, leak_area, held)
+% dh/dt of each tank (m/s) but for those that are held: a full tank stays full while more comes in than drains, and the
+% excess leaves the plant.
+  [inflow, drain] = flows(p, level, pumped, leak_area);
+  slope = (inflow - drain) ./ area(p, level);
+  slope(held) = 0;
+end
+
+function level = runge_kutta(p, level, pumped, leak_area, held, step)
+% One step of the classical method of Runge and Kutta.
+  k1 = slopes(p, level, pumped, leak_area, held);
+  k2 = slopes(p, level + step / 2 * k1, pumped, leak_area, held);
+  k3 = slopes(p, level + step / 2 * k2, pumped, leak_area, held);
+  k4 = slopes(p, level + step * k3, pumped, leak_area, held);
+  level = level + step / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+end
+
+function yes = meets_wall(p, level, pumped, leak_area, full)
+% Whether a tank has become higher than its wall, or one that was full would fall.
+  [inflow, drain] = flows(p, level, pumped, leak_area);
+  yes = any(~full & level > p.tank_height * (1 + 1e-12)) || any(full & inflow < drain);
+end
+
+function level = level_at_rest(p, inflow, leak_area)
+% Level (m) at which each tank would lose just what it gets.
+  level = (inflow ./ (p.loss_coefficient .* p.outlet_area + leak_area)) .^ 2 / (2 * p.gravity);
+end
+
+function level = advance(p, level, pumped, leak_area, duration)
+% Levels (m) after a duration (s) in which nothing is changed from outside. A step ends where a tank fills up or begins to fall.
+  left = duration;
+  while left > 0
+    [inflow, drain] = flows(p, level, pumped, leak_area);
+    if all(abs(inflow - drain) <= 8 * eps * inflow)
+      return;  % at rest, apart from rounding
+    end
+    full = level >= p.tank_height & inflow > drain;
+    [longest, still] = longest_step(p, level, inflow, drain, leak_area, full);
+    step = min(left, longest);
+    part = @(time) part_of_step(p, level, pumped, leak_area, full | still, still, time);
+    next = part(step);
+    if meets_wall(p, next, pumped, leak_area, full)
+      % By bisection: the time of the first change, from its later side.
+      early = 0;
+      while step - early > 1e-12 * duration
+        middle = (early + step) / 2;
+        there = part(middle);
+        if meets_wall(p, there, pumped, leak_area, full)
+          step = middle; next = there;
+        else
+          early = middle;
+        end
+      end
+    end
+    level = min(max(next, 0), p.tank_height);
+    left = left - step;
+  end
+end
+
+function [longest, still] = longest_step(p, level, inflow, drain, leak_area, full)
+% Length of a step (s) that is short against how fast levels change, as shares of themselves. A tank that is almost dry, and so
+% a hundred times as quick as another, holds so little that longer steps do. Once it is at rest it is still: it follows its inflow.
+  speed = max(inflow, drain) ./ (2 * area(p, level));
+  quick = speed ./ max(level, level_at_rest(p, inflow, leak_area));
+  stiff = ~full & inflow > 0 & quick > 100 * min(quick(speed > 0));
+  still = stiff & abs(inflow - drain) <= 1e-8 * inflow;
+  slow = ~full & ~stiff & speed > 0;
+  longest = min([max(1e-3, 0.05 / max([speed(slow) ./ level(slow), 0])), 0.5 ./ quick(stiff & ~still)]);
+end
+
+function level = part_of_step(p, level, pumped, leak_area, held, still, time)
+% Levels (m) after a part of a step (s).
+  level = runge_kutta(p, level, pumped, leak_area, held, time);
+  if any(still)
+    rest = level_at_rest(p, flows(p, level, pumped, leak_area), leak_area);
+    level(still) = rest(still);
+  end
+end
+
+function run = simulate(p, level, voltage)
+% The run from rest: time (s), level (m), reference (m) and pump voltage (V), a row for each sample and for the end.
+  slack = 1e-9 * p.sampling_time;
+  for i = 1:2
+    loops(i) = pi_at_rest(p, i, voltage(p.pump_of_loop(i)) / p.power_gain, p.sensor_gain * level(i));
+  end
+  changes = {p.set_point_steps, p.pump_loads, p.leaks, p.tank_flows};
+  acting = {level(1:2), zeros(1, 2), zeros(1, 4), zeros(1, 4)};  % what they act on: references, flows, holes, flows from outside
+  moves = p.pump_moves; hand = voltage;
+  if ~isempty(p.initial_level)
+    level = p.initial_level;
+  end
+  level = min(level, p.tank_height);
+  samples = floor(p.end_time / p.sampling_time + 1e-9);
+  rows = zeros(samples + 2, 9);
+  for k = 0:samples
+    time = k * p.sampling_time;
+    last = min((k + 1) * p.sampling_time, p.end_time);
+    [changes{1}, acting{1}] = take(changes{1}, acting{1}, time + slack);
+    measured = measure(p, level(1:2));
+    for i = 1:2
+      [output, loops(i)] = pi_step(loops(i), time, p.sensor_gain * acting{1}(i), measured(i));
+      voltage(p.pump_of_loop(i)) = p.power_gain * output;
+    end
+    [moves, hand] = move_pumps(moves, hand, time + slack);
+    for pump = 1:2
+      if any(p.pump_moves(:, 2) == pump)  % no controller moves such a pump
+        voltage(pump) = min(max(hand(pump), p.pump_min(pump)), p.pump_max(pump));
+      end
+    end
+    rows(k + 1, :) = [time, level, acting{1}, voltage];
+    % Loads begin at their exact times, between samples too.
+    due = time + slack;
+    while time < last
+      for kind = 2:4
+        [changes{kind}, acting{kind}] = take(changes{kind}, acting{kind}, due);
+      end
+      coming = [changes{2}(:, 1); changes{3}(:, 1); changes{4}(:, 1)];
+      next = min([coming(coming < last - slack); last]);
+      fed = valve_flows(p, voltage, acting{2}) + outside_flows(p, acting{4});
+      level = advance(p, level, fed, acting{3}, next - time);
+      time = next;
+      due = time;
+    end
+  end
+  rows(end, :) = [time, level, acting{1}, voltage];
+  run = struct('time', rows(:, 1), 'level', rows(:, 2:5), 'reference', rows(:, 6:7), 'voltage', rows(:, 8:9));
+end
+
+function [moves, hand] = move_pumps(moves, hand, time)
+% Takes the moves that are due: the voltages (V) that a hand has set.
+  while ~isempty(moves) && moves(1, 1) <= time
+    hand(moves(1, 2)) = moves(1, 3);
+    moves(1, :) = [];
+  end
+end
+
+function [changes, values] = take(changes, values, time)
+% Adds all changes that are due to what they change.
+  while ~isempty(changes) && changes(1, 1) <= time
+    values(changes(1, 2)) = values(changes(1, 2)) + changes(1, 3);
+    changes(1, :) = [];
+  end
+end
+
+% ---------------------------------------------------------------- expected figures
+
+function agree(what, found, expected, scale)
+% An error where a figure differs from the expected one by more than the tolerance times its scale.
+  assert(numel(found) == numel(expected), '%s: %d figures instead of %d', what, numel(found), numel(expected));
+  if isempty(expected)
+    fprintf('%s: none\n', what);
+    return;
+  end
+  difference = max(max(abs(found - expected) ./ scale));
+  assert(difference <= tolerance(), '%s: %s instead of %s', what, mat2str(found, 17), mat2str(expected, 17));
+  fprintf('%s: figures %d, largest difference %.1e of the scale\n', what, numel(expected), difference);
+end
+
+function check_linear_analysis(p, level)
+% Everything that linear theory says.
+  if isempty(p.expected_poles)
+    disp('linear model: none, every tank is dry');
+    return;
+  end
+  plant = linear_model(p, level);
+  rate = max(abs(p.expected_poles));
+  agree('poles', reshape(sort(real(pole(plant))), 1, []), p.expected_poles, rate);
+  if p.degenerate
+    disp('transmission zeros: none, the plant is singular at every frequency');
+  else
+    agree('transmission zeros', transmission_zeros(plant), p.expected_zeros, rate);
+  end
+  gain = dcgain(plant);
+  agree('steady-state gain', gain, p.expected_gain, max(abs(p.expected_gain(:))));
+  response = freqresp(plant, rate);
+  agree('transfer matrix', freqresp(transfer_matrix(p, level), rate), response, max(abs(response(:))));
+  if isempty(p.expected_lambda)
+    disp('relative gain: none, the steady-state gain is singular');
+  else
+    array = gain .* inv(gain).';  % Bristol 1966
+    agree('relative gain', array(1, 1), p.expected_lambda, max(1, abs(p.expected_lambda)));
+  end
+  moduli = reshape(sort(abs(pole(closed_loop(p, plant)))), 1, []);
+  agree('closed-loop poles, moduli', moduli, p.expected_moduli, max(1, max(p.expected_moduli)));
+end
+
+function draw(run)
+% Levels with their references, and pump voltages.
+  subplot(2, 1, 1);
+  plot(run.time, run.level);
+  hold('on');
+  stairs(run.time, run.reference(:, 1), 'k--');
+  stairs(run.time, run.reference(:, 2), 'k--');
+  ylabel('level (m)');
+  legend('level 1', 'level 2', 'level 3', 'level 4');
+  subplot(2, 1, 2);
+  stairs(run.time, run.voltage(:, 1));
+  hold('on');
+  stairs(run.time, run.voltage(:, 2));
+  xlabel('time (s)');
+  ylabel('voltage (V)');
+  legend('pump 1', 'pump 2');
+end
