@@ -118,7 +118,7 @@ impl Loop {
             let integral_time = time * random.logarithmic(0.2, 5.0);
             let proportional = random.logarithmic(0.2, 5.0) / own.gain;
             let derivative = if random.chance(0.4) { proportional * integral_time / 4.0 } else { 0.0 };
-            ParallelPid { proportional, integral: proportional / integral_time, derivative }
+            ParallelPid { proportional, integral: proportional / integral_time, derivative, ..ParallelPid::default() }
         });
         Self { plant, controllers }
     }
@@ -128,6 +128,7 @@ impl Loop {
             proportional: factor * pid.proportional,
             integral: factor * pid.integral,
             derivative: factor * pid.derivative,
+            ..pid
         });
         Self { plant: self.plant.clone(), controllers }
     }

@@ -22,7 +22,7 @@ pub fn rig_under(setup: &TuningSetup, designed: &Designed) -> Option<quadruple_t
     let power_gain = rig.plant().power_gain;
     let root = &designed.roots[setup.design.root.clamp(1, 2) - 1];
     for (settings, pid) in rig.controller.loops.iter_mut().zip(&root.controllers) {
-        let &ParallelPid { proportional, integral, derivative } = pid;
+        let &ParallelPid { proportional, integral, derivative, .. } = pid;
         let integral_time_s = proportional / integral;
         if derivative != 0.0 || !(integral_time_s.is_finite() && integral_time_s > 0.0) {
             return None;
