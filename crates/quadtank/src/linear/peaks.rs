@@ -128,16 +128,8 @@ fn return_difference(ratio: &RatioOver) -> TaylorModel {
 /// Cells of frequency are halved, widest first, until bounds over them say that none holds a value that is higher than the highest
 /// found, to one part in ten thousand. The search ends where the loop is too small for any.
 fn peak(ratio: &ReturnRatio, measure: &Measure) -> Option<LoopPeak> {
-    let low = ratio.low_end(SETTLED);
     let mut search = Search { ratio, measure, cells: 0, value: measure.without_loop, highest: None };
-    search.meet((measure.at)(&ratio.at(low)), Cell { low, high: low });
-    let mut end = ratio.high_end(2.0 * low, |largest| (measure.within)(largest).is_finite())?;
-    search.examine(Cell { low, high: end })?;
-    while ratio.high_end(end, |largest| (measure.within)(largest) <= search.reach())? != end {
-        search.examine(Cell { low: end, high: 2.0 * end })?;
-        end *= 2.0;
-    }
-    Some(search.polished())
+    search.run().map(|()| search.polished())
 }
 
 /// What has been found so far.
@@ -151,6 +143,19 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
+    fn run(&mut self) -> Option<()> {
+        let &mut Self { ratio, measure, .. } = self;
+        let low = ratio.low_end(SETTLED);
+        self.meet((measure.at)(&ratio.at(low)), Cell { low, high: low });
+        let mut end = ratio.high_end(2.0 * low, |largest| (measure.within)(largest).is_finite())?;
+        self.examine(Cell { low, high: end })?;
+        while ratio.high_end(end, |largest| (measure.within)(largest) <= self.reach())? != end {
+            self.examine(Cell { low: end, high: 2.0 * end })?;
+            end *= 2.0;
+        }
+        Some(())
+    }
+
     fn meet(&mut self, value: f64, cell: Cell) {
         if value > self.value * (1.0 + ROUNDING) {
             (self.value, self.highest) = (value, Some(cell));
@@ -203,8 +208,11 @@ mod tests {
     use approx::assert_relative_eq;
 
     use super::*;
+    use crate::control::PidMatrix;
     use crate::linear::encirclements::examples::{cubic, diagonal, ratio};
     use crate::linear::{TransferFunction, TransferMatrix};
+    use crate::literature::campestrini::PublishedPlant;
+    use crate::literature::wood_berry::PublishedControllers;
 
     /// Both peaks on a dense grid.
     fn by_brute_force(plant: &TransferMatrix, integrators: u32) -> [f64; 2] {
@@ -255,6 +263,22 @@ mod tests {
         let exact = (square * (square + 1.0) / (square * square - square + 1.0)).sqrt();
         assert_relative_eq!(sensitivity.value, exact, max_relative = 1e-9);
         assert_relative_eq!(sensitivity.frequency, square.sqrt(), max_relative = 1e-6);
+    }
+
+    #[test]
+    fn published_loops_take_few_cells() {
+        let plant = PublishedPlant::WoodBerry.transfer_matrix().unwrap();
+        for published in PublishedControllers::ALL {
+            let controllers = PidMatrix::decentralised(published.gains());
+            let ratio = ReturnRatio::new(&plant, controllers.transfer_matrix().unwrap(), controllers.integrators());
+            for measure in [&LOG_MODULUS, &SENSITIVITY] {
+                let mut search =
+                    Search { ratio: &ratio, measure, cells: 0, value: measure.without_loop, highest: None };
+                search.run().unwrap();
+                println!("{published:?}: {} cells", search.cells);
+                assert!(search.cells < MOST_CELLS / 10, "{published:?}: {} cells", search.cells);
+            }
+        }
     }
 
     #[test]
