@@ -118,7 +118,7 @@ fn curve<T>(found: &Tuning, draw: impl Fn(&CurveChart) -> T) -> T {
     };
     let harmonic: Vec<(f64, f64)> = oscillation.and_then(|o| o.gains_by_harmonic()).map(normal).into_iter().collect();
     let peak: Vec<(f64, f64)> = oscillation.and_then(|o| o.gains_by_peak()).map(normal).into_iter().collect();
-    let chosen = found.design.as_ref().map(|design| normal(design.critical_gains));
+    let chosen = found.design.as_ref().and_then(|design| design.critical).map(|critical| normal(critical.gains));
     draw(&CurveChart {
         curve: [&x, &y],
         corners: &corners,

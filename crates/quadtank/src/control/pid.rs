@@ -105,7 +105,8 @@ impl From<IsaPid> for ParallelPid {
         Self {
             proportional: pid.gain,
             integral: pid.gain / pid.integral_time,
-            derivative: pid.gain * pid.derivative_time,
+            // Without derivative action a negative gain would leave −0.
+            derivative: pid.gain * pid.derivative_time + 0.0,
             filter: None,
         }
     }

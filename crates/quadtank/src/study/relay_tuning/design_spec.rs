@@ -222,7 +222,15 @@ impl schemars::JsonSchema for DesignSpec {
     }
 
     fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
-        WrittenDesign::json_schema(generator)
+        let mut schema = WrittenDesign::json_schema(generator);
+        let complete = schemars::json_schema!({ "anyOf": [
+            { "required": ["critical", "method", "action", "target", "root"] },
+            { "required": ["controllers"] },
+        ] });
+        for (name, value) in complete.as_object().into_iter().flatten() {
+            schema.insert(name.clone(), value.clone());
+        }
+        schema
     }
 }
 
@@ -242,7 +250,7 @@ mod tests {
     fn given_controllers_that_a_placement_found_do_what_they_do_there() {
         let mut setup = TuningSetup::default();
         let placed = designed(&setup);
-        setup.design.controllers = Some(placed.at_work().forms.map(|forms| forms.isa.unwrap().into()));
+        setup.give_placed_controllers();
         let given = designed(&setup);
         assert_eq!((given.roots.len(), given.chosen), (1, 0));
         assert_eq!((given.critical, given.at_work().closure), (placed.critical, placed.at_work().closure));

@@ -1,6 +1,6 @@
 use std::f64::consts::TAU;
 
-use crate::control::Pairing;
+use crate::control::{IsaPid, Pairing};
 use crate::literature::PresetId;
 use crate::literature::campestrini::{PublishedCase, PublishedPlacement, PublishedPlant};
 use crate::literature::wood_berry::PublishedControllers;
@@ -112,6 +112,20 @@ impl TuningSetup {
         let given = |pid| GivenPid { filter_time: controllers.filter_time(), ..GivenPid::from(pid) };
         let design = DesignSpec::given(controllers.settings().map(given));
         Self { design, ..Self::default() }
+    }
+
+    /// Gives the controllers that the placement of the session finds, to go on from; open loops where it finds none. A negative integral
+    /// or derivative time is left out, because a given controller has none.
+    pub fn give_placed_controllers(&mut self) {
+        let found = PlantStudy::of(&self.plant).and_then(|study| study.design(self));
+        let placed = found.ok().flatten().map(|design| design.at_work().forms.map(|forms| forms.isa));
+        let given = |isa: Option<IsaPid>| {
+            let GivenPid { gain, integral_time, derivative_time, .. } =
+                isa.map_or_else(GivenPid::default, GivenPid::from);
+            let integral_time = integral_time.filter(|&time| time > 0.0);
+            GivenPid { gain, integral_time, derivative_time: derivative_time.max(0.0), filter_time: None }
+        };
+        self.design.controllers = Some(placed.unwrap_or_default().map(given));
     }
 }
 
