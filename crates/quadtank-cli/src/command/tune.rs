@@ -144,7 +144,7 @@ fn loci<T>(found: &Tuning, setup: &TuningSetup, draw: impl Fn(&LociChart) -> T) 
     draw(&LociChart {
         loci: after.each_ref().map(|parts| parts.each_ref().map(Vec::as_slice)),
         before: before.each_ref().map(|parts| parts.each_ref().map(Vec::as_slice)),
-        target: (re, im),
+        target: setup.design.controllers.is_none().then_some((re, im)),
         rules: &[],
         axes: ["real part", "imaginary part"],
         texts: ["locus 1", "locus 2", "at the critical gains"],
