@@ -20,7 +20,7 @@ pub struct Term {
 }
 
 /// All words, in the order of the benches.
-pub const TERMS: [Term; 65] = [
+pub const TERMS: [Term; 66] = [
     Term { key: "gamma", text: terms::gamma, lesson: 1 },
     Term { key: "minimum_phase", text: terms::minimum_phase, lesson: 1 },
     Term { key: "zero", text: terms::zero, lesson: 1 },
@@ -52,6 +52,7 @@ pub const TERMS: [Term; 65] = [
     Term { key: "locus", text: terms::locus, lesson: 9 },
     Term { key: "target", text: terms::target, lesson: 9 },
     Term { key: "margins", text: terms::margins, lesson: 4 },
+    Term { key: "log_modulus", text: terms::log_modulus, lesson: 4 },
     Term { key: "decoupler", text: terms::decoupler, lesson: 5 },
     Term { key: "local_model", text: terms::local_model, lesson: 10 },
     Term { key: "estimate", text: terms::estimate, lesson: 10 },

@@ -86,7 +86,7 @@ for (const [field, pressed] of [['gamma1-number', 'voltage1'], ['integral2-numbe
 
 test('a number can be typed at any pace', async ({ lab, page }) => {
   await lab.open();
-  await page.locator('.process details.more > summary').click();
+  await page.locator('[data-testid=operating-point-fold] > summary').click();
   for (const name of ['gamma1-number', 'voltage1']) {
     const field = lab.id(name);
     await field.fill('');
@@ -266,17 +266,21 @@ test('a rig of another laboratory is typed in, and what cannot be is explained',
   ];
   for (const [id, value] of numbers) await lab.type(id, value);
   await lab.id('rig-numbers').locator('summary').click();
-  await lab.page.locator('.process details.more > summary').first().click();
+  await lab.page.locator('[data-testid=operating-point-fold] > summary').click();
   await lab.type('voltage1', '1.63');
   await lab.type('voltage2', '2.00');
+  // Without a step the rig stays at rest.
+  await lab.id('experiment-more').locator('summary').click();
+  await lab.id('step-remove-2').click();
+  await lab.id('step-remove-1').click();
+  await lab.settle();
   // Levels at rest, 0.6538, 0.6498, 0.6590 and 0.6582 m as computed apart from this program.
   const levels = await lab.page.evaluate(() => [1, 2, 3, 4].map((k) => document.querySelector(`[data-testid="rig-level-${k}"]`)?.textContent));
   expect(levels.join(' ')).toMatch(/65\.3\d.*64\.9\d.*65\.9\d.*65\.8\d/);
   // Its published sequence of references: 0.65/0.65, 0.30/0.30, 0.50/0.75 and 0.90/0.75 m.
   await lab.id('duration-number').fill('12000');
   await lab.id('duration-number').blur();
-  await lab.id('all-steps').locator('summary').click();
-  for (let k = 0; k < 3; k += 1) await lab.id('step-add').click();
+  for (let k = 0; k < 5; k += 1) await lab.id('step-add').click();
   const steps = [[1, 3000, -35], [2, 3000, -35], [1, 6000, 20], [2, 6000, 45], [1, 9000, 40]];
   for (const [k, [level, time, size]] of steps.entries()) {
     await lab.id(`step-level-${k + 1}`).selectOption(`level${level}`);
@@ -286,7 +290,7 @@ test('a rig of another laboratory is typed in, and what cannot be is explained',
   await lab.page.waitForTimeout(600);
   await lab.page.reload();
   await lab.ready();
-  await lab.id('all-steps').locator('summary').click();
+  await lab.id('experiment-more').locator('summary').click();
   const sizes = await Promise.all(steps.map((_, k) => lab.value(`step-size-${k + 1}`)));
   expect(sizes).toEqual([-35, -35, 20, 45, 40]);
   await lab.id('step-remove-5').click();

@@ -56,7 +56,7 @@ for (const [name, rig] of Object.entries(RIGS)) {
     rounded(await lab.number('lambda-12'), 1 - exact.rga_11, 2);
     rounded(numberIn((await lab.text('niederlinski')).replace(/^.*?:/, '')), exact.niederlinski_diagonal, 2);
 
-    await page.locator('.process details.more > summary').click();
+    await page.locator('[data-testid=operating-point-fold] > summary').click();
     // At the beginning of the run everything is at rest.
     await lab.id('responses-surface').focus();
     await page.keyboard.press('Home');
@@ -103,7 +103,7 @@ for (const [name, lambda] of [['junqueira-case-a', 1.8], ['junqueira-case-b', -0
     expect(await lab.number('lambda-11')).toBeCloseTo(lambda, 9);
     expect(await lab.text('stability')).toMatch(/Closed loop stable/);
     expect(await lab.text('responses-sentence')).toContain('Level 1 settles');
-    await page.locator('.process details.more > summary').click();
+    await page.locator('[data-testid=operating-point-fold] > summary').click();
     expect(await lab.text('preset-remark')).toContain('gains here are ours');
     await lab.clean();
   });

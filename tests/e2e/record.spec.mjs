@@ -4,6 +4,7 @@ import { expect, test } from './lab.mjs';
 /** A record of Johansson's rig whose pump 1 moves twice, as the laboratory itself computes it, written the Brazilian way. */
 async function recorded(lab, page) {
   await lab.open('lang=en');
+  await lab.id('experiment-more').locator('summary').click();
   await page.getByTestId('pumps-kind').selectOption('random');
   await lab.settle();
   await page.getByTestId('responses-menu').locator('summary').click();
@@ -117,6 +118,7 @@ test('a record of 20,000 rows paints, and its pumps move too often to be run', a
 
 test('a run begins at other levels and the pumps are moved by hand', async ({ lab }) => {
   await lab.open('lang=en');
+  await lab.id('experiment-more').locator('summary').click();
   await lab.id('start-kind').selectOption('levels');
   await lab.settle();
   await lab.type('start-level1', '5');

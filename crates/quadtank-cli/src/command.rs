@@ -142,8 +142,8 @@ enum Command {
         #[arg(long, value_enum, default_value_t = Format::Json)]
         format: Format,
     },
-    /// List the published cases of Campestrini (2006), Junqueira et al., Andreis (2017) and of lecture slides on a level tank, or
-    /// print the scenario of one
+    /// List the published cases of Campestrini (2006), Junqueira et al., Andreis (2017), of lecture slides on a level tank, and
+    /// controllers published for the column of Wood and Berry, or print the scenario of one
     Cases {
         /// Name of a case
         #[arg(value_parser = case_of)]
@@ -314,6 +314,9 @@ fn execute(command: Command) -> Result<(), Failure> {
         Command::Cases { name: None, .. } => print(&list_of_cases()),
         Command::Cases { name: Some(Case::Tuning(case)), .. } => {
             print_document(&case.name(), to_json(&TuningScenario::from(TuningSetup::published(case))))
+        }
+        Command::Cases { name: Some(Case::Controllers(controllers)), .. } => {
+            print_document(controllers.name(), to_json(&TuningScenario::from(TuningSetup::with_published(controllers))))
         }
         Command::Cases { name: Some(Case::ModelFree(setup)), .. } => {
             print_document("this case", to_json(&ModelFreeScenario::from(*setup)))

@@ -125,8 +125,8 @@ pub struct LociChart<'a> {
     pub loci: [[&'a [f64]; 2]; 2],
     /// The same at the critical gains, before the design.
     pub before: [[&'a [f64]; 2]; 2],
-    /// The target λ.
-    pub target: (f64, f64),
+    /// The target λ; `None` for controllers that are not placed.
+    pub target: Option<(f64, f64)>,
     /// Where rules move the critical point.
     pub rules: &'a [RulePoint],
     /// Names of the axes.
@@ -157,7 +157,7 @@ pub fn characteristic_loci<'a>(spec: &LociChart<'a>) -> Chart<'a> {
         let text = name.to_owned();
         chart.layers.push(Layer::Label(Label { at, offset, anchor, text, role: Role::Neutral, bold: false }));
     }
-    chart.layers.push(mark(spec.target, Shape::Handle, Role::Neutral));
+    chart.layers.extend(spec.target.map(|target| mark(target, Shape::Handle, Role::Neutral)));
     let entry = |pen, role, text: &str| Entry { sample: Sample::Line(pen), role, text: text.to_owned() };
     chart.legend.push(entry(Pen::Solid, Role::Loop1, spec.texts[0]));
     chart.legend.push(entry(Pen::Solid, Role::Loop2, spec.texts[1]));
@@ -331,7 +331,7 @@ mod tests {
         let spec = LociChart {
             loci: [far, far],
             before: [far, far],
-            target: (-0.3, -0.3),
+            target: Some((-0.3, -0.3)),
             rules: &[((-0.4, 0.08), "ZN", (7.0, 0.0))],
             axes: ["re", "im"],
             texts: ["1", "2", "0"],

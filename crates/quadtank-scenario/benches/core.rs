@@ -123,7 +123,7 @@ fn relay_tuning(c: &mut Criterion) {
 }
 
 fn pid(proportional: f64, integral: f64, derivative: f64) -> ParallelPid {
-    ParallelPid { proportional, integral, derivative }
+    ParallelPid { proportional, integral, derivative, ..ParallelPid::default() }
 }
 
 /// 2000 s of each published case under the published law.

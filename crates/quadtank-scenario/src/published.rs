@@ -3,6 +3,7 @@
 use quadtank::literature::andreis::PublishedDisturbance;
 use quadtank::literature::campestrini::PublishedCase;
 use quadtank::literature::junqueira::{PublishedExperiment, PublishedValves};
+use quadtank::literature::wood_berry::PublishedControllers;
 use quadtank::literature::{LevelPresetId, PresetId, level_slides};
 use quadtank::sim::level::LevelController;
 use quadtank::study::level_loop::{LevelLoopSetup, published_setup};
@@ -20,6 +21,10 @@ pub fn published_document(name: &str) -> Option<Document> {
     let rig = || PresetId::from_name(name).map(|id| Scenario::from(setup_of(id)).into());
     let tuning =
         || PublishedCase::from_name(name).map(|case| TuningScenario::from(TuningSetup::published(case)).into());
+    let given = || {
+        let controllers = PublishedControllers::from_name(name)?;
+        Some(TuningScenario::from(TuningSetup::with_published(controllers)).into())
+    };
     let model_free = || {
         let (_, valves, run) = model_free_cases().find(|(known, ..)| known == name)?;
         Some(ModelFreeScenario::from(ModelFreeSetup::published(valves, run)).into())
@@ -28,7 +33,7 @@ pub fn published_document(name: &str) -> Option<Document> {
         let (.., setup) = level_loop_cases().find(|(known, ..)| known == name)?;
         Some(LevelLoopScenario::from(setup).into())
     };
-    rig().or_else(tuning).or_else(model_free).or_else(level_loop)
+    rig().or_else(tuning).or_else(given).or_else(model_free).or_else(level_loop)
 }
 
 /// The published cases by name: `junqueira-a-s1` and so on.

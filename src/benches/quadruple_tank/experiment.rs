@@ -207,8 +207,6 @@ pub fn ExperimentCard() -> impl IntoView {
             <Timed size=&REFERENCE time=&REFERENCE_TIME index=0 />
             <Timed size=&REFERENCE time=&REFERENCE_TIME index=1 />
             <LoadControls />
-            <StartControls />
-            <PumpControls />
             <ParamRow session control=&NOISE />
             <ParamRow session control=&DURATION />
             <Tick
@@ -219,8 +217,27 @@ pub fn ExperimentCard() -> impl IntoView {
                 on_tick=move |on| session.edit(|s| s.experiment.measurement.quantised = on)
             />
             <p class="remark" hidden=move || further() == 0>{say!(lab, experiment.further, count = further())}</p>
-            <AllSteps />
+            <MoreControls />
         </Card>
+    }
+}
+
+/// What most experiments leave as it is: where it begins, who moves the pumps, and steps beyond the first. Open where it does not.
+#[component]
+fn MoreControls() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let is_used = session.document.with_untracked(|document| {
+        let experiment = &document.setup.experiment;
+        experiment.initial_levels.is_some() || !experiment.pump_voltage_steps.is_empty()
+    });
+    view! {
+        <details class="more" data-testid="experiment-more" open=is_used>
+            <summary>{say!(lab, experiment.more)}</summary>
+            <StartControls />
+            <PumpControls />
+            <AllSteps />
+        </details>
     }
 }
 

@@ -98,7 +98,7 @@ fn OperatingPoint() -> impl IntoView {
     let lab = use_session().lab;
     let open = RwSignal::new(false);
     view! {
-        <details class="more" on:toggle=move |_| open.update(|o| *o = !*o)>
+        <details class="more" data-testid="operating-point-fold" on:toggle=move |_| open.update(|o| *o = !*o)>
             <summary>{say!(lab, process.operating_point)}</summary>
             <PresetRemark />
             <div class="fields">

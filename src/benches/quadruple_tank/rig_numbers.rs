@@ -194,7 +194,9 @@ fn Group(
                 which if which.is_empty() => (number.label)(lab),
                 which => tr!(lab, rig.of, what = (number.label)(lab), which = which),
             });
-            view! { <Field number index name refused /> }
+            // A number of its own that all rows share says which tank or pump it is of.
+            let mark = if number.ids.len() > 1 { (index + 1).to_string() } else { String::new() };
+            view! { <span class="which"><span aria-hidden="true">{mark}</span><Field number index name refused /></span> }
         });
         view! {
             <div class="rig-row">

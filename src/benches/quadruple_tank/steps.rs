@@ -23,7 +23,7 @@ const IDS: [[&str; 3]; limits::MAX_STEPS] = [
     ["step-level-8", "step-time-8", "step-size-8"],
 ];
 
-/// All steps, folded away.
+/// All steps.
 #[component]
 pub fn AllSteps() -> impl IntoView {
     let session = use_session();
@@ -42,8 +42,8 @@ pub fn AllSteps() -> impl IntoView {
     };
     let rows = move || (0..count.get()).map(|index| view! { <StepRow index /> }).collect_view();
     view! {
-        <details class="more steps" data-testid="all-steps">
-            <summary>{say!(lab, experiment.steps)}</summary>
+        <div class="steps" role="group" aria-label=say!(lab, experiment.steps) data-testid="all-steps">
+            <p class="remark">{say!(lab, experiment.steps)}</p>
             {rows}
             <button
                 type="button"
@@ -54,7 +54,7 @@ pub fn AllSteps() -> impl IntoView {
             >
                 {say!(lab, experiment.step_add)}
             </button>
-        </details>
+        </div>
     }
 }
 
@@ -119,7 +119,18 @@ fn StepRow(index: usize) -> impl IntoView {
                 digits=Some(2)
                 disabled
             />
-            <span class="unit">{move || unit_name(session.own.unit.get())} " " {say!(lab, experiment.at)}</span>
+            <span class="unit">{move || unit_name(session.own.unit.get())}</span>
+            <button
+                type="button"
+                class="button small"
+                aria-label=say!(lab, experiment.step_remove, number = number)
+                data-testid=format!("step-remove-{number}")
+                disabled=disabled
+                on:click=remove
+            >
+                "×"
+            </button>
+            <span class="unit at-time">{say!(lab, experiment.at)}</span>
             <NumberField
                 id=time_id
                 name=say!(lab, experiment.step_time, number = number)
@@ -131,16 +142,6 @@ fn StepRow(index: usize) -> impl IntoView {
                 disabled
             />
             <span class="unit">"s"</span>
-            <button
-                type="button"
-                class="button small"
-                aria-label=say!(lab, experiment.step_remove, number = number)
-                data-testid=format!("step-remove-{number}")
-                disabled=disabled
-                on:click=remove
-            >
-                "×"
-            </button>
         </div>
     }
 }

@@ -164,8 +164,11 @@ fn table(session: Session) -> Option<impl IntoView> {
     let style = lab.number_style();
     let unit = session.throttled.setup.with(|s| time_unit(&s.plant));
     let on_curve = session.throttled.critical.with(|reading| reading.as_ref().ok()?.on_curve);
-    let (gains, frequency, period) =
-        session.throttled.with_design(|design| (design.critical_gains, design.frequency, design.period()))?;
+    let (gains, frequency, period) = session
+        .throttled
+        .with_design(|design| design.critical)
+        .flatten()
+        .map(|at| (at.gains, at.frequency, at.period()))?;
     let number = |v: Option<f64>| v.map_or_else(|| "–".to_owned(), |v| style.significant(v, 4));
     let row = |name: String, chosen: f64, curve: Option<f64>| {
         view! { <Row name figures=[number(Some(chosen)), number(curve)] /> }.into_any()

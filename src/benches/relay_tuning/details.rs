@@ -49,7 +49,7 @@ fn responses(session: Session, found: &Recovered) -> impl IntoView + use<> {
     view! { <TableContent caption=tr!(lab, relay.details) columns rows /> }
 }
 
-/// The controllers of both roots in ISA and in series form (Campestrini 2006, eqs. 9 to 11).
+/// The controllers of both roots, or the given ones, in ISA and in series form (Campestrini 2006, eqs. 9 to 11).
 #[component]
 pub fn OtherForms() -> impl IntoView {
     let session = use_session();
@@ -62,9 +62,11 @@ fn forms(session: Session) -> impl IntoView {
     let columns = [&*tr!(lab, relay.col_root), "K", "Ti", "Td", "K′", "Ti′", "Td′"].map(str::to_owned).to_vec();
     let rows = session.throttled.with_design(|design| {
         let mut rows = Vec::new();
+        let is_alone = design.roots.len() == 1;
         for (k, root) in (1..).zip(&design.roots) {
             for (i, &forms) in root.forms.iter().enumerate() {
-                let name = format!("{k}, p{}", ["₁", "₂"][i]);
+                let number = if is_alone { String::new() } else { format!("{k}, ") };
+                let name = format!("{number}p{}", ["₁", "₂"][i]);
                 let figures = figures_of_forms(session, forms);
                 rows.push(view! { <Row class=["loop1", "loop2"][i] name figures /> }.into_any());
             }

@@ -61,7 +61,8 @@ pub fn of_test(session: Session) -> Vec<Offer> {
 
 /// What gives a rig its ultimate points back.
 pub fn of_curve(session: Session) -> Vec<Offer> {
-    let lacks_point = session.throttled.design.with(|design| !matches!(design.as_ref(), Ok(Some(_))));
+    let has_point = session.throttled.with_design(|design| design.critical.is_some());
+    let lacks_point = has_point != Some(true);
     lacks_point.then(|| dead_time(session, "mend-curve")).flatten().into_iter().collect()
 }
 

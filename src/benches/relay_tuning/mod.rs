@@ -5,6 +5,7 @@ mod curve;
 mod details;
 mod errors;
 mod flags;
+mod given;
 mod guide;
 mod mends;
 mod pictures;

@@ -2,6 +2,7 @@
 
 use leptos::prelude::*;
 
+use super::given::is_given;
 use super::session::{Found, Session, time_unit};
 use crate::texts::tr;
 use crate::widgets::Picture;
@@ -114,7 +115,7 @@ fn loops(
 
 /// The gains of the critical point that the placement starts from, on the axes of the curve.
 pub fn chosen_point(found: Found) -> Option<(f64, f64)> {
-    let gains = found.with_design(|design| design.critical_gains)?;
+    let gains = found.with_design(|design| Some(design.critical?.gains)).flatten()?;
     found.study.with(|study| study.as_ref().as_ref().ok().map(|study| study.normalised(gains)))
 }
 
@@ -163,7 +164,7 @@ pub fn curve(session: Session, chosen: Signal<Option<(f64, f64)>>) -> Picture {
     Picture::new(build, csv)
 }
 
-/// Both loci before and after the placement.
+/// Both loci at the critical gains and with the controllers at work.
 pub fn loci(session: Session) -> Picture {
     let lab = session.lab;
     let build = move |show: &mut dyn FnMut(&[quadtank_figure::Chart])| {
@@ -174,14 +175,16 @@ pub fn loci(session: Session) -> Picture {
             };
             let [before, after] =
                 columns.each_ref().map(|loci| loci.each_ref().map(|parts| parts.each_ref().map(Vec::as_slice)));
-            let [re, im] = session.charts.setup.with(|s| s.design.target);
+            let (target, is_given) = session.charts.setup.with(|s| (s.design.target, is_given(s)));
             let rules = rule_targets().map(|(rule, at)| ((at.re, at.im), short_name(rule), offset_of(rule)));
+            // Given controllers have no target.
+            let (target, rules) = if is_given { (None, &[][..]) } else { (Some(target.into()), &rules[..]) };
             let names = [1, 2].map(|number| tr!(lab, relay.locus, number = number));
             show(&[quadtank_figure::characteristic_loci(&LociChart {
                 loci: after,
                 before,
-                target: (re, im),
-                rules: &rules,
+                target,
+                rules,
                 axes: ["Re λ", "Im λ"],
                 texts: [&names[0], &names[1], &tr!(lab, relay.before)],
             })]);

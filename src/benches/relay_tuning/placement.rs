@@ -1,4 +1,4 @@
-//! Step 3: the target of the placement in the plane of the loci, and the controllers that follow.
+//! Step 3: the target of the placement in the plane of the loci and the controllers that follow, or given controllers.
 
 use leptos::prelude::*;
 
@@ -6,6 +6,7 @@ use super::controls::symbol;
 use super::details::OtherForms;
 use super::errors;
 use super::flags::{locks, panels};
+use super::given::{GivenControllers, Origin, PublishedSideBySide, is_given};
 use super::mends;
 use super::pictures::{self, short_name};
 use super::session::{Session, use_session};
@@ -15,7 +16,7 @@ use crate::lab::Lab;
 use crate::texts::{say, terms, tr};
 use crate::widgets::{Choice, Figures, Nudge, PointHandle, Row, Scale, Select, TableContent, Text};
 use quadtank::linear::{Closure, LoopStability};
-use quadtank::study::relay_tuning::{DesignRoot, TuningSetup, rule_targets};
+use quadtank::study::relay_tuning::{DesignRoot, LoopPeaks, TuningSetup, rule_targets};
 use quadtank::tuning::{Action, PlacementMethod, PlacementWarning, TuningRule};
 use quadtank_figure::Frame;
 
@@ -36,7 +37,7 @@ const TARGET: ParamControl<TuningSetup> = ParamControl {
 };
 
 /// The words of the card that explain themselves.
-const TERMS: &[Text] = &[terms::locus, terms::target, terms::margins];
+const TERMS: &[Text] = &[terms::locus, terms::target, terms::margins, terms::peak, terms::log_modulus];
 
 /// The placement.
 #[component]
@@ -55,10 +56,12 @@ pub fn PlacementCard() -> impl IntoView {
             picture=pictures::loci(session)
             frames
             place="chart square"
-            overlay=move || view! { <svg class="over"><TargetHandle frames /></svg> }
+            overlay=move || {
+                view! { <svg class="over"><Show when=move || session.read(|s| !is_given(s))><TargetHandle frames /></Show></svg> }
+            }
             verdict=Signal::derive(move || sentence(session))
             offers=Signal::derive(move || mends::of_design(session, "mend-placement"))
-            below=|| view! { <OtherForms /> }
+            below=|| view! { <OtherForms /> <PublishedSideBySide /> }
         >
             <Settings />
         </Step>
@@ -67,6 +70,19 @@ pub fn PlacementCard() -> impl IntoView {
 
 #[component]
 fn Settings() -> impl IntoView {
+    let session = use_session();
+    let caption = Signal::derive(move || caption(session));
+    view! {
+        <Origin />
+        <div class="stack" hidden=session.throttled_part(is_given)><PlacedControllers /></div>
+        <div class="stack" hidden=session.throttled_part(|s| !is_given(s))><GivenControllers /></div>
+        <Figures name="gains" caption>{move || table(session)}</Figures>
+    }
+}
+
+/// Method, action, root and target of a placement.
+#[component]
+fn PlacedControllers() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
     let lock = locks::TARGET;
@@ -106,7 +122,6 @@ fn Settings() -> impl IntoView {
             <ParamRow session control=&TARGET index=1 />
         </div>
         <RuleSelect />
-        <Figures name="gains" caption=say!(lab, relay.gains_caption)>{move || table(session)}</Figures>
     }
 }
 
@@ -178,17 +193,17 @@ fn TargetHandle(frames: RwSignal<Vec<Frame>>) -> impl IntoView {
     }
 }
 
-/// What the chosen root does, what to beware of, and whether all is well.
+/// What the controllers at work do, what to beware of, and whether all is well.
 fn sentence(session: Session) -> (bool, String) {
     let lab = session.lab;
-    let root = session.throttled.setup.with(|s| s.design.root);
+    let is_given = session.throttled.setup.with(|s| is_given(s));
     let found = session.throttled.design.get();
     let design = match found.as_ref() {
         Ok(Some(design)) => design,
         Ok(None) => return (false, tr!(lab, relay.no_point)),
         Err(error) => return (false, errors::sentence(lab, error)),
     };
-    let chosen = &design.roots[(root - 1).min(1)];
+    let chosen = design.at_work();
     let style = lab.number_style();
     let mut text = match chosen.stability {
         LoopStability::Stable => session.throttled.critical.with(|reading| {
@@ -197,7 +212,8 @@ fn sentence(session: Session) -> (bool, String) {
             let distance = style.significant(margins.distance, 3);
             let degrees = margins.phase.map_or_else(|| "–".to_owned(), |p| style.fixed(p.to_degrees(), 0));
             let gain = margins.gain_up.map_or_else(|| "∞".to_owned(), |g| style.significant(g, 3));
-            tr!(lab, relay.stable, distance = distance, degrees = degrees, gain = gain)
+            let margins = tr!(lab, relay.stable, distance = distance, degrees = degrees, gain = gain);
+            margins + &of_peaks(lab, reading.peaks)
         }),
         LoopStability::Unstable { poles } => tr!(lab, relay.unstable, poles = poles),
         LoopStability::Marginal { .. } => tr!(lab, relay.marginal),
@@ -209,12 +225,24 @@ fn sentence(session: Session) -> (bool, String) {
     for &warning in &chosen.warnings {
         text = text + " " + &of_warning(lab, warning);
     }
-    let gain = design.dynamic_relative_gain_11;
-    let sign = if gain.im < 0.0 { "−" } else { "+" };
-    let gain = format!("{} {sign} {}j", style.fixed(gain.re, 3), style.fixed(gain.im.abs(), 3));
-    text = text + " " + &tr!(lab, relay.dynamic_gain, gain = gain);
+    if let (false, Some(critical)) = (is_given, design.critical) {
+        let gain = critical.dynamic_relative_gain_11;
+        let sign = if gain.im < 0.0 { "−" } else { "+" };
+        let gain = format!("{} {sign} {}j", style.fixed(gain.re, 3), style.fixed(gain.im.abs(), 3));
+        text = text + " " + &tr!(lab, relay.dynamic_gain, gain = gain);
+    }
     let mild = |warning: &PlacementWarning| matches!(warning, PlacementWarning::DoubleEigenvalue);
     (chosen.stability == LoopStability::Stable && chosen.warnings.iter().all(mild), text)
+}
+
+/// Biggest log modulus and sensitivity peak, after the margins; nothing where they are not computed.
+fn of_peaks(lab: Lab, peaks: Option<LoopPeaks>) -> String {
+    let Some(LoopPeaks { sensitivity: Some(sensitivity), log_modulus: Some(modulus) }) = peaks else {
+        return String::new();
+    };
+    let style = lab.number_style();
+    let (modulus, peak) = (style.fixed(modulus.value, 2), style.fixed(sensitivity.value, 2));
+    " ".to_owned() + &tr!(lab, relay.peaks, modulus = modulus, peak = peak)
 }
 
 fn of_warning(lab: Lab, warning: PlacementWarning) -> String {
@@ -231,19 +259,33 @@ fn of_warning(lab: Lab, warning: PlacementWarning) -> String {
     }
 }
 
-/// The gains of both roots.
-fn table(session: Session) -> impl IntoView {
+fn caption(session: Session) -> String {
     let lab = session.lab;
-    let chosen = session.throttled.setup.with(|s| s.design.root);
-    let columns = [&*tr!(lab, relay.col_root), "kp", "ki", "kd"].map(str::to_owned).to_vec();
-    let rows = session.throttled.with_design(|design| {
-        let roots = (1..).zip(&design.roots);
-        roots.flat_map(|(number, root)| rows_of_root(lab, number, root, chosen == number)).collect::<Vec<_>>()
-    });
-    view! { <TableContent caption=tr!(lab, relay.gains_caption) columns rows=rows.unwrap_or_default() /> }
+    if session.throttled.setup.with(|s| is_given(s)) {
+        tr!(lab, relay.given_caption)
+    } else {
+        tr!(lab, relay.gains_caption)
+    }
 }
 
-fn rows_of_root(lab: Lab, number: usize, root: &DesignRoot, chosen: bool) -> [AnyView; 2] {
+/// The gains of both roots, or of given controllers.
+fn table(session: Session) -> impl IntoView {
+    let lab = session.lab;
+    let columns = [&*tr!(lab, relay.col_root), "kp", "ki", "kd"].map(str::to_owned).to_vec();
+    let rows = session.throttled.with_design(|design| {
+        let roots = design.roots.iter().enumerate();
+        let is_alone = design.roots.len() == 1;
+        let rows = |(index, root): (usize, &DesignRoot)| {
+            let number = (!is_alone).then_some(index + 1);
+            rows_of_root(lab, number, root, !is_alone && index == design.chosen)
+        };
+        roots.flat_map(rows).collect::<Vec<_>>()
+    });
+    view! { <TableContent caption=caption(session) columns rows=rows.unwrap_or_default() /> }
+}
+
+/// Rows of a root with its number; given controllers have none.
+fn rows_of_root(lab: Lab, number: Option<usize>, root: &DesignRoot, chosen: bool) -> [AnyView; 2] {
     let style = lab.number_style();
     let verdict = match root.stability {
         LoopStability::Stable => "✓",
@@ -252,7 +294,8 @@ fn rows_of_root(lab: Lab, number: usize, root: &DesignRoot, chosen: bool) -> [An
     };
     [0, 1].map(|k| {
         let pid = &root.controllers[k];
-        let name = format!("{number}, p{} {verdict}", ["₁", "₂"][k]);
+        let number = number.map_or_else(String::new, |number| format!("{number}, "));
+        let name = format!("{number}p{} {verdict}", ["₁", "₂"][k]);
         let loop_class = ["loop1", "loop2"][k];
         let class = if chosen { format!("{loop_class} chosen") } else { loop_class.to_owned() };
         let figures = [pid.proportional, pid.integral, pid.derivative].map(|v| style.fixed(v, 4));

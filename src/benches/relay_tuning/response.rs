@@ -66,9 +66,13 @@ pub fn ResponseCard() -> impl IntoView {
     }
 }
 
-/// Where the locus of a pinned session was moved to, and with which controllers.
+/// Where the locus of a pinned session was moved to, and with which controllers, or the gains of given ones.
 fn pinned_text(session: Session, pinned: &TuningSetup) -> String {
     let style = session.lab.number_style();
+    if let Some(controllers) = pinned.design.controllers {
+        let [one, two] = controllers.map(|pid| style.significant(pid.gain, 3));
+        return tr!(session.lab, relay.pinned_given, one = one, two = two);
+    }
     let [real, imaginary] = pinned.design.target;
     let sign = if imaginary < 0.0 { "−" } else { "+" };
     let action = if pinned.design.action == quadtank::tuning::Action::Pi { "PI" } else { "PID" };

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use quadtank::literature::PresetId;
 use quadtank::literature::campestrini::PublishedCase;
+use quadtank::literature::wood_berry::PublishedControllers;
 use quadtank::study::level_loop::LevelLoopSetup;
 use quadtank::study::model_free::ModelFreeSetup;
 use quadtank_scenario::{level_loop_cases, model_free_cases};
@@ -18,6 +19,7 @@ pub fn preset_parser() -> impl TypedValueParser<Value = PresetId> {
 #[derive(Clone, Debug)]
 pub enum Case {
     Tuning(PublishedCase),
+    Controllers(PublishedControllers),
     ModelFree(Box<ModelFreeSetup>),
     LevelLoop(Box<LevelLoopSetup>),
 }
@@ -27,6 +29,7 @@ pub fn case_of(name: &str) -> Result<Case, &'static str> {
     let level_loop = || level_loop_cases().find(|(known, ..)| known == name);
     PublishedCase::from_name(name)
         .map(Case::Tuning)
+        .or_else(|| PublishedControllers::from_name(name).map(Case::Controllers))
         .or_else(|| {
             model_free().map(|(_, valves, run)| Case::ModelFree(Box::new(ModelFreeSetup::published(valves, run))))
         })
@@ -55,7 +58,12 @@ pub fn list_of_cases() -> String {
         let _ = writeln!(list, "{:<16} Campestrini (2006), {place}", case.name());
         list
     });
-    let both = model_free_cases().fold(tuning, |mut list, (name, valves, experiment)| {
+    let given = PublishedControllers::ALL.into_iter().fold(tuning, |mut list, controllers| {
+        let source = controllers.source();
+        let _ = writeln!(list, "{:<28} {source}: the column of Wood and Berry", controllers.name());
+        list
+    });
+    let both = model_free_cases().fold(given, |mut list, (name, valves, experiment)| {
         let _ = writeln!(list, "{name:<16} Junqueira, Neves and Angelico, case {valves:?}, experiment {experiment:?}");
         list
     });

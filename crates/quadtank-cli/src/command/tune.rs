@@ -118,7 +118,7 @@ fn curve<T>(found: &Tuning, draw: impl Fn(&CurveChart) -> T) -> T {
     };
     let harmonic: Vec<(f64, f64)> = oscillation.and_then(|o| o.gains_by_harmonic()).map(normal).into_iter().collect();
     let peak: Vec<(f64, f64)> = oscillation.and_then(|o| o.gains_by_peak()).map(normal).into_iter().collect();
-    let chosen = found.design.as_ref().map(|design| normal(design.critical_gains));
+    let chosen = found.design.as_ref().and_then(|design| design.critical).map(|critical| normal(critical.gains));
     draw(&CurveChart {
         curve: [&x, &y],
         corners: &corners,
@@ -144,7 +144,7 @@ fn loci<T>(found: &Tuning, setup: &TuningSetup, draw: impl Fn(&LociChart) -> T) 
     draw(&LociChart {
         loci: after.each_ref().map(|parts| parts.each_ref().map(Vec::as_slice)),
         before: before.each_ref().map(|parts| parts.each_ref().map(Vec::as_slice)),
-        target: (re, im),
+        target: setup.design.controllers.is_none().then_some((re, im)),
         rules: &[],
         axes: ["real part", "imaginary part"],
         texts: ["locus 1", "locus 2", "at the critical gains"],

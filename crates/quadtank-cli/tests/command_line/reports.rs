@@ -119,8 +119,16 @@ fn reports_about_the_quadruple_tank_are_what_their_schemas_say() {
 #[test]
 fn reports_about_relay_tuning_are_what_their_schemas_say() {
     let mut documents = cases(2);
-    assert_eq!(documents.len(), 37);
+    assert_eq!(documents.len(), 41);
     let case = documents[0].clone();
+    // Given controllers on a plant without an ultimate point, and in an open loop.
+    documents.extend(["importance", "open"].map(|what| {
+        let gain = if what == "open" { 0.0 } else { 1.0 };
+        let lag = |gain: f64| json!({ "numerator": [gain], "denominator": [1, 10] });
+        let plant = json!({ "elements": [[lag(2.0), lag(0.5)], [lag(-0.5), lag(1.0)]] });
+        let given = json!({ "controllers": [{ "gain": gain, "integral_time": 5 }, { "gain": gain }] });
+        with(&case, &[("/tuning/plant", plant), ("/tuning/design", given)])
+    }));
     let element = |gain: f64| json!({ "numerator": [gain], "denominator": [1, 10, 20], "dead_time": 0 });
     let elements = |gains: [f64; 4]| {
         let [g11, g12, g21, g22] = gains.map(element);

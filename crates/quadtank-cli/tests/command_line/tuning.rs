@@ -41,6 +41,29 @@ fn cases_lists_every_published_case_and_tune_gives_its_gains() {
 }
 
 #[test]
+fn given_controllers_are_answered_and_published_ones_compared() {
+    let file = include_str!("../../../quadtank-scenario/tests/data/wood-berry-given-gains.json");
+    let report: Value = serde_json::from_str(&stdout(&pipe(&["tune", "-"], file.as_bytes()))).unwrap();
+    let root = &report["design"]["roots"][0];
+    assert_eq!((&root["stability"]["stable"], &report["design"]["chosen"]), (&json!(true), &json!(1)));
+    // Printed to two decimals by an independent computation.
+    assert_relative_eq!(root["sensitivity_peak"].as_f64().unwrap(), 2.10, epsilon = 0.005);
+    assert_relative_eq!(root["biggest_log_modulus_db"].as_f64().unwrap(), 3.98, epsilon = 0.005);
+    let names = ["blt", "ziegler-nichols", "chen-seborg", "boyd-hast-astrom"].map(|name| format!("wood-berry-{name}"));
+    let compared = report["published_controllers"].as_array().unwrap();
+    assert_eq!(compared.iter().map(|row| row["case"].as_str().unwrap()).collect::<Vec<_>>(), names);
+    assert_eq!(compared[0]["figures"], report["design"]["figures"]);
+    let list = stdout(&run(&["cases"]));
+    for (name, row) in names.iter().zip(compared) {
+        assert!(list.lines().any(|line| line.starts_with(name.as_str())), "{name}");
+        let alone: Value = serde_json::from_str(&stdout(&pipe(&["tune", "-"], case(name).as_bytes()))).unwrap();
+        assert_eq!(alone["design"]["roots"][0]["sensitivity_peak"], row["sensitivity_peak"]);
+    }
+    let schema: Value = serde_json::from_str(&stdout(&run(&["schema", "--version", "2"]))).unwrap();
+    assert_described(&schema, &schema, &serde_json::from_str(file).unwrap());
+}
+
+#[test]
 fn every_command_takes_a_relay_tuning_session() {
     let session = case("table-14-row-1");
     let analysis: Value = serde_json::from_str(&stdout(&pipe(&["analyse", "-"], session.as_bytes()))).unwrap();

@@ -3,8 +3,9 @@ use thiserror::Error;
 
 use quadtank::literature::campestrini::PublishedPlant;
 
+use quadtank::control::Pairing;
 use quadtank::study::relay_tuning::{
-    CompareSpec, DecouplerSpec, Element, SeriesElement, TestKind, TuningPlant, TuningSetup,
+    CompareSpec, DecouplerSpec, DesignSpec, Element, GivenPid, SeriesElement, TestKind, TuningPlant, TuningSetup,
 };
 
 /// What a session may not have been meant to say. Nothing is refused for it.
@@ -41,11 +42,15 @@ const SHORTEST_LAG: f64 = 2.0;
 
 /// What a session may not have been meant to say.
 pub fn warnings(setup: &TuningSetup) -> Vec<TuningWarning> {
-    coefficient_order(setup).into_iter().chain(settings_without_effect(setup)).collect()
+    coefficient_order(setup)
+        .into_iter()
+        .chain(settings_without_effect(setup))
+        .chain(design_without_effect(&setup.design))
+        .collect()
 }
 
 /// Settings with a value of their own that change nothing, because the session has no use for them.
-fn settings_without_effect(setup: &TuningSetup) -> impl Iterator<Item = TuningWarning> + use<> {
+fn settings_without_effect(setup: &TuningSetup) -> Vec<TuningWarning> {
     let (test, kind) = (&setup.test, setup.test.kind);
     let is_single = kind == TestKind::Single;
     // Index of the loop without a relay.
@@ -53,7 +58,7 @@ fn settings_without_effect(setup: &TuningSetup) -> impl Iterator<Item = TuningWa
     let nonlinear = matches!(setup.plant, TuningPlant::QuadrupleTank { nonlinear: true, .. });
     let is_column = setup.plant == TuningPlant::Published(PublishedPlant::WoodBerry);
     let dynamic = !matches!(setup.design.decoupler, DecouplerSpec::None | DecouplerSpec::Static);
-    [
+    no_effect([
         (!is_single && test.number != 1, "tuning.test.number", "in a single test"),
         (!is_single && test.behind != SeriesElement::Nothing, "tuning.test.behind", "in a single test"),
         (idle(0) && test.hysteresis[0] != 0.0, "tuning.test.hysteresis[0]", "with a relay in loop 1"),
@@ -77,9 +82,47 @@ fn settings_without_effect(setup: &TuningSetup) -> impl Iterator<Item = TuningWa
             "tuning.response.compare",
             "on the column of Wood and Berry, whose full controller it is",
         ),
-    ]
-    .into_iter()
-    .filter_map(|(is_idle, field, acts)| is_idle.then_some(TuningWarning::NoEffect { field, acts }))
+    ])
+}
+
+/// The same of a design: what a placement has beside given controllers, and what a given controller without derivative action or
+/// gain has of these.
+fn design_without_effect(design: &DesignSpec) -> Vec<TuningWarning> {
+    let absent = DesignSpec::default();
+    let Some(controllers) = design.controllers else {
+        let is_idle = design.pairing != Pairing::Diagonal;
+        return no_effect([(is_idle, "tuning.design.pairing", "on given controllers")]);
+    };
+    let placed = "in a placement; here the controllers are given";
+    let of_placement = no_effect([
+        (design.method != absent.method, "tuning.design.method", placed),
+        (design.action != absent.action, "tuning.design.action", placed),
+        (design.target != absent.target, "tuning.design.target", placed),
+        (design.root != absent.root, "tuning.design.root", placed),
+    ]);
+    let [first, second] = controllers.each_ref().map(idle_parts);
+    let of_controllers = no_effect([
+        (first[0], "tuning.design.controllers[0].integral_time", "with a gain"),
+        (first[1], "tuning.design.controllers[0].derivative_time", "with a gain"),
+        (first[2], "tuning.design.controllers[0].filter_time", "with derivative action"),
+        (second[0], "tuning.design.controllers[1].integral_time", "with a gain"),
+        (second[1], "tuning.design.controllers[1].derivative_time", "with a gain"),
+        (second[2], "tuning.design.controllers[1].filter_time", "with derivative action"),
+    ]);
+    [of_placement, of_controllers].concat()
+}
+
+/// Whether integral time, derivative time and filter of a given controller are set without acting.
+fn idle_parts(pid: &GivenPid) -> [bool; 3] {
+    let &GivenPid { gain, integral_time, derivative_time, filter_time } = pid;
+    let is_open = gain == 0.0;
+    let is_pi = is_open || derivative_time == 0.0;
+    [is_open && integral_time.is_some(), is_open && derivative_time != 0.0, is_pi && filter_time.is_some()]
+}
+
+fn no_effect<const N: usize>(settings: [(bool, &'static str, &'static str); N]) -> Vec<TuningWarning> {
+    let idle = settings.into_iter().filter(|(is_idle, ..)| *is_idle);
+    idle.map(|(_, field, acts)| TuningWarning::NoEffect { field, acts }).collect()
 }
 
 /// Whether the elements look as if the highest power of s had been written first. Then the denominators are written as those

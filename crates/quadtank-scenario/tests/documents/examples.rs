@@ -70,9 +70,23 @@ fn on_the_column() -> Value {
     document
 }
 
+/// A session on the column with given controllers.
+fn with_given_controllers() -> Value {
+    let mut document = on_the_column();
+    document["tuning"]["design"] = json!({
+        "critical": { "point": { "gains": [0.71, -0.264], "period": 12.7 } }, "decoupler": "none",
+        "controllers": [
+            { "gain": 0.375, "integral_time": 8.29, "derivative_time": 0.5, "filter_time": 0.1 },
+            { "gain": -0.075, "integral_time": 23.6, "derivative_time": 1.0, "filter_time": 0.3 },
+        ],
+        "pairing": "diagonal",
+    });
+    document
+}
+
 /// Sessions of version 2.
-pub fn sessions() -> [Value; 3] {
-    [on_a_rig(), on_elements(), on_the_column()]
+pub fn sessions() -> [Value; 4] {
+    [on_a_rig(), on_elements(), on_the_column(), with_given_controllers()]
 }
 
 /// A run with a pump that is moved by hand.

@@ -13,7 +13,7 @@ use quadtank::tuning::{Action, Design, PlacementMethod, propose, response_at};
 use quadtank_scenario::{Document, document_from_json};
 
 /// Random numbers (Steele, Lea and Flood 2014, `SplitMix64`).
-struct Random(u64);
+pub struct Random(pub u64);
 
 impl Random {
     #[expect(clippy::cast_precision_loss, reason = "53 bits")]
@@ -36,13 +36,13 @@ impl Random {
 
 /// `gain (1 − zero s) e^(−θ s)/(Π (T s + 1) Π (s²/ω² + 2 ζ s/ω + 1))`.
 #[derive(Clone, Debug)]
-struct Element {
+pub struct Element {
     gain: f64,
     zero: f64,
     lags: Vec<f64>,
     /// ω and ζ.
     resonance: Option<(f64, f64)>,
-    dead_time: f64,
+    pub dead_time: f64,
 }
 
 impl Element {
@@ -82,14 +82,14 @@ impl Element {
 
 /// A loop of four elements and two PI or PID controllers.
 #[derive(Clone, Debug)]
-struct Loop {
+pub struct Loop {
     plant: [[Element; 2]; 2],
-    controllers: [ParallelPid; 2],
+    pub controllers: [ParallelPid; 2],
 }
 
 impl Loop {
     /// A stable loop, at a random share of the gains at which it stops to be stable.
-    fn random(random: &mut Random) -> Self {
+    pub fn random(random: &mut Random) -> Self {
         loop {
             let drawn = Self::drawn(random);
             let share = random.uniform(0.1, 0.98);
@@ -118,7 +118,7 @@ impl Loop {
             let integral_time = time * random.logarithmic(0.2, 5.0);
             let proportional = random.logarithmic(0.2, 5.0) / own.gain;
             let derivative = if random.chance(0.4) { proportional * integral_time / 4.0 } else { 0.0 };
-            ParallelPid { proportional, integral: proportional / integral_time, derivative }
+            ParallelPid { proportional, integral: proportional / integral_time, derivative, ..ParallelPid::default() }
         });
         Self { plant, controllers }
     }
@@ -128,11 +128,12 @@ impl Loop {
             proportional: factor * pid.proportional,
             integral: factor * pid.integral,
             derivative: factor * pid.derivative,
+            ..pid
         });
         Self { plant: self.plant.clone(), controllers }
     }
 
-    fn transfer_matrix(&self) -> TransferMatrix {
+    pub fn transfer_matrix(&self) -> TransferMatrix {
         TransferMatrix(self.plant.each_ref().map(|row| row.each_ref().map(Element::transfer_function)))
     }
 
@@ -164,7 +165,7 @@ impl Loop {
         Some(low)
     }
 
-    fn ratio(&self, w: f64) -> Matrix2<Complex64> {
+    pub fn ratio(&self, w: f64) -> Matrix2<Complex64> {
         let s = Complex64::new(0.0, w);
         let controller = |pid: &ParallelPid| {
             let filter = (pid.derivative / pid.proportional).abs() / 100.0;
@@ -183,7 +184,7 @@ impl Loop {
         [larger, if larger == Complex64::ZERO { larger } else { determinant / larger }]
     }
 
-    fn elements(&self) -> impl Iterator<Item = &Element> {
+    pub fn elements(&self) -> impl Iterator<Item = &Element> {
         self.plant.iter().flatten()
     }
 }

@@ -19,14 +19,20 @@ impl LoopQuality {
     /// # Errors
     /// As [`level_loop`].
     pub fn of(gains: &LevelGains, controller: &LevelController) -> Result<Option<Self>, LinearError> {
-        let pi = |gain: f64, time: f64| ParallelPid { proportional: gain, integral: gain / time, derivative: 0.0 };
+        let pi =
+            |gain: f64, time: f64| ParallelPid { proportional: gain, integral: gain / time, ..ParallelPid::default() };
         let linear = match controller {
             LevelController::Manual { .. } => return Ok(None),
             LevelController::Pi { gain, integral_time_s, .. } => {
                 level_loop(gains, &pi(*gain, *integral_time_s), 0.0, 0.0)?
             }
             LevelController::Pid { proportional, integral, derivative, filter_time_s } => {
-                let pid = ParallelPid { proportional: *proportional, integral: *integral, derivative: *derivative };
+                let pid = ParallelPid {
+                    proportional: *proportional,
+                    integral: *integral,
+                    derivative: *derivative,
+                    ..ParallelPid::default()
+                };
                 level_loop(gains, &pid, *filter_time_s, 0.0)?
             }
             LevelController::Sampled { settings, sampling_time_s } => {

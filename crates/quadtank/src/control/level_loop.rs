@@ -31,7 +31,7 @@ pub fn level_loop(
     dead_time_s: f64,
 ) -> Result<SingleLoop, LinearError> {
     let plant = level_transfer_function(gains)?.times(&TransferFunction::lags(1.0, &[], dead_time_s)?);
-    let ParallelPid { proportional: kp, integral: ki, derivative: kd } = *pid;
+    let ParallelPid { proportional: kp, integral: ki, derivative: kd, .. } = *pid;
     let filter = if kd == 0.0 { 0.0 } else { filter_time_s };
     let controller = if ki == 0.0 {
         TransferFunction::new(vec![kp, kp * filter + kd], vec![1.0, filter], 0.0)?
@@ -58,7 +58,7 @@ mod tests {
             plant.tank.outflow = outflow;
             let gains = plant.gains(&plant.rest(1.0, 0.017).unwrap());
             let of = |gain: f64| {
-                let pid = ParallelPid { proportional: gain, integral: gain / 500.0, derivative: 0.0 };
+                let pid = ParallelPid { proportional: gain, integral: gain / 500.0, ..ParallelPid::default() };
                 level_loop(&gains, &pid, 0.0, 0.0).unwrap()
             };
             let margin = of(10.0).margins().unwrap().gain_up.unwrap();

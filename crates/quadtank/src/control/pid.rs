@@ -18,6 +18,8 @@ pub struct ParallelPid {
     pub integral: f64,
     /// kd (units of time); 0 for PI.
     pub derivative: f64,
+    /// Time constant of the derivative filter where it is not that of [`filter_time`](Self::filter_time).
+    pub filter: Option<f64>,
 }
 
 /// A PID controller without interaction of its actions, `K (1 + 1/(Ti s) + Td s)` (Campestrini 2006, eq. 9).
@@ -43,12 +45,15 @@ pub struct SeriesPid {
 }
 
 impl ParallelPid {
-    /// Time constant of the derivative filter, `Tf = |kd/kp|/100`; 0 without a derivative or a proportional part.
+    /// Time constant of the derivative filter: 0 without a derivative, else that which is set, else `Tf = |kd/kp|/100`, which is 0
+    /// without a proportional part.
     pub fn filter_time(&self) -> f64 {
-        if self.derivative == 0.0 || self.proportional == 0.0 {
-            return 0.0;
+        match self.filter {
+            _ if self.derivative == 0.0 => 0.0,
+            Some(filter) => filter,
+            None if self.proportional == 0.0 => 0.0,
+            None => (self.derivative / self.proportional).abs() / FILTER,
         }
-        (self.derivative / self.proportional).abs() / FILTER
     }
 
     /// `C(jω)` with an ideal derivative.
@@ -75,11 +80,13 @@ impl ParallelPid {
         TransferFunction::new(vec![ki, kp + ki * filter, kp * filter + kd], vec![0.0, 1.0, filter], 0.0)
     }
 
+    /// The sum of two controllers, with the filter of the first that has one of its own.
     fn plus(self, other: Self) -> Self {
         Self {
             proportional: self.proportional + other.proportional,
             integral: self.integral + other.integral,
             derivative: self.derivative + other.derivative,
+            filter: self.filter.or(other.filter),
         }
     }
 
@@ -88,6 +95,7 @@ impl ParallelPid {
             proportional: factor * self.proportional,
             integral: factor * self.integral,
             derivative: factor * self.derivative,
+            filter: self.filter.filter(|_| factor != 0.0),
         }
     }
 }
@@ -97,7 +105,9 @@ impl From<IsaPid> for ParallelPid {
         Self {
             proportional: pid.gain,
             integral: pid.gain / pid.integral_time,
-            derivative: pid.gain * pid.derivative_time,
+            // Without derivative action a negative gain would leave −0.
+            derivative: pid.gain * pid.derivative_time + 0.0,
+            filter: None,
         }
     }
 }
@@ -283,7 +293,7 @@ mod tests {
 
     #[test]
     fn a_sampled_controller_is_what_it_is_at_low_frequency() {
-        let pid = ParallelPid { proportional: 2.0, integral: 0.5, derivative: 3.0 };
+        let pid = ParallelPid { proportional: 2.0, integral: 0.5, derivative: 3.0, ..ParallelPid::default() };
         let ts = 1e-3;
         let mut running = PidMatrix::decentralised([pid, pid]).start(ts);
         // A ramp e = t: kp t + ki t²/2 + kd.
@@ -297,17 +307,18 @@ mod tests {
 
     #[test]
     fn a_decoupler_adds_what_the_other_loop_does() {
-        let p = |proportional| ParallelPid { proportional, integral: 0.0, derivative: 0.0 };
+        let p = |proportional| ParallelPid { proportional, ..ParallelPid::default() };
         let mut running = PidMatrix::decoupled([p(2.0), p(-3.0)], [0.5, 0.25]).start(1.0);
         assert_eq!(running.step([1.0, 1.0]), [2.0 - 1.5, -3.0 + 0.5]);
     }
 
     #[test]
     fn a_derivative_is_filtered_a_hundred_times_quicker_than_it_acts() {
-        let pid = ParallelPid { proportional: -2.0, integral: 0.5, derivative: 3.0 };
+        let pid = ParallelPid { proportional: -2.0, integral: 0.5, derivative: 3.0, ..ParallelPid::default() };
         assert_relative_eq!(pid.filter_time(), 0.015, max_relative = 1e-15);
         assert_eq!(ParallelPid { derivative: 0.0, ..pid }.filter_time(), 0.0);
         assert_eq!(ParallelPid { proportional: 0.0, ..pid }.filter_time(), 0.0);
+        assert_eq!(ParallelPid { filter: Some(0.3), ..pid }.filter_time(), 0.3);
         let s = Complex::new(0.0, 4.0);
         let expected = s.inv() * 0.5 + s * 3.0 / (s * 0.015 + 1.0) - 2.0;
         assert_relative_eq!((pid.filtered_at(4.0) - expected).norm(), 0.0, epsilon = 1e-14);
@@ -317,7 +328,7 @@ mod tests {
 
     #[test]
     fn a_sampled_controller_steps_as_by_hand() {
-        let pid = ParallelPid { proportional: 2.0, integral: 0.5, derivative: 100.0 };
+        let pid = ParallelPid { proportional: 2.0, integral: 0.5, derivative: 100.0, ..ParallelPid::default() };
         let mut running = PidMatrix::decentralised([ParallelPid::default(), pid]).start(0.25);
         // Tf = 0.5: the derivative starts at 100/(0.5 + 0.25) and falls to 0.5/(0.5 + 0.25) of itself; half of the first
         // sample of the integral counts.
@@ -344,7 +355,7 @@ mod tests {
 
     #[test]
     fn what_has_no_other_form_is_none() {
-        let pid = ParallelPid { proportional: 2.0, integral: 0.0, derivative: 3.0 };
+        let pid = ParallelPid { proportional: 2.0, derivative: 3.0, ..ParallelPid::default() };
         let isa = IsaPid::from_parallel(pid).unwrap();
         assert_eq!((isa.integral_time, isa.derivative_time), (f64::INFINITY, 1.5));
         assert_eq!(SeriesPid::from_isa(isa), None);
@@ -353,7 +364,12 @@ mod tests {
 
     #[test]
     fn controllers_between_matrices_are_a_product_of_matrices() {
-        let pid = |proportional, integral, derivative| ParallelPid { proportional, integral, derivative };
+        let pid = |proportional, integral, derivative| ParallelPid {
+            proportional,
+            integral,
+            derivative,
+            ..ParallelPid::default()
+        };
         let pids = [pid(2.0, 0.5, 3.0), pid(-3.0, 0.25, 7.0)];
         let (a, b) = (Matrix2::new(1.0, 2.0, -3.0, 5.0), Matrix2::new(0.5, -1.5, 4.0, 6.0));
         let matrix = PidMatrix::between(&a, pids, &b);

@@ -61,8 +61,8 @@ impl<'a> ReturnRatio<'a> {
         Matrix2::from_fn(|row, column| (0..2).map(|i| g[row][i].times(k[i][column]).largest_beyond(frequency)).sum())
     }
 
-    /// The trace and the determinant of L over a cell.
-    pub(super) fn invariants(&self, cell: Cell) -> Invariants {
+    /// The elements and the determinant of L over a cell.
+    pub(super) fn over(&self, cell: Cell) -> RatioOver {
         let (mut g, k) = (over(self.plant, cell), over(&self.controllers, cell));
         let largest = Matrix2::from_fn(|row, column| {
             g[row][0].size() * k[0][column].size() + g[row][1].size() * k[1][column].size()
@@ -71,13 +71,19 @@ impl<'a> ReturnRatio<'a> {
             *model = *model * TaylorModel::dead_time(element.dead_time(), cell);
         }
         let l = |row: usize, column: usize| g[row][0] * k[0][column] + g[row][1] * k[1][column];
-        let [[a, b], [c, d]] = [[l(0, 0), l(0, 1)], [l(1, 0), l(1, 1)]];
+        let elements = [[l(0, 0), l(0, 1)], [l(1, 0), l(1, 1)]];
+        RatioOver { largest, elements, determinant: determinant(&g) * determinant(&k) }
+    }
+
+    /// The trace and the determinant of L over a cell.
+    pub(super) fn invariants(&self, cell: Cell) -> Invariants {
+        let RatioOver { largest, elements: [[a, b], [c, d]], determinant } = self.over(cell);
         let half_difference = (a + -d).scaled(0.5);
         Invariants {
             largest,
             ratio: Matrix2::new(a.value, b.value, c.value, d.value),
             trace: a + d,
-            determinant: determinant(&g) * determinant(&k),
+            determinant,
             discriminant: half_difference * half_difference + b * c,
         }
     }
@@ -98,6 +104,16 @@ impl<'a> ReturnRatio<'a> {
             (-(g[0][1] * g[1][0] * both), dead_time(0, 1) + dead_time(1, 0)),
         ]
     }
+}
+
+/// L over a cell.
+pub(super) struct RatioOver {
+    /// Largest absolute values of the elements of L, whatever the dead times do.
+    pub largest: Matrix2<f64>,
+    /// Its elements, row by output.
+    pub elements: [[TaylorModel; 2]; 2],
+    /// det L, from the determinants of plant and controllers.
+    pub determinant: TaylorModel,
 }
 
 /// Highest power of ω that a locus is multiplied with.

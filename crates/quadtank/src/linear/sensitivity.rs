@@ -47,12 +47,21 @@ fn refine(sensitivity: impl Fn(f64) -> f64, (mut peak, best): (f64, f64), ratio:
     peak
 }
 
-/// `1/σ_min` of a 2 × 2 matrix, from `σ₁² + σ₂² = ‖M‖²` and `σ₁ σ₂ = |det M|`.
-fn largest_singular_value_of_inverse(m: &Matrix2<Complex>) -> f64 {
+/// `1/σ_min` of a 2 × 2 matrix, from `σ₁ σ₂ = |det M|`.
+pub(super) fn largest_singular_value_of_inverse(m: &Matrix2<Complex>) -> f64 {
+    largest_singular_value(m) / size_of_determinant(m)
+}
+
+/// Largest singular value of a 2 × 2 matrix, from `σ₁² + σ₂² = ‖M‖²` and `σ₁ σ₂ = |det M|`.
+pub(super) fn largest_singular_value(m: &Matrix2<Complex>) -> f64 {
     let sum = m.iter().map(Complex::norm_sqr).sum::<f64>();
-    let product = (m[(0, 0)] * m[(1, 1)] - m[(0, 1)] * m[(1, 0)]).norm();
+    let product = size_of_determinant(m);
     let difference = ((sum - 2.0 * product) * (sum + 2.0 * product)).max(0.0).sqrt();
-    f64::midpoint(sum, difference).sqrt() / product
+    f64::midpoint(sum, difference).sqrt()
+}
+
+fn size_of_determinant(m: &Matrix2<Complex>) -> f64 {
+    (m[(0, 0)] * m[(1, 1)] - m[(0, 1)] * m[(1, 0)]).norm()
 }
 
 #[cfg(test)]
@@ -64,7 +73,7 @@ mod tests {
     use crate::linear::singular_values;
 
     #[test]
-    fn the_inverse_has_the_reciprocal_of_the_smallest_singular_value() {
+    fn the_largest_singular_values_of_a_matrix_and_of_its_inverse() {
         let c = Complex::new;
         for m in [
             Matrix2::new(c(1.0, 0.5), c(-0.3, 0.2), c(0.1, 2.0), c(0.7, -0.4)),
@@ -73,6 +82,7 @@ mod tests {
         ] {
             let values = singular_values(&DMatrix::from_iterator(2, 2, m.iter().copied())).unwrap();
             assert_relative_eq!(largest_singular_value_of_inverse(&m), 1.0 / values[1], max_relative = 1e-12);
+            assert_relative_eq!(largest_singular_value(&m), values[0], max_relative = 1e-12);
         }
     }
 }

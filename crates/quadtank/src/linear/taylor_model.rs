@@ -75,12 +75,16 @@ impl TaylorModel {
 
     /// The rational part `b(jω)/a(jω)` of a transfer function. The rest is infinite where a may have a zero in the cell.
     pub fn rational(function: &TransferFunction, cell: Cell) -> Self {
-        let (b, a) = (polynomial(function.numerator(), cell), polynomial(function.denominator(), cell));
-        let value = b.value / a.value;
-        let slope = (b.slope - value * a.slope) / a.value;
-        let least = size_of(a.value) - a.radius();
-        // b − (value + slope x) a, over a.
-        let rest = b.rest + size_of(value) * a.rest + size_of(slope) * a.radius();
+        polynomial(function.numerator(), cell).over(polynomial(function.denominator(), cell))
+    }
+
+    /// The quotient of two functions. The rest is infinite where the divisor may have a zero in the cell.
+    pub fn over(self, divisor: Self) -> Self {
+        let value = self.value / divisor.value;
+        let slope = (self.slope - value * divisor.slope) / divisor.value;
+        let least = size_of(divisor.value) - divisor.radius();
+        // What is left of the dividend without (value + slope x) times the divisor, over the divisor.
+        let rest = self.rest + size_of(value) * divisor.rest + size_of(slope) * divisor.radius();
         Self { value, slope, rest: if least > 0.0 { rest / least } else { f64::INFINITY } }
     }
 }

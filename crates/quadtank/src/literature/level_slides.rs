@@ -49,6 +49,7 @@ pub fn settings() -> [ParallelPid; 4] {
         proportional: p,
         integral: i / MINUTE,
         derivative: d * MINUTE,
+        filter: None,
     })
 }
 

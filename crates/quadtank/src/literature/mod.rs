@@ -11,6 +11,7 @@ mod level_preset;
 pub mod level_slides;
 mod rig;
 mod units;
+pub mod wood_berry;
 
 pub use level_preset::LevelPresetId;
 pub use rig::{DisplayUnit, PiExperiment, Preset, PresetId, Printed};

@@ -381,7 +381,7 @@ mod tests {
 
     #[test]
     fn a_pi_loop_reaches_its_reference_and_a_wrong_sign_diverges() {
-        let pid = |proportional, integral| ParallelPid { proportional, integral, derivative: 0.0 };
+        let pid = |proportional, integral| ParallelPid { proportional, integral, ..ParallelPid::default() };
         let run = |first| {
             let controllers = PidMatrix::decentralised([first, ParallelPid::default()]);
             let loops = TwoLoops {

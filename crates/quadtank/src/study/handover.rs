@@ -1,7 +1,7 @@
 //! What one bench hands to another: gains that were tuned by relays go to the rig, a rig goes to the relays or under the law
 //! without a model.
 
-use crate::control::{ModelFree, ParallelPid, smallest_model_gain};
+use crate::control::{ModelFree, Pairing, ParallelPid, smallest_model_gain};
 use crate::plant::ValveSchedule;
 
 use super::StudyError;
@@ -9,7 +9,7 @@ use super::model_free::{ModelFreeSetup, StartSpec};
 use super::quadruple_tank::{self, PlantSpec, setup_of};
 use super::relay_tuning::{Designed, TuningPlant, TuningSetup};
 
-/// The rig of a relay session under the PI controllers of its chosen root, in the published experiment of the rig. The gains of a
+/// The rig of a relay session under its PI controllers, in the published experiment of the rig. The gains of a
 /// session are those from the measured level to the pump, the controllers of the rig act before its power module: K = kp/gain,
 /// Ti = kp/ki.
 ///
@@ -18,11 +18,14 @@ pub fn rig_under(setup: &TuningSetup, designed: &Designed) -> Option<quadruple_t
     let TuningPlant::QuadrupleTank { preset, valves, pairing, .. } = setup.plant else { return None };
     let mut rig = setup_of(preset);
     rig.valves = valves.unwrap_or(rig.valves);
-    rig.controller.pairing = pairing;
+    let root = designed.at_work();
+    rig.controller.pairing = match root.pairing {
+        Pairing::Diagonal => pairing,
+        Pairing::Swapped => pairing.other(),
+    };
     let power_gain = rig.plant().power_gain;
-    let root = &designed.roots[setup.design.root.clamp(1, 2) - 1];
     for (settings, pid) in rig.controller.loops.iter_mut().zip(&root.controllers) {
-        let &ParallelPid { proportional, integral, derivative } = pid;
+        let &ParallelPid { proportional, integral, derivative, .. } = pid;
         let integral_time_s = proportional / integral;
         if derivative != 0.0 || !(integral_time_s.is_finite() && integral_time_s > 0.0) {
             return None;
@@ -74,7 +77,6 @@ pub fn model_free_on(rig: &quadruple_tank::Setup) -> Result<ModelFreeSetup, Stud
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::control::Pairing;
     use crate::linear::{LoopStability, Stability};
     use crate::literature::PresetId;
     use crate::sim::Settling;

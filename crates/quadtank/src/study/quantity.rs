@@ -17,8 +17,9 @@ pub struct Quantity<R: 'static> {
 ///
 /// `signal` is the unit of the signals of a level loop. Plants of the relay-tuning bench have units of their own: `time`, `input` and
 /// `output`.
-pub const UNITS: [&str; 23] = [
+pub const UNITS: [&str; 24] = [
     "1",
+    "dB",
     "yes/no",
     "s",
     "1/s",

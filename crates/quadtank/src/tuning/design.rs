@@ -1,9 +1,12 @@
-//! A plant and its controllers as a loop: stability, loci and margins by the generalised Nyquist criterion.
+//! A plant and its controllers as a loop: stability, loci, margins and peaks by the generalised Nyquist criterion.
 
 use nalgebra::Matrix2;
 
 use crate::control::PidMatrix;
-use crate::linear::{Closure, Complex, Loci, LoopStability, Margins, ReturnRatio, TransferMatrix};
+use crate::linear::{
+    Closure, Complex, Loci, LoopPeak, LoopStability, Margins, ReturnRatio, TransferMatrix, biggest_log_modulus,
+    largest_sensitivity,
+};
 
 use super::TuningError;
 use super::critical::frequency_range;
@@ -56,6 +59,16 @@ impl<'a> Design<'a> {
     /// Margins over all frequencies; `None` where the search is beyond its bound on work.
     pub fn margins(&self) -> Option<Margins> {
         Margins::of(&self.ratio)
+    }
+
+    /// Largest singular value of the sensitivity over all frequencies, for a stable loop; as [`largest_sensitivity`].
+    pub fn largest_sensitivity(&self) -> Option<LoopPeak> {
+        largest_sensitivity(&self.ratio)
+    }
+
+    /// Biggest closed-loop log modulus (dB), for a stable loop; as [`biggest_log_modulus`].
+    pub fn biggest_log_modulus(&self) -> Option<LoopPeak> {
+        biggest_log_modulus(&self.ratio)
     }
 
     /// How the loci close, by what the loop is at ω = 0: G(0) Ki with integral action in both loops, else G(0) Kp.

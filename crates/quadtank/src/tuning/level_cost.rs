@@ -142,7 +142,7 @@ impl LevelProblem {
 
 /// Ms of the linear loop around the rest of a simulation; `None` for an unstable loop, or where it is not computed.
 pub fn sensitivity_peak(simulation: &LevelSimulation, gain: f64, integral_time_s: f64) -> Option<f64> {
-    let pid = ParallelPid { proportional: gain, integral: gain / integral_time_s, derivative: 0.0 };
+    let pid = ParallelPid { proportional: gain, integral: gain / integral_time_s, ..ParallelPid::default() };
     let linear = level_loop(simulation.gains(), &pid, 0.0, 0.0).ok()?;
     let is_stable = linear.stability() == LoopStability::Stable;
     is_stable.then(|| linear.margins()).flatten().map(|margins| margins.distance.recip())

@@ -37,7 +37,9 @@ pub use limit_cycle::{LimitCycle, limit_cycles};
 pub use model_rules::ModelRule;
 pub use placement::{ControllerPair, integral_action_may_be_stable, place_both_loci, place_one_locus};
 pub use process_model::ProcessModel;
-pub use proposal::{Action, PlacementMethod, PlacementWarning, Proposal, dynamic_relative_gain, propose, response_at};
+pub use proposal::{
+    Action, PlacementMethod, PlacementWarning, Proposal, dynamic_relative_gain, propose, response_at, warnings_of_gains,
+};
 pub use reaction_curve::{ReactionError, ReactionFit, ReactionMethod, StepRecord};
 pub use regulation::{
     Regulation, RegulationError, RegulationReason, SetPointStretch, open_loop_regulation, proportional_regulation,

@@ -42,7 +42,7 @@ fn larger_first([one, other]: [ControllerPair; 2]) -> [ControllerPair; 2] {
 impl ParallelPid {
     /// The PI controller that is `p` at a frequency: `kp = Re p`, `ki = −ω Im p` (Campestrini 2006, eqs. 105–109).
     pub fn pi_through(p: Complex, frequency: f64) -> Self {
-        Self { proportional: p.re, integral: -frequency * p.im, derivative: 0.0 }
+        Self { proportional: p.re, integral: -frequency * p.im, ..Self::default() }
     }
 
     /// The PID controller with Td = Ti/4 that is `p` at a frequency: `kp = Re p`, and `x = Ti ω` is the positive root of
@@ -57,7 +57,12 @@ impl ParallelPid {
         // The positive root, without cancellation: the other one is −4 over it.
         let x = if slope < 0.0 { 4.0 / (length - slope) } else { length + slope };
         let integral_time = x / frequency;
-        Some(Self { proportional: p.re, integral: p.re / integral_time, derivative: p.re * integral_time / 4.0 })
+        Some(Self {
+            proportional: p.re,
+            integral: p.re / integral_time,
+            derivative: p.re * integral_time / 4.0,
+            filter: None,
+        })
     }
 }
 

@@ -158,6 +158,16 @@ fn warnings(dc_gain: &Matrix2<f64>, controllers: [ParallelPid; 2], action: Actio
     found
 }
 
+/// What to beware of with gains that no placement made, from G(0) with its columns in the order of the loops. The necessary condition
+/// on integral action holds of two loops that both have it.
+pub fn warnings_of_gains(dc_gain: &Matrix2<f64>, controllers: [ParallelPid; 2]) -> Vec<PlacementWarning> {
+    let mut found = warnings(dc_gain, controllers, Action::Pid);
+    if controllers.iter().any(|pid| pid.integral == 0.0) {
+        found.retain(|warning| *warning != PlacementWarning::IntegralActionUnstable);
+    }
+    found
+}
+
 /// `Λ11(jω) = g11 g22/det G`, the dynamic relative gain at a frequency: with method B, `p1 = (λ/g11)(1 ± √(1 − Λ11))`.
 pub fn dynamic_relative_gain(g: &Matrix2<Complex>) -> Complex {
     let product = g[(0, 0)] * g[(1, 1)];

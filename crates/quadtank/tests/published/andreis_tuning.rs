@@ -274,7 +274,7 @@ fn robustness_of_the_published_tunings() {
     for (gain, time, largest) in [(10.0, 2500.0, 1.7), (17.4, 23.5, 2.8), (5.0, 2999.7, 1.4)] {
         assert!(peak(gain, time).unwrap() < largest, "{gain} {time}");
     }
-    let pid = quadtank::control::ParallelPid { proportional: 93.7, integral: 93.7 / 2999.7, derivative: 0.0 };
+    let pid = quadtank::control::ParallelPid { proportional: 93.7, integral: 93.7 / 2999.7, ..Default::default() };
     let linear = quadtank::control::level_loop(simulation.gains(), &pid, 0.0, 0.0).unwrap();
     assert_eq!(linear.stability(), LoopStability::Stable);
     within(linear.margins().unwrap().gain_up.unwrap(), 1.06, 0.5e-2, "gain margin");

@@ -18,7 +18,7 @@ use quadtank::tuning::{
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
 fn pid([proportional, integral, derivative]: [f64; 3]) -> ParallelPid {
-    ParallelPid { proportional, integral, derivative }
+    ParallelPid { proportional, integral, derivative, ..ParallelPid::default() }
 }
 
 /// kp1, ki1, kd1, kp2, ki2, kd2.

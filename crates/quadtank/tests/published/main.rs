@@ -18,6 +18,7 @@ mod junqueira;
 mod level_loop_study;
 mod level_slides;
 mod tables;
+mod wood_berry;
 
 /// Whether a figure is within a distance of a printed one, or at that distance but for rounding.
 fn within(found: f64, printed: f64, distance: f64, what: &str) {

@@ -1,8 +1,8 @@
-use quadtank::control::ParallelPid;
+use quadtank::control::{Pairing, ParallelPid};
 use quadtank::linear::{Closure, LoopStability};
 use quadtank::sim::{Halt, StepMetrics};
-use quadtank::study::relay_tuning::{Comparison, DesignRoot, Designed, PlantStudy};
-use quadtank::tuning::{PlacementWarning, TuningError, dynamic_relative_gain};
+use quadtank::study::relay_tuning::{ComparedControllers, Comparison, DesignRoot, Designed, PlantStudy};
+use quadtank::tuning::{PlacementWarning, TuningError};
 use serde::Serialize;
 
 use super::TOO_MUCH_WORK;
@@ -11,19 +11,20 @@ use crate::report::{ComplexNumber, rows};
 /// Why stability or margins are not computed.
 const NOT_COMPUTED: &str = "the loci turn too often before the gain of the loop becomes small";
 
-/// Both roots of a placement of the critical point.
+/// The controllers of a session: both roots of a placement of the critical point, or given ones.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct DesignReport {
-    /// Critical frequency (rad per unit of time).
-    pub frequency: f64,
-    /// G(jω) there, by rows (outputs per input).
-    pub g: [[ComplexNumber; 2]; 2],
-    /// Λ11(jω) = g11 g22/det G there (no unit).
-    pub dynamic_relative_gain_11: ComplexNumber,
-    /// Root 1, with the larger controller in loop 1, and root 2.
-    pub roots: [RootReport; 2],
-    /// Number of the root of the response, 1 or 2.
+    /// Critical frequency (rad per unit of time); null with given controllers where the critical curve has no ultimate point in the
+    /// direction asked for.
+    pub frequency: Option<f64>,
+    /// G(jω) there, by rows (outputs per input); null likewise.
+    pub g: Option<[[ComplexNumber; 2]; 2]>,
+    /// Λ11(jω) = g11 g22/det G there (no unit); null likewise.
+    pub dynamic_relative_gain_11: Option<ComplexNumber>,
+    /// Root 1, with the larger controller in loop 1, and root 2; given controllers alone.
+    pub roots: Vec<RootReport>,
+    /// Number of the root of the response, 1 or 2; 1 for given controllers.
     pub chosen: usize,
     /// Figures of outputs 1 and 2 in the response with this root.
     pub figures: [FiguresReport; 2],
@@ -33,12 +34,14 @@ pub struct DesignReport {
     pub comparison: Option<ComparisonReport>,
 }
 
-/// One root of a placement with what it does to the loop, without a decoupler.
+/// One root of a placement, or given controllers, with what it does to the loop, without a decoupler.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RootReport {
     /// Controllers of loops 1 and 2.
     pub controllers: [Gains; 2],
+    /// Which input of the plant each of them drives; diagonal for a placement.
+    pub pairing: Pairing,
     /// What to beware of.
     pub warnings: Vec<PlacementWarning>,
     /// Whether the loop is stable.
@@ -53,8 +56,34 @@ pub struct RootReport {
     pub lower_gain_margin: Option<f64>,
     /// Smallest phase lag in all loops at which a locus reaches −1 (rad); null where there is none or it is not computed.
     pub phase_margin_rad: Option<f64>,
+    /// Largest singular value of the sensitivity over all frequencies, Ms (no unit); null where the loop is not stable or it is not
+    /// computed.
+    pub sensitivity_peak: Option<f64>,
+    /// Biggest closed-loop log modulus Lc (dB); null where the loop is open or not stable, or it is not computed.
+    pub biggest_log_modulus_db: Option<f64>,
     /// How the loci close.
     pub closure: Closure,
+}
+
+/// Controllers that are published for the plant, in the experiment of the session without a decoupler.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct PublishedControllersReport {
+    /// The name of their case.
+    pub case: &'static str,
+    /// Where they are printed.
+    pub source: &'static str,
+    /// Controllers of loops 1 and 2.
+    pub controllers: [Gains; 2],
+    /// Whether the loop is stable.
+    pub stability: LoopStabilityReport,
+    /// Largest singular value of the sensitivity over all frequencies, Ms (no unit); null where the loop is not stable or it is not
+    /// computed.
+    pub sensitivity_peak: Option<f64>,
+    /// Biggest closed-loop log modulus Lc (dB); null where the loop is not stable or it is not computed.
+    pub biggest_log_modulus_db: Option<f64>,
+    /// Figures of outputs 1 and 2 in the response; null where it does not stay bounded.
+    pub figures: Option<[FiguresReport; 2]>,
 }
 
 /// Other controllers on the same plant, and what they do.
@@ -71,7 +100,7 @@ pub struct ComparisonReport {
     pub response_halted: Option<HaltReport>,
 }
 
-/// A parallel PID controller kp + ki/s + kd s.
+/// A parallel PID controller kp + ki/s + kd s/(Tf s + 1).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Gains {
@@ -81,6 +110,8 @@ pub struct Gains {
     pub ki: f64,
     /// Derivative gain (inputs per output, times units of time); 0 for PI.
     pub kd: f64,
+    /// Time constant Tf of the derivative filter (units of time); 0 for PI.
+    pub tf: f64,
 }
 
 /// Stability of a loop, by the number of encirclements of −1.
@@ -160,14 +191,14 @@ pub enum HaltReport {
 }
 
 impl DesignReport {
-    pub(super) fn of(study: &PlantStudy, design: &Designed, chosen: usize) -> Result<Self, TuningError> {
-        let [one, two] = &design.roots;
+    pub(super) fn of(study: &PlantStudy, design: &Designed) -> Result<Self, TuningError> {
+        let critical = design.critical;
         Ok(Self {
-            frequency: design.frequency,
-            g: rows(&design.g),
-            dynamic_relative_gain_11: dynamic_relative_gain(&design.g).into(),
-            roots: [RootReport::of(study, one)?, RootReport::of(study, two)?],
-            chosen,
+            frequency: critical.map(|critical| critical.frequency),
+            g: critical.map(|critical| rows(&critical.g)),
+            dynamic_relative_gain_11: critical.map(|critical| critical.dynamic_relative_gain_11.into()),
+            roots: design.roots.iter().map(|root| RootReport::of(study, root)).collect::<Result<_, _>>()?,
+            chosen: design.chosen + 1,
             figures: design.response.figures.map(FiguresReport::from),
             response_halted: design.response.trace.halt.map(HaltReport::from),
             comparison: design.comparison.as_ref().map(ComparisonReport::from),
@@ -177,9 +208,10 @@ impl DesignReport {
 
 impl RootReport {
     fn of(study: &PlantStudy, root: &DesignRoot) -> Result<Self, TuningError> {
-        let margins = study.margins(root)?;
+        let (margins, peaks) = (study.margins(root)?, study.peaks(root)?);
         Ok(Self {
             controllers: root.controllers.map(Gains::from),
+            pairing: root.pairing,
             warnings: root.warnings.clone(),
             stability: root.stability.into(),
             margins_not_computed: margins.is_none().then_some(NOT_COMPUTED),
@@ -187,8 +219,25 @@ impl RootReport {
             gain_margin: margins.and_then(|margins| margins.gain_up),
             lower_gain_margin: margins.and_then(|margins| margins.gain_down),
             phase_margin_rad: margins.and_then(|margins| margins.phase),
+            sensitivity_peak: peaks.sensitivity.map(|peak| peak.value),
+            biggest_log_modulus_db: peaks.log_modulus.map(|peak| peak.value),
             closure: root.closure,
         })
+    }
+}
+
+impl From<&ComparedControllers> for PublishedControllersReport {
+    fn from(compared: &ComparedControllers) -> Self {
+        let ComparedControllers { published, stability, peaks, figures, is_bounded } = compared;
+        Self {
+            case: published.name(),
+            source: published.source(),
+            controllers: published.gains().map(Gains::from),
+            stability: (*stability).into(),
+            sensitivity_peak: peaks.sensitivity.map(|peak| peak.value),
+            biggest_log_modulus_db: peaks.log_modulus.map(|peak| peak.value),
+            figures: is_bounded.then(|| figures.map(FiguresReport::from)),
+        }
     }
 }
 
@@ -205,7 +254,7 @@ impl From<&Comparison> for ComparisonReport {
 
 impl From<ParallelPid> for Gains {
     fn from(pid: ParallelPid) -> Self {
-        Self { kp: pid.proportional, ki: pid.integral, kd: pid.derivative }
+        Self { kp: pid.proportional, ki: pid.integral, kd: pid.derivative, tf: pid.filter_time() }
     }
 }
 

@@ -8,7 +8,10 @@ use quadtank::study::relay_tuning::{PlantStudy, SteadyState, Tuning, TuningSetup
 use quadtank::tuning::{Corner, CurvePoint, GainLimit, TuningError};
 use serde::Serialize;
 
-pub use design::{ComparisonReport, DesignReport, FiguresReport, Gains, HaltReport, LoopStabilityReport, RootReport};
+pub use design::{
+    ComparisonReport, DesignReport, FiguresReport, Gains, HaltReport, LoopStabilityReport, PublishedControllersReport,
+    RootReport,
+};
 pub use test::{
     DistanceReport, Found, LimitCycleReport, LoopTestReport, OscillationReport, ReadingReport, SequentialStepReport,
     Settings, TestReport, Verdict, VerdictDetail,
@@ -89,8 +92,10 @@ pub struct CornerReport {
 pub struct TuningReport {
     /// The relay test.
     pub test: TestReport,
-    /// The controllers; null where the critical curve has no ultimate point in the direction asked for.
+    /// The controllers; null where the critical curve has no ultimate point in the direction that a placement asks for.
     pub design: Option<DesignReport>,
+    /// Controllers that are published for the plant; empty where there are none.
+    pub published_controllers: Vec<PublishedControllersReport>,
     /// What the session may not have been meant to say.
     pub warnings: Vec<TuningWarning>,
 }
@@ -147,9 +152,11 @@ impl TuningReport {
     /// # Errors
     /// As [`PlantStudy::margins`], [`PlantStudy::recover`] and [`PlantStudy::exact_limit_cycle`].
     pub fn of(setup: &TuningSetup, found: &Tuning) -> Result<Self, TuningError> {
-        let design = |design| DesignReport::of(&found.study, design, setup.design.root);
+        let design = |design| DesignReport::of(&found.study, design);
         let design = found.design.as_ref().map(design).transpose()?;
         let test = TestReport::of(&found.study, &found.test, &setup.test)?;
-        Ok(Self { test, design, warnings: warnings(setup) })
+        let compared = found.study.compare_published(setup)?;
+        let published_controllers = compared.iter().map(PublishedControllersReport::from).collect();
+        Ok(Self { test, design, published_controllers, warnings: warnings(setup) })
     }
 }

@@ -14,8 +14,8 @@ use quadtank::sim::{Experiment, Load, LoadStep, Measurement, PumpVoltageStep, Se
 use quadtank::study::model_free::{ModelFreeSetup, StartSpec};
 use quadtank::study::quadruple_tank::{OperatingPointSpec, PlantSpec, Setup};
 use quadtank::study::relay_tuning::{
-    CompareSpec, CriticalSpec, DecouplerSpec, DesignSpec, Element, ResponseSpec, SeriesElement, TestKind, TestSpec,
-    TuningPlant, TuningSetup,
+    CompareSpec, CriticalSpec, DecouplerSpec, DesignSpec, Element, GivenPid, ResponseSpec, SeriesElement, TestKind,
+    TestSpec, TuningPlant, TuningSetup,
 };
 use quadtank::tuning::{Action, PlacementMethod, TuningRule};
 use quadtank_scenario::model_free::ModelFreeScenario;
@@ -122,6 +122,17 @@ impl Draw {
             } else {
                 LoopMode::Automatic
             },
+        }
+    }
+
+    /// A controller of a relay-tuning session.
+    fn given(&mut self, size: Limits) -> GivenPid {
+        let gain = self.number(size);
+        GivenPid {
+            gain: if self.one_in(4) { -gain } else { gain },
+            integral_time: (!self.one_in(4)).then(|| self.number(size)),
+            derivative_time: if self.one_in(2) { 0.0 } else { self.number(size) },
+            filter_time: self.one_in(2).then(|| self.number(size)),
         }
     }
 
@@ -344,6 +355,8 @@ impl Draw {
                     DecouplerSpec::FirstOutput,
                     DecouplerSpec::SecondOutput,
                 ]),
+                controllers: self.one_in(3).then(|| [self.given(size), self.given(size)]),
+                pairing: self.choose(&Pairing::ALL),
             },
             response: ResponseSpec {
                 references: self.pair(Limits::new(-1e6, 1e6)),

@@ -1,7 +1,7 @@
 use crate::linear::Margins;
 use crate::tuning::{CriticalPoint, GainLimit, TuningError, importance_direction};
 
-use super::Results;
+use super::{Designed, LoopPeaks, Results};
 
 /// Importances below this, and above its reciprocal, are on the axes.
 const SMALLEST_IMPORTANCE: f64 = 1e-6;
@@ -19,6 +19,8 @@ pub struct CriticalReading {
     /// How far from −1 the loci of the chosen root stay; `None` where there is no design, and where the search is beyond its bound
     /// on work.
     pub margins: Option<Margins>,
+    /// The peaks of the loop with that root; `None` where there is no design.
+    pub peaks: Option<LoopPeaks>,
 }
 
 impl CriticalReading {
@@ -32,12 +34,14 @@ impl CriticalReading {
         // A gain of zero has a direction too: nearly that of the axis.
         let direction = importance.map_or(1.0, |r| r.clamp(SMALLEST_IMPORTANCE, SMALLEST_IMPORTANCE.recip()));
         let design = results.design.as_ref().as_ref().ok().and_then(Option::as_ref);
-        let root = |design: &super::Designed| design.roots[results.setup.design.root.clamp(1, 2) - 1].clone();
+        let root = design.map(Designed::at_work);
+        let critical = design.and_then(|design| design.critical);
         Ok(Self {
             importance,
             limit: study.search.limit(importance_direction(&study.dc_gain, direction)),
-            on_curve: design.and_then(|design| study.search.nearest(design.critical_gains)),
-            margins: design.map(|design| study.margins(&root(design))).transpose()?.flatten(),
+            on_curve: critical.and_then(|critical| study.search.nearest(critical.gains)),
+            margins: root.map(|root| study.margins(root)).transpose()?.flatten(),
+            peaks: root.map(|root| study.peaks(root)).transpose()?,
         })
     }
 }

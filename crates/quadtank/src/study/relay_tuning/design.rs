@@ -1,34 +1,28 @@
+use std::borrow::Cow;
 use std::f64::consts::TAU;
 
 use nalgebra::Matrix2;
 
-use crate::control::{IsaPid, ParallelPid, PidMatrix, SeriesPid};
-use crate::interaction::{Decoupling, decoupled_paths, static_decoupler};
-use crate::linear::{Closure, Complex, DelayedPlant, Loci, LoopStability, SignalPath};
-use crate::literature::campestrini::{PublishedPlant, wood_berry_full_controller};
-use crate::sim::{HeldPlant, LoopTrace, MAX_WORK, StepMetrics, TwoLoops, run_two_loops_within};
+use crate::control::{IsaPid, Pairing, ParallelPid, PidMatrix, SeriesPid};
+use crate::linear::{Closure, Complex, Loci, LoopStability, TransferMatrix};
 use crate::tuning::{
-    Action, Design, GainLimit, PlacementWarning, TuningError, TuningRule, UltimatePoint, dynamic_relative_gain,
-    importance_direction, propose, response_at,
+    Design, GainLimit, PlacementWarning, TuningError, dynamic_relative_gain, importance_direction, propose,
+    response_at, warnings_of_gains,
 };
 
-use super::rig::nonlinear;
-use super::{CompareSpec, CriticalSpec, DecouplerSpec, PlantStudy, TuningPlant, TuningSetup};
+use super::{Comparison, CriticalSpec, DesignSpec, GivenPid, PlantStudy, StepResponse, TuningSetup};
 
-/// Both roots of a placement.
+/// The controllers of a session, both roots of a placement or given ones, with what they do.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Designed {
-    /// Gains of the critical point.
-    pub critical_gains: [f64; 2],
-    /// Critical frequency.
-    pub frequency: f64,
-    /// G(jω) there.
-    pub g: Matrix2<Complex>,
-    /// Relative gain λ11(jω) there.
-    pub dynamic_relative_gain_11: Complex,
-    /// Root 1, with the larger controller in loop 1, and root 2.
-    pub roots: [DesignRoot; 2],
-    /// Characteristic loci at the critical gains, and with the chosen root, around the critical frequency.
+    /// The critical point of the session; `None` with given controllers where the curve has none in the direction asked for.
+    pub critical: Option<CriticalResponse>,
+    /// Root 1, with the larger controller in loop 1, and root 2; given controllers alone.
+    pub roots: Vec<DesignRoot>,
+    /// Index of the root at work.
+    pub chosen: usize,
+    /// Characteristic loci at the critical gains, and with the chosen root, around the critical frequency. Without a critical point
+    /// the first are empty, and the others are over all frequencies of the plant.
     pub loci: [Loci; 2],
     /// The response with the chosen root.
     pub response: StepResponse,
@@ -36,11 +30,26 @@ pub struct Designed {
     pub comparison: Option<Comparison>,
 }
 
+/// A critical point, and the plant at its frequency.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CriticalResponse {
+    /// Gains of the critical point.
+    pub gains: [f64; 2],
+    /// Critical frequency.
+    pub frequency: f64,
+    /// G(jω) there.
+    pub g: Matrix2<Complex>,
+    /// Relative gain λ11(jω) there.
+    pub dynamic_relative_gain_11: Complex,
+}
+
 /// One root with what it does to the loop, without a decoupler.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DesignRoot {
     /// The controllers.
     pub controllers: [ParallelPid; 2],
+    /// Which input of the plant each of them drives; diagonal for those of a placement.
+    pub pairing: Pairing,
     /// The same in other forms.
     pub forms: [ControllerForms; 2],
     /// What to beware of.
@@ -67,177 +76,105 @@ impl From<ParallelPid> for ControllerForms {
     }
 }
 
-/// A response and the figures of both outputs in it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct StepResponse {
-    /// The record.
-    pub trace: LoopTrace,
-    /// Its figures.
-    pub figures: [StepMetrics; 2],
-    /// Whether it stays bounded, so that its figures mean something: the loop is stable and the record went to its end. With a
-    /// decoupler, which the count of encirclements does not see, or where it is not computed, only the record can tell.
-    pub is_bounded: bool,
-}
-
-/// Other controllers on the same plant.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Comparison {
-    /// The controllers.
-    pub controllers: PidMatrix,
-    /// Whether the loop is stable.
-    pub stability: LoopStability,
-    /// The response.
-    pub response: StepResponse,
-}
-
 /// Frequencies that a picture of the loci shows, as multiples of the critical one: far beyond it a dead time winds them round
 /// the origin.
 const SHOWN: (f64, f64) = (0.02, 6.0);
 
-impl Designed {
+impl CriticalResponse {
     /// Critical period.
     pub fn period(&self) -> f64 {
         TAU / self.frequency
     }
 }
 
+impl Designed {
+    /// The root at work.
+    pub fn at_work(&self) -> &DesignRoot {
+        &self.roots[self.chosen]
+    }
+}
+
 impl PlantStudy {
-    /// The controllers of a session; `None` where the curve has no ultimate point in the direction asked for.
+    /// The controllers of a session; `None` where the curve has no ultimate point in the direction that a placement asks for.
     ///
     /// # Errors
     /// [`TuningError::OutOfRange`] for a root that is neither 1 nor 2 or a target of 0, or what is wrong with the plant.
     pub fn design(&self, setup: &TuningSetup) -> Result<Option<Designed>, TuningError> {
         let spec = &setup.design;
-        if !(1..=2).contains(&spec.root) {
-            return Err(TuningError::OutOfRange { field: "design.root", value: spec.root as f64 });
-        }
-        let (critical_gains, frequency) = match spec.critical {
+        let critical = self.critical(spec.critical);
+        let (roots, chosen) = match (spec.controllers, &critical) {
+            (Some(controllers), _) => (vec![self.given(controllers, spec.pairing)?], 0),
+            (None, Some(critical)) => (self.placed(spec, critical)?, spec.root - 1),
+            (None, None) => return Ok(None),
+        };
+        let root = &roots[chosen];
+        let loci = self.loci(critical.as_ref(), root)?;
+        let response = self.response_of(root, setup)?;
+        let comparison = self.comparison(setup, critical.as_ref(), root)?;
+        Ok(Some(Designed { critical, roots, chosen, loci, response, comparison }))
+    }
+
+    /// The critical point of a session; `None` where the curve has no ultimate point in its direction.
+    fn critical(&self, spec: CriticalSpec) -> Option<CriticalResponse> {
+        let (gains, frequency) = match spec {
             CriticalSpec::Point { gains, period } => (gains, TAU / period),
             CriticalSpec::Importance(r) => match self.search.limit(importance_direction(&self.dc_gain, r)) {
                 GainLimit::Oscillation(point) => (point.gains, point.frequency),
-                GainLimit::RealPole { .. } | GainLimit::None => return Ok(None),
+                GainLimit::RealPole { .. } | GainLimit::None => return None,
             },
         };
         let g = response_at(&self.plant, frequency);
-        let [re, im] = spec.target;
-        let [one, two] = propose(&self.dc_gain, &g, frequency, spec.method, spec.action, Complex::new(re, im))?;
-        let chosen = if spec.root == 2 { two.controllers } else { one.controllers };
-        let root = |controllers: [ParallelPid; 2], warnings: Vec<PlacementWarning>| {
-            let design = Design::new(&self.plant, PidMatrix::decentralised(controllers))?;
-            let (stability, closure) = (design.stability(), design.closure());
-            let forms = controllers.map(ControllerForms::from);
-            Ok::<_, TuningError>(DesignRoot { controllers, forms, warnings, stability, closure })
-        };
-        let roots = [root(one.controllers, one.warnings)?, root(two.controllers, two.warnings)?];
-        let proportional = critical_gains.map(|proportional| ParallelPid { proportional, ..ParallelPid::default() });
-        let shown = |controllers| {
-            let design = Design::new(&self.plant, PidMatrix::decentralised(controllers))?;
-            Ok::<_, TuningError>(design.loci_between(SHOWN.0 * frequency, SHOWN.1 * frequency))
-        };
-        let loci = [shown(proportional)?, shown(chosen)?];
-        let mut response = self.decoupled_response(chosen, setup)?;
-        response.is_bounded &=
-            may_stay_bounded(roots[spec.root - 1].stability) || spec.decoupler != DecouplerSpec::None;
-        let comparison = self.comparison(setup, critical_gains, frequency)?;
-        Ok(Some(Designed {
-            critical_gains,
-            frequency,
-            g,
-            dynamic_relative_gain_11: dynamic_relative_gain(&g),
-            roots,
-            loci,
-            response,
-            comparison,
-        }))
+        Some(CriticalResponse { gains, frequency, g, dynamic_relative_gain_11: dynamic_relative_gain(&g) })
     }
 
-    /// The response of the session with these controllers and its decoupler.
-    fn decoupled_response(
+    /// Both roots of a placement.
+    fn placed(&self, spec: &DesignSpec, critical: &CriticalResponse) -> Result<Vec<DesignRoot>, TuningError> {
+        if !(1..=2).contains(&spec.root) {
+            return Err(TuningError::OutOfRange { field: "design.root", value: spec.root as f64 });
+        }
+        let &CriticalResponse { frequency, g, .. } = critical;
+        let target = Complex::new(spec.target[0], spec.target[1]);
+        let proposals = propose(&self.dc_gain, &g, frequency, spec.method, spec.action, target)?;
+        proposals.into_iter().map(|root| self.root(root.controllers, Pairing::Diagonal, root.warnings)).collect()
+    }
+
+    /// Given controllers.
+    fn given(&self, controllers: [GivenPid; 2], pairing: Pairing) -> Result<DesignRoot, TuningError> {
+        let controllers = controllers.map(ParallelPid::from);
+        let warnings = warnings_of_gains(&self.wired(pairing).dc_gain(), controllers);
+        self.root(controllers, pairing, warnings)
+    }
+
+    fn root(
         &self,
         controllers: [ParallelPid; 2],
-        setup: &TuningSetup,
-    ) -> Result<StepResponse, TuningError> {
-        let which = match setup.design.decoupler {
-            DecouplerSpec::None => {
-                return self.response(PidMatrix::decentralised(controllers), setup);
-            }
-            DecouplerSpec::Static => {
-                return self.response(PidMatrix::decoupled(controllers, static_decoupler(&self.plant)?), setup);
-            }
-            DecouplerSpec::Dynamic => Decoupling::Both,
-            DecouplerSpec::FirstOutput => Decoupling::FirstOutput,
-            DecouplerSpec::SecondOutput => Decoupling::SecondOutput,
-        };
-        // A dynamic decoupler is part of the paths, so it is simulated with the linear plant.
-        linear_response(&decoupled_paths(&self.plant, which)?, PidMatrix::decentralised(controllers), setup)
+        pairing: Pairing,
+        warnings: Vec<PlacementWarning>,
+    ) -> Result<DesignRoot, TuningError> {
+        let plant = self.wired(pairing);
+        let design = Design::new(&plant, PidMatrix::decentralised(controllers))?;
+        let (stability, closure) = (design.stability(), design.closure());
+        let forms = controllers.map(ControllerForms::from);
+        Ok(DesignRoot { controllers, pairing, forms, warnings, stability, closure })
     }
 
-    /// The response with any controllers, of the nonlinear plant where the session asks for it.
-    fn response(&self, controllers: PidMatrix, setup: &TuningSetup) -> Result<StepResponse, TuningError> {
-        match nonlinear(&setup.plant) {
-            Some(rig) => Ok(step_response(&mut rig.held(), controllers, setup)),
-            None => linear_response(&self.plant.paths(), controllers, setup),
+    /// The plant with its inputs in the order of the loops that drive them.
+    pub(super) fn wired(&self, pairing: Pairing) -> Cow<'_, TransferMatrix> {
+        match pairing {
+            Pairing::Diagonal => Cow::Borrowed(&self.plant),
+            Pairing::Swapped => Cow::Owned(self.plant.swapped()),
         }
     }
 
-    fn comparison(
-        &self,
-        setup: &TuningSetup,
-        gains: [f64; 2],
-        frequency: f64,
-    ) -> Result<Option<Comparison>, TuningError> {
-        let by_rule = |pi: TuningRule, pid: TuningRule| {
-            let rule = if setup.design.action == Action::Pi { pi } else { pid };
-            let settings = |gain| rule.settings(UltimatePoint { gain, period: TAU / frequency }).into();
-            PidMatrix::decentralised(gains.map(settings))
+    fn loci(&self, critical: Option<&CriticalResponse>, root: &DesignRoot) -> Result<[Loci; 2], TuningError> {
+        let plant = self.wired(root.pairing);
+        let after = Design::new(&plant, PidMatrix::decentralised(root.controllers))?;
+        let Some(&CriticalResponse { gains, frequency, .. }) = critical else {
+            let none = Loci { frequency: Vec::new(), branches: [Vec::new(), Vec::new()] };
+            return Ok([none, after.loci()?]);
         };
-        let controllers = match setup.response.compare {
-            CompareSpec::ZieglerNichols => by_rule(TuningRule::ZieglerNicholsPi, TuningRule::ZieglerNicholsPid),
-            CompareSpec::TyreusLuyben => by_rule(TuningRule::TyreusLuybenPi, TuningRule::TyreusLuybenPid),
-            CompareSpec::Full if setup.plant == TuningPlant::Published(PublishedPlant::WoodBerry) => {
-                wood_berry_full_controller()
-            }
-            CompareSpec::Nothing | CompareSpec::Full => return Ok(None),
-        };
-        let stability = Design::new(&self.plant, controllers)?.stability();
-        let mut response = self.response(controllers, setup)?;
-        response.is_bounded &= may_stay_bounded(stability);
-        Ok(Some(Comparison { controllers, stability, response }))
+        let proportional = gains.map(|proportional| ParallelPid { proportional, ..ParallelPid::default() });
+        let before = Design::new(&self.plant, PidMatrix::decentralised(proportional))?;
+        Ok([before, after].map(|design| design.loci_between(SHOWN.0 * frequency, SHOWN.1 * frequency)))
     }
-}
-
-/// Whether a loop is stable, or only its record can tell.
-fn may_stay_bounded(stability: LoopStability) -> bool {
-    matches!(stability, LoopStability::Stable | LoopStability::NotComputed { .. })
-}
-
-fn loops(controllers: PidMatrix, setup: &TuningSetup) -> TwoLoops {
-    let spec = &setup.response;
-    TwoLoops {
-        relays: [None; 2],
-        controllers,
-        references: spec.references,
-        release: 0.0,
-        duration: spec.duration,
-        step: spec.step,
-    }
-}
-
-fn linear_response(
-    paths: &[SignalPath],
-    controllers: PidMatrix,
-    setup: &TuningSetup,
-) -> Result<StepResponse, TuningError> {
-    Ok(step_response(&mut DelayedPlant::new(paths)?, controllers, setup))
-}
-
-/// Most work of a response. Two of them, one compared with the other, take half as long as the longest relay test: on the page
-/// they are computed together with the stability of both roots, and all of it is to be done in 100 ms.
-const MAX_RESPONSE_WORK: f64 = 0.25 * MAX_WORK;
-
-fn step_response(plant: &mut dyn HeldPlant, controllers: PidMatrix, setup: &TuningSetup) -> StepResponse {
-    let trace = run_two_loops_within(plant, &loops(controllers, setup), MAX_RESPONSE_WORK);
-    let figures = trace.step_metrics(setup.response.references);
-    let is_bounded = trace.halt.is_none();
-    StepResponse { trace, figures, is_bounded }
 }

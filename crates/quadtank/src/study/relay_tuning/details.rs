@@ -2,8 +2,8 @@
 
 use nalgebra::Matrix2;
 
-use crate::control::PidMatrix;
-use crate::linear::{Complex, Margins, TransferFunction, TransferMatrix, locus_values};
+use crate::control::{ParallelPid, PidMatrix};
+use crate::linear::{Complex, LoopPeak, LoopStability, Margins, TransferFunction, TransferMatrix, locus_values};
 use crate::tuning::{
     Design, LimitCycle, Oscillation, TuningError, complete_response, limit_cycles, modulus_estimator, response_at,
     sine_test, with_integrator,
@@ -27,6 +27,34 @@ pub struct Recovered {
     pub exact: Matrix2<Complex>,
 }
 
+/// The peaks of a loop over all frequencies. Each is `None` for a loop that is not known to be stable, and where the search is beyond
+/// its bound on work.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LoopPeaks {
+    /// Largest singular value of the sensitivity, Ms.
+    pub sensitivity: Option<LoopPeak>,
+    /// Biggest closed-loop log modulus (dB); `None` for a loop that is open, too.
+    pub log_modulus: Option<LoopPeak>,
+}
+
+impl LoopPeaks {
+    /// The peaks of controllers on a plant, in a loop with this stability.
+    ///
+    /// # Errors
+    /// What is wrong with the plant.
+    pub(super) fn of(
+        plant: &TransferMatrix,
+        controllers: [ParallelPid; 2],
+        stability: LoopStability,
+    ) -> Result<Self, TuningError> {
+        if stability != LoopStability::Stable {
+            return Ok(Self::default());
+        }
+        let design = Design::new(plant, PidMatrix::decentralised(controllers))?;
+        Ok(Self { sensitivity: design.largest_sensitivity(), log_modulus: design.biggest_log_modulus() })
+    }
+}
+
 /// Where both characteristic loci are at the critical frequency.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlacedLoci {
@@ -42,7 +70,15 @@ impl PlantStudy {
     /// # Errors
     /// What is wrong with the plant.
     pub fn margins(&self, root: &DesignRoot) -> Result<Option<Margins>, TuningError> {
-        Ok(Design::new(&self.plant, PidMatrix::decentralised(root.controllers))?.margins())
+        Ok(Design::new(&self.wired(root.pairing), PidMatrix::decentralised(root.controllers))?.margins())
+    }
+
+    /// How robust a root is by the peaks of its loop; neither of a loop that is not known to be stable.
+    ///
+    /// # Errors
+    /// What is wrong with the plant.
+    pub fn peaks(&self, root: &DesignRoot) -> Result<LoopPeaks, TuningError> {
+        LoopPeaks::of(&self.wired(root.pairing), root.controllers, root.stability)
     }
 
     /// Where the loci are at a frequency with a root, derivative filters included, the one near `target` (real and imaginary part)
@@ -51,7 +87,8 @@ impl PlantStudy {
     /// # Errors
     /// What is wrong with the plant.
     pub fn placed_loci(&self, root: &DesignRoot, frequency: f64, target: [f64; 2]) -> Result<PlacedLoci, TuningError> {
-        let design = Design::new(&self.plant, PidMatrix::decentralised(root.controllers))?;
+        let plant = self.wired(root.pairing);
+        let design = Design::new(&plant, PidMatrix::decentralised(root.controllers))?;
         let [a, b] = locus_values(&design.ratio(frequency));
         let off = |locus: Complex| (locus - Complex::new(target[0], target[1])).norm();
         let (placed, other) = if off(a) <= off(b) { (a, b) } else { (b, a) };
@@ -155,7 +192,8 @@ mod tests {
             let mut setup = setup.clone();
             (setup.design.method, setup.design.action) = (method, Action::Pi);
             let design = study.design(&setup).unwrap().unwrap();
-            study.placed_loci(&design.roots[0], design.frequency, setup.design.target).unwrap()
+            let frequency = design.critical.unwrap().frequency;
+            study.placed_loci(&design.roots[0], frequency, setup.design.target).unwrap()
         };
         let one = placed(PlacementMethod::OneLocus);
         assert!((one.placed - target).norm() < 1e-9 && (one.other - target).norm() > 1e-2, "{one:?}");

@@ -74,16 +74,16 @@ impl PlantStudy {
         })
     }
 
-    /// The rule whose target makes the chosen root stable, where it is not.
+    /// The rule whose target makes the chosen root of a placement stable, where it is not.
     pub fn mend_placement(&self, setup: &TuningSetup, designed: &Designed) -> Option<Mend> {
         let spec = &setup.design;
-        let root = spec.root.clamp(1, 2) - 1;
-        if designed.roots[root].stability == LoopStability::Stable {
+        if spec.controllers.is_some() || designed.at_work().stability == LoopStability::Stable {
             return None;
         }
+        let (root, critical) = (designed.chosen, designed.critical?);
         let is_pi = |rule: TuningRule| matches!(rule, TuningRule::ZieglerNicholsPi | TuningRule::TyreusLuybenPi);
         let is_stable = |target: Complex| {
-            let found = propose(&self.dc_gain, &designed.g, designed.frequency, spec.method, spec.action, target);
+            let found = propose(&self.dc_gain, &critical.g, critical.frequency, spec.method, spec.action, target);
             let controllers = found.ok().map(|roots| roots[root].controllers);
             let design = controllers.and_then(|of| Design::new(&self.plant, PidMatrix::decentralised(of)).ok());
             design.is_some_and(|design| design.stability() == LoopStability::Stable)

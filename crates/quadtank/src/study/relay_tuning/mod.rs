@@ -1,7 +1,9 @@
 //! The study of the relay-tuning bench: relay test, critical curve, placement of the critical point, response (Campestrini 2006).
 
+mod compared;
 mod critical_reading;
 mod design;
+mod design_spec;
 mod details;
 mod element;
 mod mend;
@@ -14,17 +16,19 @@ mod rig;
 mod setup;
 mod start;
 mod steady_state;
+mod step_response;
 
+pub use compared::ComparedControllers;
 pub use critical_reading::CriticalReading;
-pub use design::{Comparison, ControllerForms, DesignRoot, Designed, StepResponse};
-pub use details::{PlacedLoci, Recovered};
+pub use design::{ControllerForms, CriticalResponse, DesignRoot, Designed};
+pub use design_spec::{CriticalSpec, DecouplerSpec, DesignSpec, GivenPid};
+pub use details::{LoopPeaks, PlacedLoci, Recovered};
 pub use element::{Element, ElementFault};
 pub use mend::Mend;
 pub use plant::TuningPlant;
 pub use plant_study::{FoundPoint, PlantStudy, Tested, Tuning, tune};
 pub use printed::{PrintedFigure, printed_figures, rule_targets};
 pub use results::{DesignOutcome, RelayTuningStudy, Results};
-pub use setup::{
-    CompareSpec, CriticalSpec, DecouplerSpec, DesignSpec, ResponseSpec, SeriesElement, TestKind, TestSpec, TuningSetup,
-};
+pub use setup::{CompareSpec, ResponseSpec, SeriesElement, TestKind, TestSpec, TuningSetup};
 pub use steady_state::SteadyState;
+pub use step_response::{Comparison, StepResponse};

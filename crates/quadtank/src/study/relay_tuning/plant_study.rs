@@ -37,7 +37,7 @@ pub struct Tuning {
     pub study: PlantStudy,
     /// The relay test.
     pub test: Tested,
-    /// The controllers; `None` where the curve has no ultimate point in the direction asked for.
+    /// The controllers; `None` where the curve has no ultimate point in the direction that a placement asks for.
     pub design: Option<Designed>,
 }
 

@@ -11,8 +11,8 @@ use crate::tuning::{
 };
 
 use super::{
-    Comparison, CriticalReading, DesignRoot, Designed, FoundPoint, PlacedLoci, PlantStudy, Results, SeriesElement,
-    SteadyState, Tested,
+    Comparison, CriticalReading, CriticalResponse, DesignRoot, Designed, FoundPoint, LoopPeaks, PlacedLoci, PlantStudy,
+    Results, SeriesElement, SteadyState, Tested,
 };
 
 type Read = fn(&Results) -> Option<f64>;
@@ -107,7 +107,16 @@ fn design(results: &Results) -> Option<&Designed> {
 }
 
 fn root(results: &Results) -> Option<&DesignRoot> {
-    Some(&design(results)?.roots[results.setup.design.root.clamp(1, 2) - 1])
+    Some(design(results)?.at_work())
+}
+
+/// The root of a placement with an index; none of given controllers.
+fn root_of_placement(results: &Results, index: usize) -> Option<&DesignRoot> {
+    if results.setup.design.controllers.is_some() { None } else { design(results)?.roots.get(index) }
+}
+
+fn critical(results: &Results) -> Option<CriticalResponse> {
+    design(results)?.critical
 }
 
 fn controller(results: &Results, index: usize) -> Option<ParallelPid> {
@@ -154,8 +163,14 @@ fn margins(results: &Results) -> Option<Margins> {
     reading(results)?.margins
 }
 
+/// The peaks of the loop with the controllers at work.
+fn peaks(results: &Results) -> Option<LoopPeaks> {
+    study(results)?.peaks(root(results)?).ok()
+}
+
 fn placed(results: &Results) -> Option<PlacedLoci> {
-    study(results)?.placed_loci(root(results)?, design(results)?.frequency, results.setup.design.target).ok()
+    let root = root_of_placement(results, design(results)?.chosen)?;
+    study(results)?.placed_loci(root, critical(results)?.frequency, results.setup.design.target).ok()
 }
 
 fn distance(locus: Complex) -> f64 {
@@ -234,12 +249,12 @@ pub const QUANTITIES: &[Quantity<Results>] = &[
     q("corner.slow_period", "time", "The longer period of the first corner.", |r| Some(corner(r)?.points[0].period())),
     q("corner.fast_period", "time", "The shorter period of the first corner.", |r| Some(corner(r)?.points[1].period())),
     q("critical.r2", "1", "Importance r2 = kc2 g22(0)/(kc1 g11(0)) of the critical point of the design.", |r| r.setup.importance().ok().filter(|r2| r2.is_finite())),
-    q("critical.gain1", "input/output", "Gain kc1 of the critical point of the design.", |r| Some(design(r)?.critical_gains[0])),
-    q("critical.gain2", "input/output", "Gain kc2 of the critical point of the design.", |r| Some(design(r)?.critical_gains[1])),
-    q("critical.period", "time", "Period of the critical point of the design.", |r| Some(design(r)?.period())),
-    q("critical.frequency", "rad/time", "Frequency of the critical point of the design.", |r| Some(design(r)?.frequency)),
-    q("critical.normalised1", "1", "kc1 g11(0) of the critical point of the design.", |r| Some(study(r)?.normalised(design(r)?.critical_gains).0)),
-    q("critical.normalised2", "1", "kc2 g22(0) of the critical point of the design.", |r| Some(study(r)?.normalised(design(r)?.critical_gains).1)),
+    q("critical.gain1", "input/output", "Gain kc1 of the critical point of the design.", |r| Some(critical(r)?.gains[0])),
+    q("critical.gain2", "input/output", "Gain kc2 of the critical point of the design.", |r| Some(critical(r)?.gains[1])),
+    q("critical.period", "time", "Period of the critical point of the design.", |r| Some(critical(r)?.period())),
+    q("critical.frequency", "rad/time", "Frequency of the critical point of the design.", |r| Some(critical(r)?.frequency)),
+    q("critical.normalised1", "1", "kc1 g11(0) of the critical point of the design.", |r| Some(study(r)?.normalised(critical(r)?.gains).0)),
+    q("critical.normalised2", "1", "kc2 g22(0) of the critical point of the design.", |r| Some(study(r)?.normalised(critical(r)?.gains).1)),
     q("critical.curve_gain1", "input/output", "Gain of loop 1 on the critical curve at that importance.", |r| Some(limit(r)?.gains[0])),
     q("critical.curve_gain2", "input/output", "Gain of loop 2 on the critical curve at that importance.", |r| Some(limit(r)?.gains[1])),
     q("critical.curve_period", "time", "Period of the critical curve at that importance.", |r| Some(limit(r)?.period())),
@@ -251,17 +266,19 @@ pub const QUANTITIES: &[Quantity<Results>] = &[
     q("placement.other_re", "1", "Real part of the other locus at the critical frequency.", |r| Some(placed(r)?.other.re)),
     q("placement.other_im", "1", "Imaginary part of the other locus at the critical frequency.", |r| Some(placed(r)?.other.im)),
     q("placement.other_distance", "1", "Distance of the other locus from −1 at the critical frequency.", |r| Some(distance(placed(r)?.other))),
-    q("loop1.gain", "input/output", "Proportional gain kp of controller 1 of the chosen root.", |r| Some(controller(r, 0)?.proportional)),
-    q("loop2.gain", "input/output", "Proportional gain kp of controller 2 of the chosen root.", |r| Some(controller(r, 1)?.proportional)),
-    q("loop1.integral_time", "time", "Integral time Ti of controller 1 of the chosen root; none without integral or proportional part.", |r| integral_time(r, 0)),
-    q("loop2.integral_time", "time", "Integral time Ti of controller 2 of the chosen root; none without integral or proportional part.", |r| integral_time(r, 1)),
-    q("loop1.derivative_time", "time", "Derivative time Td of controller 1 of the chosen root; 0 for PI.", |r| Some(isa(r, 0)?.derivative_time)),
-    q("loop2.derivative_time", "time", "Derivative time Td of controller 2 of the chosen root; 0 for PI.", |r| Some(isa(r, 1)?.derivative_time)),
-    q("closed_loop.is_stable", "yes/no", "Whether the linear loop with the chosen root is stable, without a decoupler; none where it is not computed.", |r| stability(root(r)?.stability)),
+    q("loop1.gain", "input/output", "Proportional gain kp of controller 1 of the chosen root, or as given.", |r| Some(controller(r, 0)?.proportional)),
+    q("loop2.gain", "input/output", "Proportional gain kp of controller 2 of the chosen root, or as given.", |r| Some(controller(r, 1)?.proportional)),
+    q("loop1.integral_time", "time", "Integral time Ti of controller 1 of the chosen root, or as given; none without integral or proportional part.", |r| integral_time(r, 0)),
+    q("loop2.integral_time", "time", "Integral time Ti of controller 2 of the chosen root, or as given; none without integral or proportional part.", |r| integral_time(r, 1)),
+    q("loop1.derivative_time", "time", "Derivative time Td of controller 1 of the chosen root, or as given; 0 for PI.", |r| Some(isa(r, 0)?.derivative_time)),
+    q("loop2.derivative_time", "time", "Derivative time Td of controller 2 of the chosen root, or as given; 0 for PI.", |r| Some(isa(r, 1)?.derivative_time)),
+    q("closed_loop.is_stable", "yes/no", "Whether the linear loop with the chosen root, or with given controllers, is stable, without a decoupler; none where it is not computed.", |r| stability(root(r)?.stability)),
     q("closed_loop.unstable_poles", "1", "Number of poles of that loop in the right half-plane.", unstable_poles),
-    q("root1.is_stable", "yes/no", "Whether the loop with root 1 is stable, which has the larger controller in loop 1.", |r| stability(design(r)?.roots[0].stability)),
-    q("root2.is_stable", "yes/no", "Whether the loop with root 2 is stable.", |r| stability(design(r)?.roots[1].stability)),
-    q("margins.distance", "1", "Shortest distance of a characteristic locus from −1 with the chosen root.", |r| Some(margins(r)?.distance)),
+    q("closed_loop.sensitivity_peak", "1", "Peak Ms of the largest singular value of the sensitivity, without a decoupler; none where the loop is not stable.", |r| Some(peaks(r)?.sensitivity?.value)),
+    q("closed_loop.log_modulus", "dB", "Biggest closed-loop log modulus Lc, without a decoupler (Luyben 1986); none where the loop is not stable or open.", |r| Some(peaks(r)?.log_modulus?.value)),
+    q("root1.is_stable", "yes/no", "Whether the loop with root 1 is stable, which has the larger controller in loop 1.", |r| stability(root_of_placement(r, 0)?.stability)),
+    q("root2.is_stable", "yes/no", "Whether the loop with root 2 is stable.", |r| stability(root_of_placement(r, 1)?.stability)),
+    q("margins.distance", "1", "Shortest distance of a characteristic locus from −1 with the controllers at work.", |r| Some(margins(r)?.distance)),
     q("margins.gain", "1", "Smallest factor above 1 on all gains at which a locus reaches −1; none where no factor does.", |r| margins(r)?.gain_up),
     q("margins.gain_down", "1", "Largest factor below 1 on all gains at which a locus reaches −1; none where no factor does.", |r| margins(r)?.gain_down),
     q("margins.phase", "rad", "Smallest phase lag in all loops at which a locus reaches −1.", |r| margins(r)?.phase),

@@ -10,7 +10,7 @@ use super::{Designed, PlantStudy, Tested, TuningSetup};
 #[derive(Clone, Copy, Debug)]
 pub struct RelayTuningStudy;
 
-/// A design; `None` where the curve has no ultimate point in the direction asked for.
+/// A design; `None` where the curve has no ultimate point in the direction that a placement asks for.
 pub type DesignOutcome = Result<Option<Designed>, TuningError>;
 
 /// What the relay-tuning bench shows of a session.
@@ -22,7 +22,7 @@ pub struct Results {
     pub study: Arc<Result<PlantStudy, TuningError>>,
     /// The relay test.
     pub test: Arc<Result<Tested, TuningError>>,
-    /// The placement with its response.
+    /// The controllers with their response.
     pub design: Arc<DesignOutcome>,
     /// The pinned sessions with the steps of this one, see [`TuningSetup::in_experiment_of`].
     pub pinned: PinnedResults<TuningSetup, DesignOutcome>,

@@ -12,6 +12,14 @@ pub(super) struct Rig {
 }
 
 impl Rig {
+    /// The rig with its pumps in the order of the loops that drive the inputs of the session.
+    pub(super) fn paired(self, pairing: Pairing) -> Self {
+        match pairing {
+            Pairing::Diagonal => self,
+            Pairing::Swapped => Self { pairing: self.pairing.other(), ..self },
+        }
+    }
+
     /// The rig between relays and controllers.
     pub(super) fn held(&self) -> HeldTank<'_> {
         HeldTank::new(&self.plant, &self.op, self.pairing)

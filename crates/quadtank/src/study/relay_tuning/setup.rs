@@ -1,8 +1,8 @@
 use serde::{Deserialize, Serialize};
 
-use crate::tuning::{Action, PlacementMethod, TuningError, TuningRule, importance};
+use crate::tuning::{TuningError, TuningRule, importance};
 
-use super::TuningPlant;
+use super::{CriticalSpec, DesignSpec, TuningPlant};
 
 /// Which relay test is run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -78,60 +78,6 @@ fn one() -> usize {
 /// What a document without detuning has.
 fn not_weaker() -> [f64; 2] {
     [1.0; 2]
-}
-
-/// The critical point that a design starts from.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum CriticalSpec {
-    /// The point of the curve where loop 2 has this importance r2.
-    Importance(f64),
-    /// A point as printed or measured.
-    Point {
-        /// Gains kc1, kc2.
-        gains: [f64; 2],
-        /// Period Tc.
-        period: f64,
-    },
-}
-
-/// What stands between controllers and plant.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "kebab-case")]
-pub enum DecouplerSpec {
-    /// Nothing.
-    #[default]
-    None,
-    /// Constant gains.
-    Static,
-    /// Both cross paths removed.
-    Dynamic,
-    /// Only the way from loop 2 to output 1.
-    FirstOutput,
-    /// Only the way from loop 1 to output 2.
-    SecondOutput,
-}
-
-/// A placement of the critical point.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub struct DesignSpec {
-    /// From where.
-    pub critical: CriticalSpec,
-    /// Which loci.
-    pub method: PlacementMethod,
-    /// With which controllers.
-    pub action: Action,
-    /// Target λ: real and imaginary part.
-    pub target: [f64; 2],
-    /// Root 1 or 2; root 1 has the larger controller in loop 1.
-    pub root: usize,
-    /// Decoupler of the response.
-    #[serde(default)]
-    pub decoupler: DecouplerSpec,
 }
 
 /// What the response is compared with.

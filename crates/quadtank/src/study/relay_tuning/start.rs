@@ -1,12 +1,13 @@
 use std::f64::consts::TAU;
 
-use crate::control::Pairing;
+use crate::control::{IsaPid, Pairing};
 use crate::literature::PresetId;
 use crate::literature::campestrini::{PublishedCase, PublishedPlacement, PublishedPlant};
-use crate::tuning::{Action, GainLimit, PlacementMethod, TuningRule, importance_direction};
+use crate::literature::wood_berry::PublishedControllers;
+use crate::tuning::{GainLimit, TuningRule, importance_direction};
 
 use super::{
-    CompareSpec, CriticalSpec, DecouplerSpec, DesignSpec, PlantStudy, ResponseSpec, SeriesElement, TestKind, TestSpec,
+    CompareSpec, CriticalSpec, DesignSpec, GivenPid, PlantStudy, ResponseSpec, SeriesElement, TestKind, TestSpec,
     TuningPlant, TuningSetup,
 };
 
@@ -66,14 +67,7 @@ impl TuningSetup {
         Self {
             plant,
             test: TestSpec::simultaneous(TEST_PERIODS * period, 0.1 * period, period / ROWS),
-            design: DesignSpec {
-                critical: CriticalSpec::Importance(1.0),
-                method: PlacementMethod::BothLoci,
-                action: Action::Pid,
-                target: [-0.3, -0.3],
-                root: 1,
-                decoupler: DecouplerSpec::None,
-            },
+            design: DesignSpec::default(),
             response: ResponseSpec {
                 references: [1.0, 0.0],
                 duration: RESPONSE_PERIODS * period,
@@ -100,7 +94,7 @@ impl TuningSetup {
                 action,
                 target,
                 root,
-                decoupler: DecouplerSpec::None,
+                ..DesignSpec::default()
             },
             response: ResponseSpec {
                 references: [1.0, 0.0],
@@ -109,6 +103,29 @@ impl TuningSetup {
                 compare: CompareSpec::Nothing,
             },
         }
+    }
+}
+
+impl TuningSetup {
+    /// A session on the column of Wood and Berry with published controllers.
+    pub fn with_published(controllers: PublishedControllers) -> Self {
+        let given = |pid| GivenPid { filter_time: controllers.filter_time(), ..GivenPid::from(pid) };
+        let design = DesignSpec::given(controllers.settings().map(given));
+        Self { design, ..Self::default() }
+    }
+
+    /// Gives the controllers that the placement of the session finds, to go on from; open loops where it finds none. A negative integral
+    /// or derivative time is left out, because a given controller has none.
+    pub fn give_placed_controllers(&mut self) {
+        let found = PlantStudy::of(&self.plant).and_then(|study| study.design(self));
+        let placed = found.ok().flatten().map(|design| design.at_work().forms.map(|forms| forms.isa));
+        let given = |isa: Option<IsaPid>| {
+            let GivenPid { gain, integral_time, derivative_time, .. } =
+                isa.map_or_else(GivenPid::default, GivenPid::from);
+            let integral_time = integral_time.filter(|&time| time > 0.0);
+            GivenPid { gain, integral_time, derivative_time: derivative_time.max(0.0), filter_time: None }
+        };
+        self.design.controllers = Some(placed.unwrap_or_default().map(given));
     }
 }
 
