@@ -15,6 +15,7 @@ use super::keep;
 use super::lab::{Lab, use_lab};
 use super::lessons::{LessonFiles, SidePage, is_for_here, use_classroom};
 use super::naming::{ExperimentName, NameFields};
+use super::scripts::Scripts;
 use super::share;
 use super::storage::{DEPTH, LANGUAGE, THEME};
 use super::texts::{Language, say, tr};
@@ -247,6 +248,7 @@ fn FileMenu() -> impl IntoView {
                         {say!(lab, app.single_file)}
                     </a>
                 })}
+                <Scripts />
                 <button type="button" data-testid="print" on:click=move |_| handout::print()>{say!(lab, handout.print)}</button>
                 <NameFields />
             </div>

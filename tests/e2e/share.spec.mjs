@@ -240,3 +240,21 @@ test('gains and rigs travel from bench to bench', async ({ lab, page }) => {
   await lab.settle();
   expect(page.url()).toContain('bench=quadruple-tank');
 });
+
+test('the experiment is exported as a script in three languages', async ({ lab, page }) => {
+  await lab.open('lang=en&preset=johansson-2000-minimum-phase');
+  for (const [extension, sign] of [['py', 'GAMMA = np.array([0.7, 0.6])'], ['m', 'p.gamma = [0.7, 0.6];'], ['jl', 'const GAMMA = [0.7, 0.6]']]) {
+    await lab.id('file-menu').locator('summary').click();
+    const download = page.waitForEvent('download');
+    await lab.id(`script-${extension}`).click();
+    const file = await download;
+    expect(file.suggestedFilename()).toBe(`quadtank_experiment.${extension}`);
+    let text = '';
+    for await (const piece of await file.createReadStream()) text += piece;
+    expect(text).toContain(sign);
+    await page.keyboard.press('Escape');
+  }
+  await lab.bench('relay-tuning');
+  await lab.id('file-menu').locator('summary').click();
+  await expect(lab.id('script-py')).toHaveCount(0);
+});
