@@ -53,7 +53,9 @@ pub fn keep(lab: Lab) {
         window_event_listener(ev::blur, move |_| let_go()),
     ];
     on_cleanup(move || {
-        listeners.into_iter().for_each(|listener| listener.remove());
+        for listener in listeners {
+            listener.remove();
+        }
         timer.dispose();
     });
 }

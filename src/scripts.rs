@@ -14,9 +14,12 @@ pub fn Scripts() -> impl IntoView {
     let lab = use_lab();
     let has_scripts = Memo::new(move |_| matches!((lab.bench.get().document)(lab), Document::Quadruple(_)));
     let button = move |language: Language| {
-        let text = move || match language.is_checked() {
-            true => tr!(lab, app.script, name = language.name()),
-            false => tr!(lab, app.script_untried, name = language.name()),
+        let text = move || {
+            if language.is_checked() {
+                tr!(lab, app.script, name = language.name())
+            } else {
+                tr!(lab, app.script_untried, name = language.name())
+            }
         };
         view! {
             <button type="button" data-testid=format!("script-{}", language.extension()) on:click=move |_| save(lab, language)>

@@ -1,6 +1,7 @@
 //! Rigs and experiments from outside that the laboratory once could not take. What is expected is theirs, or follows by hand.
 
 use quadtank::study::quadruple_tank::{Setup, run};
+use quadtank_scenario::report::tuning::TuningAnalysisReport;
 use quadtank_scenario::{Document, document_from_json, run_to_csv};
 
 fn setup(json: &str) -> Setup {
@@ -61,4 +62,19 @@ fn a_pump_follows_a_given_sequence() {
     let row = run.row_at(3.2).unwrap();
     assert!((run.levels[0][row] - run.levels[0][0]).abs() < 1e-12);
     assert!(run.levels[0][run.row_at(9.2).unwrap()] > run.levels[0][0] + 1e-4);
+}
+
+/// Four elements of a rig that was identified at KTH: poles and zeros as its case prints them, and its relative gain.
+#[test]
+fn elements_have_poles_and_zeros() {
+    let document = document_from_json(include_str!("../data/elements-with-zeros.json")).unwrap();
+    let Document::Tuning(scenario) = document else { panic!("{document:?}") };
+    let report = TuningAnalysisReport::of(&scenario.tuning).unwrap();
+    let json = serde_json::to_value(&report).unwrap();
+    for (name, printed) in [("poles", &[-0.09089, -0.08582, -0.05106, -0.04692][..]), ("zeros", &[-0.23559, 0.05887])] {
+        let found: Vec<f64> = json[name].as_array().unwrap().iter().map(|root| root["re"].as_f64().unwrap()).collect();
+        assert_eq!(found.len(), printed.len(), "{name}: {found:?}");
+        assert!(found.iter().zip(printed).all(|(found, printed)| (found - printed).abs() < 5e-6), "{name}: {found:?}");
+    }
+    assert!((json["rga_11"].as_f64().unwrap() + 0.5625).abs() < 5e-5, "{}", json["rga_11"]);
 }

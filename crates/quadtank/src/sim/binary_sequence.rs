@@ -6,7 +6,7 @@ use super::experiment::PumpVoltageStep;
 const BITS: u32 = 7;
 
 /// A pseudo-random binary sequence of maximum length, by a shift register with the feedback x⁷ + x⁶ + 1 (Ljung 1999, §13.3).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BinarySequence {
     register: u32,
 }

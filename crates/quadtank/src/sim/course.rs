@@ -207,6 +207,7 @@ pub(super) fn output_at_rest(plant: &QuadrupleTank, op: &OperatingPoint) -> [f64
 }
 
 /// What a law sees: time (s), references and measured signals of levels 1 and 2 (V).
+#[derive(Clone, Copy)]
 struct Sample {
     time: f64,
     reference: [f64; 2],

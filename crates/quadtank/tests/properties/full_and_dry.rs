@@ -56,6 +56,23 @@ fn an_upper_tank_is_full_while_more_comes_in_than_drains() {
 }
 
 #[test]
+fn water_from_outside_fills_a_tank_over_its_wall_and_dries_up() {
+    let mut plant = johansson([0.6, 0.6], [0.5, 0.5, 0.12, 0.5]);
+    plant.inflow = [0.0, 0.0, 2e-6, 1e-6];
+    let start = plant.free_equilibrium([2.5, 2.5]).levels;
+    // More is taken away than comes: nothing is drawn out of the tank that way.
+    let set = OpenLoop::new(&plant, start, [2.5, 2.5], 1500.0)
+        .tank_flow(50.5, 2, 9e-6)
+        .tank_flow(400.25, 3, -5e-6)
+        .tank_flow(700.7, 2, -9e-6)
+        .tank_flow(900.1, 0, 3e-6);
+    for sampling_time_s in SAMPLING_TIMES {
+        let end = set.check(&format!("from outside, {sampling_time_s} s"), sampling_time_s);
+        assert!(end.overflow[2] > 0.0);
+    }
+}
+
+#[test]
 fn a_full_lower_tank_loses_what_it_does_not_drain() {
     let plant = johansson([0.4, 0.4], [0.1, 0.15, 0.5, 0.5]);
     let start = plant.free_equilibrium([2.0, 2.0]).levels;

@@ -3,7 +3,7 @@
 mod design;
 mod test;
 
-use quadtank::linear::LinearError;
+use quadtank::linear::{LinearError, MatrixPolesAndZeros};
 use quadtank::study::relay_tuning::{PlantStudy, SteadyState, Tuning, TuningSetup};
 use quadtank::tuning::{Corner, CurvePoint, GainLimit, TuningError};
 use serde::Serialize;
@@ -17,7 +17,7 @@ pub use test::{
     Settings, TestReport, Verdict, VerdictDetail,
 };
 
-use super::{Answer, rows};
+use super::{Answer, ComplexNumber, complex_numbers, rows};
 use crate::tuning::{TuningWarning, warnings};
 
 /// Why a record ends before its time.
@@ -34,6 +34,11 @@ pub struct TuningAnalysisReport {
     pub rga_11: Answer<f64>,
     /// Niederlinski index of the diagonal pairing (no unit); null where it is not defined.
     pub niederlinski_diagonal: Option<f64>,
+    /// Poles of a minimal realisation (1/unit of time); null where dead times do not leave det G(s) as a whole, and it has zeros
+    /// without number.
+    pub poles: Option<Vec<ComplexNumber>>,
+    /// Transmission zeros (1/unit of time); null as the poles, and where det G(s) is zero at every frequency.
+    pub zeros: Option<Vec<ComplexNumber>>,
     /// The boundary of the stable gains of two proportional loops, from loop 1 alone to loop 2 alone; an error where a loop has
     /// no gain of its own.
     pub critical_curve: Answer<Vec<CurvePointReport>>,
@@ -106,7 +111,9 @@ impl TuningAnalysisReport {
     /// # Errors
     /// What is wrong with the plant. A loop without a gain of its own is told in place of the curve.
     pub fn of(setup: &TuningSetup) -> Result<Self, TuningError> {
-        let steady_state = SteadyState::of(&setup.plant.transfer_matrix()?);
+        let matrix = setup.plant.transfer_matrix()?;
+        let steady_state = SteadyState::of(&matrix);
+        let roots = MatrixPolesAndZeros::of(&matrix)?;
         let curve = match PlantStudy::of(&setup.plant) {
             // A loop without a gain of its own: the axes of the curve have no unit.
             Err(TuningError::Linear(error @ LinearError::SingularGain { .. })) => Err(error),
@@ -116,6 +123,8 @@ impl TuningAnalysisReport {
             dc_gain: rows(&steady_state.dc_gain),
             rga_11: Answer::of(&steady_state.rga_11, |gain| *gain),
             niederlinski_diagonal: steady_state.niederlinski_diagonal,
+            poles: roots.as_ref().map(|roots| complex_numbers(&roots.poles)),
+            zeros: roots.and_then(|roots| Some(complex_numbers(&roots.zeros?))),
             critical_curve: Answer::of(&curve, |curve| curve.points.iter().map(CurvePointReport::from).collect()),
             corners: Answer::of(&curve, |curve| curve.corners.iter().map(CornerReport::from).collect()),
             warnings: warnings(setup),

@@ -38,6 +38,11 @@ impl OpenLoop {
         self
     }
 
+    pub fn tank_flow(mut self, time_s: f64, tank: usize, flow: f64) -> Self {
+        self.loads.push(LoadStep { time_s, load: Load::TankFlow { tank, flow } });
+        self
+    }
+
     fn experiment(&self) -> Experiment {
         Experiment {
             duration_s: self.duration_s,
@@ -87,11 +92,12 @@ impl OpenLoop {
                 let breaks = valves.iter().flat_map(ValveSchedule::breaks_s).flatten();
                 let begins = self.loads.iter().map(|load| load.time_s).chain(breaks);
                 let next = begins.filter(|&at| at > water.time).fold(time, f64::min);
-                let (flow, leaks) = self.acting(water.time);
+                let (flow, leaks, outside) = self.acting(water.time);
                 let last = next.next_down();
                 let flows = |t: f64| {
                     let plant = plant.with_valves(valves.map(|valve| valve.at(t.min(last))));
-                    pumped(&plant, self.start.pump_voltage, flow)
+                    let pumped = pumped(&plant, self.start.pump_voltage, flow);
+                    std::array::from_fn(|tank| pumped[tank] + outside[tank].max(0.0))
                 };
                 water.run_until(next, flows, &leaks);
             }
@@ -100,16 +106,17 @@ impl OpenLoop {
         (rows, water)
     }
 
-    /// Flows added to the pumps and leaks from a time on.
-    fn acting(&self, time: f64) -> ([f64; 2], [f64; 4]) {
-        let (mut flow, mut leaks) = ([0.0; 2], [0.0; 4]);
+    /// Flows added to the pumps, leaks, and flows from outside from a time on.
+    fn acting(&self, time: f64) -> ([f64; 2], [f64; 4], [f64; 4]) {
+        let (mut flow, mut leaks, mut outside) = ([0.0; 2], [0.0; 4], self.plant.inflow);
         for step in self.loads.iter().filter(|step| step.time_s <= time) {
             match step.load {
                 Load::PumpFlow { pump, flow: size } => flow[pump] += size,
                 Load::Leak { tank, area } => leaks[tank] += area,
+                Load::TankFlow { tank, flow } => outside[tank] += flow,
             }
         }
-        (flow, leaks)
+        (flow, leaks, outside)
     }
 
     pub fn standing_valves(&self) -> [ValveSchedule; 2] {
