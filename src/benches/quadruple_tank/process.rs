@@ -76,7 +76,6 @@ fn Settings() -> impl IntoView {
         </div>
         <Situation />
         <OperatingPoint />
-        <RigNumbers />
     }
 }
 
@@ -105,7 +104,7 @@ fn OperatingPoint() -> impl IntoView {
                 <VoltageField pump=0 />
                 <VoltageField pump=1 />
             </div>
-            {move || open.get().then(|| view! { <PublishedFigures /> })}
+            {move || open.get().then(|| view! { <PublishedFigures /><RigNumbers /> })}
         </details>
     }
 }
