@@ -1,7 +1,7 @@
 //! The words that a lesson can link to. The page holds their explanations, in each of its languages.
 
 /// All words of the glossary, as links name them: `[zero](glossary:zero)`.
-pub const TERMS: [&str; 65] = [
+pub const TERMS: [&str; 66] = [
     "gamma",
     "minimum_phase",
     "zero",
@@ -33,6 +33,7 @@ pub const TERMS: [&str; 65] = [
     "locus",
     "target",
     "margins",
+    "log_modulus",
     "decoupler",
     "local_model",
     "estimate",

@@ -52,7 +52,7 @@ pub fn PlacementCard() -> impl IntoView {
             number=3
             terms=TERMS
             title=say!(lab, relay.placement)
-            toolbar=move || view! { <span class="remark">{say!(lab, relay.placement_remark)}</span> }
+            toolbar=move || view! { <span class="remark" hidden=session.throttled_part(is_given)>{say!(lab, relay.placement_remark)}</span> }
             picture=pictures::loci(session)
             frames
             place="chart square"

@@ -21,6 +21,8 @@ const MOST_ROUNDS: usize = 40;
 const AT_BOUND: f64 = 2e-3;
 /// Correlation of two estimates from which on the record does not tell them apart.
 const ALIKE: f64 = 0.97;
+/// Smallest over largest pivot of the Cholesky factor of JᵀJ from which on down rounding alone tells the parameters apart.
+const SINGULAR: f64 = 1e-7;
 /// Standard error over the value from which on the record does not tell a parameter.
 const VAGUE: f64 = 0.25;
 
@@ -162,12 +164,12 @@ impl Fit {
         let widths: Vec<f64> = self.problem.free.iter().map(|free| free.bounds[1] - free.bounds[0]).collect();
         let mut scaled = slopes;
         widths.iter().enumerate().for_each(|(index, &width)| scaled.column_mut(index).scale_mut(width));
-        let decomposition = scaled.clone().svd(false, false);
-        let (largest, smallest) = (decomposition.singular_values.max(), decomposition.singular_values.min());
-        if smallest <= 1e-9 * largest {
+        let factor = (scaled.transpose() * scaled).cholesky()?;
+        let pivots = factor.l_dirty().diagonal();
+        if pivots.min() <= SINGULAR * pivots.max() {
             return None;
         }
-        let inverse = (scaled.transpose() * scaled).try_inverse()?;
+        let inverse = factor.inverse();
         Some(DMatrix::from_fn(values.len(), values.len(), |i, j| variance * inverse[(i, j)] * widths[i] * widths[j]))
     }
 }
