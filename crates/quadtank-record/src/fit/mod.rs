@@ -19,8 +19,10 @@ const PATIENCE: usize = 2;
 const MOST_ROUNDS: usize = 40;
 /// A value this near to a bound, as a share of the range, is at it.
 const AT_BOUND: f64 = 2e-3;
-/// Correlation of two estimates from which on the record does not tell them apart.
+/// Correlation of two estimates from which on the record does not tell them apart, unless it tells both better than [`SURE`].
 const ALIKE: f64 = 0.97;
+/// Standard error over the value up to which a parameter is known whatever it goes together with.
+const SURE: f64 = 0.02;
 /// Smallest over largest pivot of the Cholesky factor of JᵀJ from which on down rounding alone tells the parameters apart.
 const SINGULAR: f64 = 1e-7;
 /// Standard error over the value from which on the record does not tell a parameter.
@@ -145,7 +147,7 @@ impl Fit {
             (0..errors.len()).map(row).collect::<Vec<Vec<f64>>>()
         });
         FitReport {
-            alike: correlation.as_deref().map(alike).unwrap_or_default(),
+            alike: correlation.as_deref().map(|correlation| alike(correlation, &estimates)).unwrap_or_default(),
             vague: (0..estimates.len()).filter(|&index| is_vague(&estimates[index])).collect(),
             estimates,
             correlation,
@@ -180,10 +182,13 @@ fn rmse(problem: &Problem) -> Option<f64> {
     Some(0.01 * (differences.norm_squared() / differences.len() as f64).sqrt())
 }
 
-/// Pairs whose estimates go together.
-fn alike(correlation: &[Vec<f64>]) -> Vec<[usize; 2]> {
+/// Pairs whose estimates go together, and are not known well each by itself.
+fn alike(correlation: &[Vec<f64>], estimates: &[Estimate]) -> Vec<[usize; 2]> {
+    let is_sure = |index: usize| {
+        estimates[index].standard_error.is_some_and(|error| error <= SURE * estimates[index].value.abs())
+    };
     let pairs = (0..correlation.len()).flat_map(|i| (i + 1..correlation.len()).map(move |j| [i, j]));
-    pairs.filter(|&[i, j]| correlation[i][j].abs() > ALIKE).collect()
+    pairs.filter(|&[i, j]| correlation[i][j].abs() > ALIKE && !(is_sure(i) && is_sure(j))).collect()
 }
 
 fn is_vague(estimate: &Estimate) -> bool {
