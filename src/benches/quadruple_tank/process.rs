@@ -104,7 +104,8 @@ fn OperatingPoint() -> impl IntoView {
                 <VoltageField pump=0 />
                 <VoltageField pump=1 />
             </div>
-            {move || open.get().then(|| view! { <PublishedFigures /><RigNumbers /> })}
+            {move || open.get().then(|| view! { <PublishedFigures /> })}
+            <RigNumbers />
         </details>
     }
 }
