@@ -12,6 +12,9 @@ import { serve } from './server.mjs';
 
 export { expect };
 
+/** Each theme and two languages once: colours are a matter of the theme, the width of words one of the language. */
+export const LOOKS = [['light', 'en'], ['dark', 'pt-BR']];
+
 export class Lab {
   constructor(page, origin, complaints) {
     this.page = page;
