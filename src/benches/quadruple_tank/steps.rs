@@ -100,7 +100,7 @@ fn StepRow(index: usize) -> impl IntoView {
             .to_vec()
     });
     view! {
-        <div class="step" role="group">
+        <div class="reference-step" role="group">
             <Select
                 id=level_id
                 name=say!(lab, experiment.step_level, number = number)
