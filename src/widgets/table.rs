@@ -21,6 +21,11 @@ pub fn Figures(
     }
 }
 
+/// Whether the fold of a `toggle` event is open. Two clicks in a row may make one event, so that counting events goes wrong.
+pub fn is_open(event: &leptos::ev::Event) -> bool {
+    event_target::<web_sys::Element>(event).has_attribute("open")
+}
+
 /// A table that is folded away, and worked out only while it is open.
 #[component]
 pub fn Folded(
@@ -38,7 +43,7 @@ pub fn Folded(
 ) -> impl IntoView {
     let open = RwSignal::new(false);
     view! {
-        <details class="more" on:toggle=move |_| open.update(|o| *o = !*o)>
+        <details class="more" on:toggle=move |event| open.set(is_open(&event))>
             <summary data-testid=id>{summary}</summary>
             <div class="scroll" tabindex="0" role="region" aria-label=caption>
                 <table class="plain">{move || open.get().then(|| content.run())}</table>

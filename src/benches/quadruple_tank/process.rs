@@ -13,7 +13,7 @@ use super::sentences;
 use super::session::use_session;
 use crate::controls::{ParamControl, ParamRow};
 use crate::texts::{say, terms, tr};
-use crate::widgets::{Card, NumberField, Scale, Text, TimeBar, Verdict, marked};
+use crate::widgets::{Card, NumberField, Scale, Text, TimeBar, Verdict, is_open, marked};
 use quadtank::study::quadruple_tank::{OperatingPointSpec, Setup};
 
 const GAMMA: ParamControl<Setup> = ParamControl {
@@ -97,7 +97,7 @@ fn OperatingPoint() -> impl IntoView {
     let lab = use_session().lab;
     let open = RwSignal::new(false);
     view! {
-        <details class="more" data-testid="operating-point-fold" on:toggle=move |_| open.update(|o| *o = !*o)>
+        <details class="more" data-testid="operating-point-fold" on:toggle=move |event| open.set(is_open(&event))>
             <summary>{say!(lab, process.operating_point)}</summary>
             <PresetRemark />
             <div class="fields">

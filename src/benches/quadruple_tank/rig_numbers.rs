@@ -11,7 +11,7 @@ use super::session::{Session, use_session};
 use crate::errors::of_error;
 use crate::lab::Lab;
 use crate::texts::{say, tr};
-use crate::widgets::{NumberField, Scale};
+use crate::widgets::{NumberField, Scale, is_open};
 
 /// A number that each tank or each pump has, or the rig alone.
 struct RigNumber {
@@ -169,7 +169,7 @@ pub fn RigNumbers() -> impl IntoView {
         }
     };
     view! {
-        <details class="more rig-numbers" data-testid="rig-numbers" on:toggle=move |_| open.update(|open| *open = !*open)>
+        <details class="more rig-numbers" data-testid="rig-numbers" on:toggle=move |event| open.set(is_open(&event))>
             <summary>{say!(lab, rig.title)}</summary>
             {move || open.get().then(content)}
         </details>

@@ -23,7 +23,7 @@ const AT_BOUND: f64 = 2e-3;
 const ALIKE: f64 = 0.97;
 /// Standard error over the value up to which a parameter is known whatever it goes together with.
 const SURE: f64 = 0.02;
-/// Smallest over largest pivot of the Cholesky factor of JᵀJ from which on down rounding alone tells the parameters apart.
+/// Smallest over largest pivot of the Cholesky factor of `JᵀJ` from which on down rounding alone tells the parameters apart.
 const SINGULAR: f64 = 1e-7;
 /// Standard error over the value from which on the record does not tell a parameter.
 const VAGUE: f64 = 0.25;
