@@ -39,7 +39,7 @@ pub struct Section {
     pub items: Vec<Item>,
 }
 
-/// An item with what it is called, what it is and its value.
+/// A parameter of a script: its name, its value, and the comment with its unit.
 pub fn item(name: &'static str, value: Value, comment: &'static str) -> Item {
     Item { name, value, comment }
 }

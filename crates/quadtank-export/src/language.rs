@@ -109,7 +109,7 @@ impl Language {
             Octave => format!("p.{name} = {value};"),
             Julia => format!("const {} = {value}", name.to_uppercase()),
         };
-        // A remark behind a matrix would stand at its last row, and behind a long line nobody sees it.
+        // The comment of a matrix or of a long line stands on the line before it: at its end a reader would miss it.
         if value.contains('\n') || value.len() > LONG {
             format!("{mark} {comment}\n{assignment}\n")
         } else {

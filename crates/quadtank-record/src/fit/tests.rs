@@ -74,7 +74,7 @@ fn a_fitted_rig_does_the_experiment_of_the_record_as_the_rig_did() {
     let found = fit.setup(&setup);
     let agrees = crate::agreement(&record, &run(&found).unwrap().nonlinear);
     assert!(agrees.levels[0].unwrap().fit_percent.unwrap() > 99.5, "{agrees:?}");
-    // Another experiment stays what it was.
+    // A setup with another experiment than that of the record keeps its own.
     let other = setup_of(PresetId::JohanssonMinimumPhase);
     assert_eq!(fit.setup(&other).experiment, other.experiment);
 }

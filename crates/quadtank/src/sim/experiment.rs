@@ -47,7 +47,7 @@ pub enum Load {
         /// Area of the hole (m²).
         area: f64,
     },
-    /// Flow into a tank from outside of the rig, added to what it receives from there anyway.
+    /// Flow into a tank from outside of the rig, added to its constant inflow `QuadrupleTank::inflow`.
     TankFlow {
         /// Index of the tank, 0 to 3.
         tank: usize,

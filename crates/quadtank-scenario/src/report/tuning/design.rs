@@ -15,8 +15,8 @@ const NOT_COMPUTED: &str = "the loci turn too often before the gain of the loop 
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct DesignReport {
-    /// Critical frequency (rad per unit of time); null with given controllers where the critical curve has no ultimate point in the
-    /// direction asked for.
+    /// Critical frequency (rad per unit of time); null with given controllers where the critical curve has no ultimate point for
+    /// the importance r2 of the session.
     pub frequency: Option<f64>,
     /// G(jω) there, by rows (outputs per input); null likewise.
     pub g: Option<[[ComplexNumber; 2]; 2]>,
@@ -34,7 +34,7 @@ pub struct DesignReport {
     pub comparison: Option<ComparisonReport>,
 }
 
-/// One root of a placement, or given controllers, with what it does to the loop, without a decoupler.
+/// A pair of controllers, which is one root of a placement or the given pair, and the closed loop with it; no decoupler acts.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RootReport {

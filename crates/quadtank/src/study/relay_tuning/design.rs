@@ -15,7 +15,7 @@ use super::{Comparison, CriticalSpec, DesignSpec, GivenPid, PlantStudy, StepResp
 /// The controllers of a session, both roots of a placement or given ones, with what they do.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Designed {
-    /// The critical point of the session; `None` with given controllers where the curve has none in the direction asked for.
+    /// The critical point of the session; `None` with given controllers where the curve has none for the importance r2 asked for.
     pub critical: Option<CriticalResponse>,
     /// Root 1, with the larger controller in loop 1, and root 2; given controllers alone.
     pub roots: Vec<DesignRoot>,
