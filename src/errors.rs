@@ -75,7 +75,7 @@ fn of_law(lab: Lab, field: &str, error: EstimatorError) -> String {
 }
 
 /// Why relay tuning does not work with an element.
-fn of_fault(lab: Lab, fault: ElementFault) -> String {
+pub fn of_fault(lab: Lab, fault: ElementFault) -> String {
     match fault {
         ElementFault::NoDenominator => tr!(lab, refused.no_denominator),
         ElementFault::Biproper { .. } => tr!(lab, refused.biproper),

@@ -5,6 +5,7 @@ mod curve;
 mod details;
 mod errors;
 mod flags;
+mod formulas;
 mod given;
 mod guide;
 mod mends;

@@ -3,6 +3,7 @@
 use leptos::prelude::*;
 
 use super::flags::{locks, panels};
+use super::formulas::OwnPlant;
 use super::printed::{PrintedFigures, name_of_case};
 use super::session::{Session, load, use_session};
 use crate::benches::quadruple_tank::name_of;
@@ -58,6 +59,7 @@ pub fn PlantCard() -> impl IntoView {
             <div class="strip" hidden=no_rig><RigSettings /></div>
             <PrintedFigures />
             <p class="remark about" data-testid="plant-remark">{move || remark(session)}</p>
+            <OwnPlant />
         </Card>
     }
 }

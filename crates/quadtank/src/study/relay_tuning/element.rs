@@ -48,6 +48,13 @@ pub enum ElementFault {
     },
 }
 
+impl From<TransferFunction> for Element {
+    fn from(of: TransferFunction) -> Self {
+        let dead_time = of.dead_time();
+        Self { numerator: of.numerator().to_vec(), denominator: of.denominator().to_vec(), dead_time }
+    }
+}
+
 impl Element {
     /// As a transfer function.
     ///

@@ -63,6 +63,17 @@ impl TuningPlant {
         }
     }
 
+    /// Its elements, row by output.
+    ///
+    /// # Errors
+    /// As [`transfer_matrix`](Self::transfer_matrix).
+    pub fn elements(&self) -> Result<[[Element; 2]; 2], TuningError> {
+        match self {
+            Self::Elements(rows) => Ok(rows.clone()),
+            other => Ok(other.transfer_matrix()?.0.map(|row| row.map(Element::from))),
+        }
+    }
+
     /// Whether times are in the same unit for both, as far as documents tell: published plants have a unit each.
     pub fn has_same_clock(&self, other: &Self) -> bool {
         match (self, other) {
