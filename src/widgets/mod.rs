@@ -34,7 +34,9 @@ pub use point_button::PointButton;
 pub use readout::Readout;
 pub use segmented::Segmented;
 pub use select::{Choice, Select};
-pub use table::{Caption, Cells, Figure, Figures, Folded, Headings, ReasonedRow, Row, TableContent, is_open};
+pub use table::{
+    Caption, Cells, Figure, FigureCells, Figures, Folded, Headings, ReasonedRow, Row, TableContent, is_open,
+};
 pub use terms::Text;
 pub use tick::Tick;
 pub use time_bar::{Playback, TimeBar, prefers_less_motion, shown_times};

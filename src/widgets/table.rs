@@ -124,6 +124,24 @@ pub enum Figure {
     None(String),
 }
 
+/// Cells with figures, some of which may be missing for a reason.
+#[component]
+pub fn FigureCells(
+    /// One for each cell.
+    figures: Vec<Figure>,
+) -> impl IntoView {
+    let cells = figures.into_iter().map(|figure| {
+        let (text, why) = match figure {
+            Figure::Shown(text) => (text, None),
+            Figure::None(why) => ("–".to_owned(), Some(why)),
+        };
+        let hidden = why.is_some().then_some("true");
+        let spoken = why.clone().map(|why| view! { <span class="visually-hidden">{why}</span> });
+        view! { <td title=why><span aria-hidden=hidden>{text}</span>{spoken}</td> }
+    });
+    cells.collect_view()
+}
+
 /// A row with a heading, some of whose figures may be missing for a reason.
 #[component]
 pub fn ReasonedRow(
@@ -136,14 +154,5 @@ pub fn ReasonedRow(
     /// Its figures.
     figures: Vec<Figure>,
 ) -> impl IntoView {
-    let cells = figures.into_iter().map(|figure| {
-        let (text, why) = match figure {
-            Figure::Shown(text) => (text, None),
-            Figure::None(why) => ("–".to_owned(), Some(why)),
-        };
-        let hidden = why.is_some().then_some("true");
-        let spoken = why.clone().map(|why| view! { <span class="visually-hidden">{why}</span> });
-        view! { <td title=why><span aria-hidden=hidden>{text}</span>{spoken}</td> }
-    });
-    view! { <tr><th scope="row" class=class>{name}</th>{cells.collect_view()}</tr> }
+    view! { <tr><th scope="row" class=class>{name}</th><FigureCells figures /></tr> }
 }

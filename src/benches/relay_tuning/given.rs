@@ -1,19 +1,18 @@
-//! Given controllers in the place of a placement, and the published ones of the column of Wood and Berry side by side.
+//! Given controllers in the place of a placement.
 
 use leptos::prelude::*;
 
 use super::flags::locks;
-use super::session::{Session, use_session};
+use super::session::use_session;
 use crate::controls::{ParamControl, ParamRow, Switch};
 use crate::lab::Lab;
 use crate::shown::ShownUnit;
 use crate::texts::{say, tr};
-use crate::widgets::{Choice, Figure, Folded, ReasonedRow, Select, TableContent};
+use crate::widgets::{Choice, Select};
 use quadtank::control::Pairing;
-use quadtank::linear::LoopStability;
 use quadtank::literature::campestrini::PublishedPlant;
 use quadtank::literature::wood_berry::PublishedControllers;
-use quadtank::study::relay_tuning::{ComparedControllers, GivenPid, TuningPlant, TuningSetup};
+use quadtank::study::relay_tuning::{GivenPid, TuningPlant, TuningSetup};
 use quadtank_scenario::limits::{TUNING_NOT_NEGATIVE, TUNING_POSITIVE, TUNING_VALUE};
 
 const GAIN: ParamControl<TuningSetup> = ParamControl {
@@ -73,7 +72,7 @@ pub fn is_given(setup: &TuningSetup) -> bool {
     setup.design.controllers.is_some()
 }
 
-fn has_published(setup: &TuningSetup) -> bool {
+pub fn has_published(setup: &TuningSetup) -> bool {
     setup.plant == TuningPlant::Published(PublishedPlant::WoodBerry)
 }
 
@@ -107,7 +106,7 @@ fn set_given(setup: &mut TuningSetup, given: bool) {
     }
 }
 
-fn within_limits(pid: GivenPid) -> GivenPid {
+pub fn within_limits(pid: GivenPid) -> GivenPid {
     GivenPid {
         gain: TUNING_VALUE.clamp(pid.gain),
         integral_time: pid.integral_time.map(|time| TUNING_POSITIVE.clamp(time)),
@@ -183,55 +182,13 @@ fn PublishedSelect() -> impl IntoView {
 }
 
 /// Who published controllers, and how they were found.
-fn name_of(lab: Lab, controllers: PublishedControllers) -> String {
+pub fn name_of(lab: Lab, controllers: PublishedControllers) -> String {
     match controllers {
         PublishedControllers::Blt => tr!(lab, relay.controllers_blt),
         PublishedControllers::ZieglerNichols => tr!(lab, relay.controllers_zn),
         PublishedControllers::ChenSeborg => tr!(lab, relay.controllers_chen),
         PublishedControllers::BoydHastAstrom => tr!(lab, relay.controllers_boyd),
     }
-}
-
-/// The published controllers side by side, folded away; nothing for plants that have none.
-#[component]
-pub fn PublishedSideBySide() -> impl IntoView {
-    let session = use_session();
-    let summary = say!(session.lab, relay.side_by_side);
-    view! {
-        <div hidden=session.throttled_part(|s| !has_published(s))>
-            <Folded id="published-controllers" summary caption=summary content=move || side_by_side(session) />
-        </div>
-    }
-}
-
-fn side_by_side(session: Session) -> impl IntoView {
-    let lab = session.lab;
-    let setup = session.throttled.setup.get();
-    let compared = session.throttled.study.with(|study| study.as_ref().as_ref().ok()?.compare_published(&setup).ok());
-    let rows = compared.unwrap_or_default().iter().map(|row| row_of(lab, row)).collect::<Vec<_>>();
-    let columns = [&*tr!(lab, relay.col_root), "Lc (dB)", "Ms", "IAE y₁", "IAE y₂"].map(str::to_owned).to_vec();
-    view! { <TableContent caption=tr!(lab, relay.side_by_side) columns rows /> }
-}
-
-fn row_of(lab: Lab, row: &ComparedControllers) -> AnyView {
-    let style = lab.number_style();
-    let verdict = match row.stability {
-        LoopStability::Stable => "✓",
-        LoopStability::NotComputed { .. } => "?",
-        LoopStability::Unstable { .. } | LoopStability::Marginal { .. } => "✗",
-    };
-    let shown = |value: Option<f64>| {
-        let why = || Figure::None(tr!(lab, relay.why_unbounded));
-        value.map_or_else(why, |value| Figure::Shown(style.fixed(value, 2)))
-    };
-    let iae = |output: usize| row.is_bounded.then_some(row.figures[output].iae);
-    let figures = vec![
-        shown(row.peaks.log_modulus.map(|peak| peak.value)),
-        shown(row.peaks.sensitivity.map(|peak| peak.value)),
-        shown(iae(0)),
-        shown(iae(1)),
-    ];
-    view! { <ReasonedRow name=format!("{} {verdict}", name_of(lab, row.published)) figures /> }.into_any()
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! The relay-tuning bench: relay test, critical curve, placement of the critical point, response (Campestrini 2006).
 
+mod compared;
 mod controls;
 mod curve;
 mod details;

@@ -216,6 +216,7 @@ pub fn short_name(rule: TuningRule) -> &'static str {
     match rule {
         TuningRule::ZieglerNicholsP => "ZN P",
         TuningRule::ZieglerNicholsPi => "ZN PI",
+        TuningRule::ZieglerNichols1942Pi => "ZN 1942 PI",
         TuningRule::ZieglerNicholsPid => "ZN PID",
         TuningRule::TyreusLuybenPi => "TL PI",
         TuningRule::TyreusLuybenPid => "TL PID",

@@ -2,11 +2,12 @@
 
 use leptos::prelude::*;
 
+use super::compared::SideBySide;
 use super::controls::symbol;
 use super::details::OtherForms;
 use super::errors;
 use super::flags::{locks, panels};
-use super::given::{GivenControllers, Origin, PublishedSideBySide, is_given};
+use super::given::{GivenControllers, Origin, is_given};
 use super::mends;
 use super::pictures::{self, short_name};
 use super::session::{Session, use_session};
@@ -61,7 +62,7 @@ pub fn PlacementCard() -> impl IntoView {
             }
             verdict=Signal::derive(move || sentence(session))
             offers=Signal::derive(move || mends::of_design(session, "mend-placement"))
-            below=|| view! { <OtherForms /> <PublishedSideBySide /> }
+            below=|| view! { <OtherForms /> <SideBySide /> }
         >
             <Settings />
         </Step>

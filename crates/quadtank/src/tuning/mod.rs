@@ -11,6 +11,7 @@ mod identification;
 mod level_cost;
 mod limit_cycle;
 mod model_rules;
+mod pair_rules;
 mod placement;
 mod process_model;
 mod proposal;
@@ -35,6 +36,7 @@ pub use identification::{complete_response, sine_test};
 pub use level_cost::{CostMeasure, LevelCost, LevelProblem, LevelWorth, VIOLATION, sensitivity_peak};
 pub use limit_cycle::{LimitCycle, limit_cycles};
 pub use model_rules::ModelRule;
+pub use pair_rules::{PairRule, PairRuleError};
 pub use placement::{ControllerPair, integral_action_may_be_stable, place_both_loci, place_one_locus};
 pub use process_model::ProcessModel;
 pub use proposal::{

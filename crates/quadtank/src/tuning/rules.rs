@@ -30,6 +30,10 @@ pub enum TuningRule {
     ZieglerNicholsP,
     /// Ziegler and Nichols, PI, in the variant 0.4 Kc, 0.8 Tc (Campestrini 2006, Table 1).
     ZieglerNicholsPi,
+    /// Ziegler and Nichols, PI, in the original variant 0.45 Kc, Tc/1.2 (Ziegler and Nichols 1942, Trans. ASME 64, 759–768), which
+    /// Luyben (1986) starts from.
+    #[serde(rename = "ziegler-nichols-1942-pi")]
+    ZieglerNichols1942Pi,
     /// Ziegler and Nichols, PID (Campestrini 2006, Table 1).
     ZieglerNicholsPid,
     /// Tyreus and Luyben, PI (Campestrini 2006, Table 2).
@@ -40,9 +44,10 @@ pub enum TuningRule {
 
 impl TuningRule {
     /// All rules.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 6] = [
         Self::ZieglerNicholsP,
         Self::ZieglerNicholsPi,
+        Self::ZieglerNichols1942Pi,
         Self::ZieglerNicholsPid,
         Self::TyreusLuybenPi,
         Self::TyreusLuybenPid,
@@ -53,6 +58,7 @@ impl TuningRule {
         match self {
             Self::ZieglerNicholsP => (0.5, f64::INFINITY, 0.0),
             Self::ZieglerNicholsPi => (0.4, 0.8, 0.0),
+            Self::ZieglerNichols1942Pi => (0.45, 1.0 / 1.2, 0.0),
             Self::ZieglerNicholsPid => (0.6, 0.5, 0.125),
             Self::TyreusLuybenPi => (1.0 / 3.2, 2.2, 0.0),
             Self::TyreusLuybenPid => (1.0 / 2.2, 2.2, 1.0 / 6.3),

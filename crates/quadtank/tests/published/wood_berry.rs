@@ -5,7 +5,8 @@ use approx::assert_relative_eq;
 use quadtank::linear::LoopStability;
 use quadtank::literature::wood_berry::PublishedControllers;
 use quadtank::sim::StepMetrics;
-use quadtank::study::relay_tuning::{ComparedControllers, PlantStudy, TuningSetup};
+use quadtank::study::relay_tuning::{ComparedControllers, JudgedControllers, PlantStudy, TuningSetup};
+use quadtank::tuning::{PairRule, TuningRule};
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
@@ -14,13 +15,13 @@ fn compared() -> Vec<ComparedControllers> {
     PlantStudy::of(&setup.plant).unwrap().compare_published(&setup).unwrap()
 }
 
-fn of(published: PublishedControllers) -> ComparedControllers {
-    compared().into_iter().find(|row| row.published == published).unwrap()
+fn of(published: PublishedControllers) -> JudgedControllers {
+    compared().into_iter().find(|row| row.published == published).unwrap().judged
 }
 
 /// Ms, Lc (dB), and the IAE of both outputs for r = (1, 0).
 fn figures(published: PublishedControllers) -> [f64; 4] {
-    let ComparedControllers { stability, peaks, figures: [one, two], is_bounded, .. } = of(published);
+    let JudgedControllers { stability, peaks, figures: [one, two], is_bounded } = of(published);
     assert!(stability == LoopStability::Stable && is_bounded, "{published:?}: {stability:?}");
     [peaks.sensitivity.unwrap().value, peaks.log_modulus.unwrap().value, one.iae, two.iae]
 }
@@ -71,4 +72,30 @@ fn each_loop_by_ziegler_and_nichols_is_nearly_unstable_as_a_pair() {
     assert_relative_eq!(row.peaks.sensitivity.unwrap().value, 187.0, epsilon = 0.5);
     // 39.53 dB, whose decimals the other program cuts off.
     assert_relative_eq!(row.peaks.log_modulus.unwrap().value, 39.527, epsilon = 0.5e-3);
+}
+
+/// Luyben (1986) prints the settings of Ziegler and Nichols to two digits, and those of BLT from them: ours start from the exact
+/// ultimate points (2.0994, 3.907 and −0.4221, 11.13 by an independent computation), and agree to the digits that his rounding leaves.
+#[test]
+fn the_rules_of_luyben_give_the_printed_settings() {
+    let setup = TuningSetup::default();
+    let study = PlantStudy::of(&setup.plant).unwrap();
+    let settings =
+        |rule| study.by_rule(rule, setup.design.pairing).unwrap().map(|pid| (pid.gain, pid.integral_time.unwrap()));
+    let [one, two] = settings(PairRule::Ultimate(TuningRule::ZieglerNichols1942Pi));
+    assert_relative_eq!(one.0, 0.45 * 2.0994, epsilon = 0.5e-4);
+    assert_relative_eq!(one.1, 3.907 / 1.2, epsilon = 0.5e-3);
+    assert_relative_eq!(two.0, -0.45 * 0.4221, epsilon = 0.5e-4);
+    assert_relative_eq!(two.1, 11.13 / 1.2, epsilon = 0.5e-2);
+    for (exact, printed) in [(one, (0.96, 3.25)), (two, (-0.19, 9.2))] {
+        assert_relative_eq!(exact.0, printed.0, max_relative = 0.02);
+        assert_relative_eq!(exact.1, printed.1, max_relative = 0.02);
+    }
+    for (exact, printed) in settings(PairRule::Blt).into_iter().zip([(0.375, 8.29), (-0.075, 23.6)]) {
+        assert_relative_eq!(exact.0, printed.0, max_relative = 0.02);
+        assert_relative_eq!(exact.1, printed.1, max_relative = 0.02);
+    }
+    let rows = study.compare_rules(&setup);
+    let blt = rows.iter().find(|row| row.rule == PairRule::Blt).unwrap().outcome.unwrap().1;
+    assert_relative_eq!(blt.peaks.log_modulus.unwrap().value, 4.0, max_relative = 1e-4);
 }

@@ -34,6 +34,9 @@ pub enum RuleName {
     ZieglerNicholsP,
     /// Ziegler and Nichols, PI, on the ultimate point.
     ZieglerNicholsPi,
+    /// Ziegler and Nichols, PI, in the variant of 1942, on the ultimate point.
+    #[serde(rename = "ziegler-nichols-1942-pi")]
+    ZieglerNichols1942Pi,
     /// Ziegler and Nichols, PID, on the ultimate point.
     ZieglerNicholsPid,
     /// Tyreus and Luyben, PI, on the ultimate point.
@@ -75,6 +78,7 @@ impl From<SuggestedRule> for RuleName {
             SuggestedRule::Model(ModelRule::Amigo) => Self::Amigo,
             SuggestedRule::Ultimate(TuningRule::ZieglerNicholsP) => Self::ZieglerNicholsP,
             SuggestedRule::Ultimate(TuningRule::ZieglerNicholsPi) => Self::ZieglerNicholsPi,
+            SuggestedRule::Ultimate(TuningRule::ZieglerNichols1942Pi) => Self::ZieglerNichols1942Pi,
             SuggestedRule::Ultimate(TuningRule::ZieglerNicholsPid) => Self::ZieglerNicholsPid,
             SuggestedRule::Ultimate(TuningRule::TyreusLuybenPi) => Self::TyreusLuybenPi,
             SuggestedRule::Ultimate(TuningRule::TyreusLuybenPid) => Self::TyreusLuybenPid,

@@ -1,7 +1,9 @@
 use quadtank::control::{Pairing, ParallelPid};
 use quadtank::linear::{Closure, LoopStability};
 use quadtank::sim::{Halt, StepMetrics};
-use quadtank::study::relay_tuning::{ComparedControllers, Comparison, DesignRoot, Designed, PlantStudy};
+use quadtank::study::relay_tuning::{
+    ComparedControllers, Comparison, DesignRoot, Designed, GivenPid, JudgedControllers, PlantStudy, RuledControllers,
+};
 use quadtank::tuning::{PlacementWarning, TuningError};
 use serde::Serialize;
 
@@ -81,6 +83,26 @@ pub struct PublishedControllersReport {
     /// computed.
     pub sensitivity_peak: Option<f64>,
     /// Biggest closed-loop log modulus Lc (dB); null where the loop is not stable or it is not computed.
+    pub biggest_log_modulus_db: Option<f64>,
+    /// Figures of outputs 1 and 2 in the response; null where it does not stay bounded.
+    pub figures: Option<[FiguresReport; 2]>,
+}
+
+/// What a rule makes of the plant in the pairing of the session, in the experiment of the session without a decoupler.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct RuleReport {
+    /// The name of the rule.
+    pub rule: &'static str,
+    /// Why it makes no controllers; null where it does.
+    pub refused: Option<String>,
+    /// Controllers of loops 1 and 2, as a document gives them.
+    pub controllers: Option<[GivenPid; 2]>,
+    /// Whether the loop is stable.
+    pub stability: Option<LoopStabilityReport>,
+    /// Largest singular value of the sensitivity over all frequencies, Ms (no unit).
+    pub sensitivity_peak: Option<f64>,
+    /// Biggest closed-loop log modulus Lc (dB).
     pub biggest_log_modulus_db: Option<f64>,
     /// Figures of outputs 1 and 2 in the response; null where it does not stay bounded.
     pub figures: Option<[FiguresReport; 2]>,
@@ -226,9 +248,25 @@ impl RootReport {
     }
 }
 
+impl From<&RuledControllers> for RuleReport {
+    fn from(ruled: &RuledControllers) -> Self {
+        let judged = ruled.outcome.as_ref().ok().map(|(_, judged)| judged);
+        Self {
+            rule: ruled.rule.name(),
+            refused: ruled.outcome.as_ref().err().map(ToString::to_string),
+            controllers: ruled.outcome.ok().map(|(controllers, _)| controllers),
+            stability: judged.map(|judged| judged.stability.into()),
+            sensitivity_peak: judged.and_then(|judged| Some(judged.peaks.sensitivity?.value)),
+            biggest_log_modulus_db: judged.and_then(|judged| Some(judged.peaks.log_modulus?.value)),
+            figures: judged.filter(|judged| judged.is_bounded).map(|judged| judged.figures.map(FiguresReport::from)),
+        }
+    }
+}
+
 impl From<&ComparedControllers> for PublishedControllersReport {
     fn from(compared: &ComparedControllers) -> Self {
-        let ComparedControllers { published, stability, peaks, figures, is_bounded } = compared;
+        let ComparedControllers { published, judged } = compared;
+        let JudgedControllers { stability, peaks, figures, is_bounded } = judged;
         Self {
             case: published.name(),
             source: published.source(),

@@ -10,7 +10,7 @@ use serde::Serialize;
 
 pub use design::{
     ComparisonReport, DesignReport, FiguresReport, Gains, HaltReport, LoopStabilityReport, PublishedControllersReport,
-    RootReport,
+    RootReport, RuleReport,
 };
 pub use test::{
     DistanceReport, Found, LimitCycleReport, LoopTestReport, OscillationReport, ReadingReport, SequentialStepReport,
@@ -101,6 +101,8 @@ pub struct TuningReport {
     pub design: Option<DesignReport>,
     /// Controllers that are published for the plant; empty where there are none.
     pub published_controllers: Vec<PublishedControllersReport>,
+    /// What each rule makes of the plant in the pairing of the session.
+    pub rules: Vec<RuleReport>,
     /// What the session may not have been meant to say.
     pub warnings: Vec<TuningWarning>,
 }
@@ -166,6 +168,7 @@ impl TuningReport {
         let test = TestReport::of(&found.study, &found.test, &setup.test)?;
         let compared = found.study.compare_published(setup)?;
         let published_controllers = compared.iter().map(PublishedControllersReport::from).collect();
-        Ok(Self { test, design, published_controllers, warnings: warnings(setup) })
+        let rules = found.study.compare_rules(setup).iter().map(RuleReport::from).collect();
+        Ok(Self { test, design, published_controllers, rules, warnings: warnings(setup) })
     }
 }

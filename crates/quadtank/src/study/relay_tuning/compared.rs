@@ -1,18 +1,17 @@
-//! The controllers that are published for a plant, side by side in the experiment of a session.
+//! Controllers by rules and published ones, side by side in the experiment of a session.
 
+use crate::control::{Pairing, ParallelPid};
 use crate::linear::LoopStability;
 use crate::literature::campestrini::PublishedPlant;
 use crate::literature::wood_berry::PublishedControllers;
 use crate::sim::StepMetrics;
-use crate::tuning::TuningError;
+use crate::tuning::{PairRule, PairRuleError, TuningError};
 
-use super::{LoopPeaks, PlantStudy, TuningPlant, TuningSetup};
+use super::{DesignRoot, GivenPid, LoopPeaks, PlantStudy, TuningPlant, TuningSetup};
 
-/// Published controllers and what they do.
+/// A pair of controllers and what it does in the response of a session, without a decoupler.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ComparedControllers {
-    /// Which ones.
-    pub published: PublishedControllers,
+pub struct JudgedControllers {
     /// Whether the loop is stable.
     pub stability: LoopStability,
     /// Its peaks.
@@ -21,6 +20,24 @@ pub struct ComparedControllers {
     pub figures: [StepMetrics; 2],
     /// Whether the response stays bounded, so that its figures mean something.
     pub is_bounded: bool,
+}
+
+/// Published controllers and what they do.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ComparedControllers {
+    /// Which ones.
+    pub published: PublishedControllers,
+    /// What they do.
+    pub judged: JudgedControllers,
+}
+
+/// What a rule makes of a plant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RuledControllers {
+    /// The rule.
+    pub rule: PairRule,
+    /// Its controllers with what they do, or why there are none.
+    pub outcome: Result<([GivenPid; 2], JudgedControllers), PairRuleError>,
 }
 
 impl PlantStudy {
@@ -34,12 +51,45 @@ impl PlantStudy {
             return Ok(Vec::new());
         }
         let compared = |published: PublishedControllers| {
-            let gains = published.gains();
-            let (stability, response) = self.response_with(gains, setup)?;
-            let peaks = LoopPeaks::of(&self.plant, gains, stability)?;
-            let (figures, is_bounded) = (response.figures, response.is_bounded);
-            Ok(ComparedControllers { published, stability, peaks, figures, is_bounded })
+            Ok(ComparedControllers { published, judged: self.judge(published.gains(), Pairing::Diagonal, setup)? })
         };
         PublishedControllers::ALL.into_iter().map(compared).collect()
+    }
+
+    /// What each rule makes of the plant in the pairing of the session.
+    pub fn compare_rules(&self, setup: &TuningSetup) -> Vec<RuledControllers> {
+        let outcome = |rule| {
+            let controllers = self.by_rule(rule, setup.design.pairing)?;
+            let judged = self.judge(controllers.map(ParallelPid::from), setup.design.pairing, setup)?;
+            Ok((controllers, judged))
+        };
+        PairRule::ALL.into_iter().map(|rule| RuledControllers { rule, outcome: outcome(rule) }).collect()
+    }
+
+    /// What the controllers at work do, as the others are judged: without a decoupler.
+    ///
+    /// # Errors
+    /// What is wrong with the plant.
+    pub fn judge_root(&self, root: &DesignRoot, setup: &TuningSetup) -> Result<JudgedControllers, TuningError> {
+        self.judge(root.controllers, root.pairing, setup)
+    }
+
+    /// The controllers that a rule makes of the plant in a pairing.
+    ///
+    /// # Errors
+    /// [`PairRuleError`] for a plant of which the rule makes nothing.
+    pub fn by_rule(&self, rule: PairRule, pairing: Pairing) -> Result<[GivenPid; 2], PairRuleError> {
+        Ok(rule.settings(&self.wired(pairing))?.map(GivenPid::from))
+    }
+
+    fn judge(
+        &self,
+        controllers: [ParallelPid; 2],
+        pairing: Pairing,
+        setup: &TuningSetup,
+    ) -> Result<JudgedControllers, TuningError> {
+        let (stability, response) = self.response_with(controllers, pairing, setup)?;
+        let peaks = LoopPeaks::of(&self.wired(pairing), controllers, stability)?;
+        Ok(JudgedControllers { stability, peaks, figures: response.figures, is_bounded: response.is_bounded })
     }
 }

@@ -18,7 +18,7 @@ mod start;
 mod steady_state;
 mod step_response;
 
-pub use compared::ComparedControllers;
+pub use compared::{ComparedControllers, JudgedControllers, RuledControllers};
 pub use critical_reading::CriticalReading;
 pub use design::{ControllerForms, CriticalResponse, DesignRoot, Designed};
 pub use design_spec::{CriticalSpec, DecouplerSpec, DesignSpec, GivenPid};

@@ -123,15 +123,16 @@ impl PlantStudy {
         controllers.map(compared).transpose()
     }
 
-    /// The response of a session without a decoupler and its stability, with other controllers on the diagonal.
+    /// The response of a session without a decoupler and its stability, with other controllers.
     pub(super) fn response_with(
         &self,
         controllers: [ParallelPid; 2],
+        pairing: Pairing,
         setup: &TuningSetup,
     ) -> Result<(LoopStability, StepResponse), TuningError> {
         let controllers = PidMatrix::decentralised(controllers);
-        let stability = Design::new(&self.plant, controllers)?.stability();
-        Ok((stability, self.response(controllers, Pairing::Diagonal, setup)?.of_loop(stability)))
+        let stability = Design::new(&self.wired(pairing), controllers)?.stability();
+        Ok((stability, self.response(controllers, pairing, setup)?.of_loop(stability)))
     }
 }
 
