@@ -17,8 +17,11 @@ test('published controllers are taken over and stand side by side', async ({ lab
   expect(await lab.value('given-ti2')).toBe(23.6);
   // Luyben (1986): stable, Ms 2.10, biggest log modulus 3.98 dB.
   await expect(page.locator('.placement')).toContainText('3.98 dB, Ms 2.10');
-  await lab.id('published-controllers').click();
+  await lab.id('side-by-side').click();
   await expect(page.locator('.placement .folded table').last()).toContainText('39.53');
+  // BLT beside the placement: the rule has the 4 dB that it asks for.
+  await expect(page.getByRole('row', { name: /4 dB \(Luyben 1986\) ✓/ })).toContainText('4.00');
+  await expect(page.getByRole('row', { name: 'At work now' })).toContainText('3.98');
   await lab.clean();
   await lab.axe();
   // A gain of one's own is none of them; a far one makes the loop unstable, and what follows says so.
@@ -33,7 +36,7 @@ test('published controllers are taken over and stand side by side', async ({ lab
 test('given controllers fit into a phone', async ({ lab, page }) => {
   await page.setViewportSize({ width: 390, height: 844 });
   await open(lab, 'lang=pt-BR');
-  await lab.id('published-controllers').click();
+  await lab.id('side-by-side').click();
   await lab.settle();
   expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(390);
 });

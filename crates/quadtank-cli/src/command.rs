@@ -21,6 +21,7 @@ use thiserror::Error;
 mod andreis;
 mod answers;
 mod check;
+mod elements;
 mod files;
 mod level_loop;
 mod level_plot;
@@ -38,6 +39,7 @@ mod tune;
 use andreis::TableNumber;
 use answers::{Answers, Drawing, Fault};
 use check::{CheckFault, CheckOptions};
+use elements::ElementsFault;
 use files::{bytes_of, file_name, is_standard_stream, print, print_json, write_file};
 use level_loop::SearchOptions;
 use published::{Case, case_of, list_of_cases, list_of_presets, preset_parser};
@@ -152,6 +154,15 @@ enum Command {
         #[arg(long, value_name = "NUMBER", conflicts_with = "name", value_parser = andreis::table_of)]
         table: Option<TableNumber>,
     },
+    /// Print a relay-tuning session (version 2) on the plant that lines of MATLAB or python-control define
+    ///
+    /// Understood are assignments, `s = tf('s')` and formulas in s, `tf(numerator, denominator)` with falling powers of s, matrices
+    /// `[g11, g12; g21, g22]`, and the options and properties InputDelay, OutputDelay and `IODelay`. The last plant with two inputs and
+    /// two outputs counts.
+    Elements {
+        /// Script, or - for standard input
+        file: PathBuf,
+    },
     /// List the quantities of each bench with units and descriptions, as Markdown
     Quantities {
         /// Version of the document: 1 for the quadruple tank, 2 for relay tuning, 3 for model-free control, 4 for a level loop
@@ -246,6 +257,8 @@ enum Failure {
     #[error("{0}")]
     Record(#[from] RecordFault),
     #[error("{0}")]
+    Elements(#[from] ElementsFault),
+    #[error("{0}")]
     Scorm(#[from] ScormFault),
     /// The faults of lessons, each of which is told by then.
     #[error("the lesson has faults")]
@@ -326,6 +339,7 @@ fn execute(command: Command) -> Result<(), Failure> {
         }
         Command::Presets { name: None } => print(&list_of_presets()),
         Command::Presets { name: Some(id) } => print_document(id.name(), to_json(&Scenario::from(setup_of(id)))),
+        Command::Elements { file } => elements::execute(&file),
         Command::Check(options) => check::run(&options),
         Command::Record(options) => record::execute(&options),
         Command::Scorm(options) => scorm::run(&options),

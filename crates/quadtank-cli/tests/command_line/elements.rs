@@ -132,3 +132,34 @@ fn a_comparison_is_in_the_report_and_in_the_table() {
     session["tuning"]["response"]["compare"] = json!("full");
     assert!(svg(&session).matches("<path").count() > without);
 }
+
+#[test]
+fn a_plant_is_taken_from_a_script() {
+    let script = "s = tf('s');\n\
+        G = [12.8*exp(-s)/(16.7*s + 1), -18.9*exp(-3*s)/(21*s + 1);\n  \
+             6.6*exp(-7*s)/(10.9*s + 1), -19.4*exp(-3*s)/(14.4*s + 1)];\n";
+    let session: Value = serde_json::from_str(&stdout(&pipe(&["elements", "-"], script.as_bytes()))).unwrap();
+    assert_eq!(session["tuning"]["plant"]["elements"], column(|time| [1.0, time]));
+    let analysis = report("analyse", &session);
+    assert_relative_eq!(analysis["rga_11"].as_f64().unwrap(), 2.0094, epsilon = 5.1e-5);
+    // The rules are those of the column.
+    let tuned = report("tune", &session);
+    let rules = tuned["rules"].as_array().unwrap();
+    let blt = rules.iter().find(|rule| rule["rule"] == "blt").unwrap();
+    assert_relative_eq!(blt["controllers"][0]["gain"].as_f64().unwrap(), 0.375, max_relative = 0.02);
+    assert_relative_eq!(blt["biggest_log_modulus_db"].as_f64().unwrap(), 4.0, max_relative = 1e-4);
+    assert!(rules.iter().all(|rule| rule["refused"].is_null()), "{rules:?}");
+}
+
+#[test]
+fn a_script_without_a_plant_is_one_line_with_the_place() {
+    let said = |script: &str| stderr(&pipe(&["elements", "-"], script.as_bytes()));
+    let expected =
+        "quadtank: standard input: line 2, column 9: `tau` is not known; the variable is s, functions are exp and tf\n";
+    assert_eq!(said("a = 1;\nG = 1/(1tau*s + 1)\n"), expected);
+    assert!(said("G = [1/s, 0; 0, 1/s]").contains("an integrating element"), "{}", said("G = [1/s, 0; 0, 1/s]"));
+    assert!(said("% nothing\n").contains("no plant with two inputs and two outputs is defined"));
+    assert_eq!(said(&" ".repeat(30_000)).lines().count(), 1);
+    let bytes = stderr(&pipe(&["elements", "-"], b"\xff\xfe\x00"));
+    assert_eq!(bytes, "quadtank: standard input: not UTF-8 text\n");
+}
