@@ -59,6 +59,14 @@ test('a record is read, run and fitted', async ({ lab, page }) => {
   expect(Math.abs((await lab.value('gamma1-number')) - 0.7)).toBeLessThan(0.014);
   expect(Math.abs((await lab.value('gamma2-number')) - 0.6)).toBeLessThan(0.012);
   for (const fit of (await fits()).slice(0, 2)) expect(fit).toBeGreaterThan(99);
+  // Tanks 3 and 4 were not recorded, which the fit says; of the levels next to nothing is left.
+  await expect(lab.id('fit-unrecorded')).toContainText('(3, 4)');
+  await lab.id('residuals').click();
+  await lab.id('residual-table').click();
+  const left = page.locator('details:has(> [data-testid=residual-table]) tbody td:nth-child(n+2)');
+  const residuals = (await left.allTextContents()).map((text) => Math.abs(Number.parseFloat(text.replace('−', '-'))));
+  expect(residuals.length).toBeGreaterThan(20);
+  expect(Math.max(...residuals)).toBeLessThan(0.1);
   await lab.clean();
   // One step takes the rig back, another one the experiment.
   await lab.id('undo').click();

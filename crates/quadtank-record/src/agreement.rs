@@ -36,6 +36,17 @@ pub fn agreement(record: &Record, run: &Trajectory) -> RecordAgreement {
     RecordAgreement { levels: [0, 1, 2, 3].map(level), pump_voltage: [0, 1].map(voltage) }
 }
 
+/// Measured minus simulated levels of tanks 1 and 2 (m) at the recorded times: not a number in holes and outside the run, empty for a
+/// level that was not recorded.
+pub fn residuals(record: &Record, run: &Trajectory) -> [Vec<f64>; 2] {
+    [0, 1].map(|tank| {
+        let at = |(&time, &recorded): (&f64, &f64)| {
+            recorded - interpolated(run, &run.levels[tank], time).unwrap_or(f64::NAN)
+        };
+        record.time_s.iter().zip(&record.levels[tank]).map(at).collect()
+    })
+}
+
 /// A column of a run at a time (s), between its rows; `None` where the run is not.
 pub(crate) fn interpolated(run: &Trajectory, column: &[f64], time: f64) -> Option<f64> {
     let after = row_after(run, time)?;
@@ -130,5 +141,10 @@ mod tests {
             100.0 * (1.0 - (3.0_f64 / (2.0 / 3.0)).sqrt()),
             max_relative = 1e-9
         );
+        let [first, second] = residuals(&record, &ramp());
+        for (found, expected) in first.iter().zip([0.01, 0.01, f64::NAN, -0.01, f64::NAN]) {
+            assert!((found - expected).abs() < 1e-12 || (found.is_nan() && expected.is_nan()), "{first:?}");
+        }
+        assert!(first.len() == 5 && second.is_empty());
     }
 }

@@ -12,7 +12,7 @@ mod replay;
 mod table;
 
 use agreement::interpolated;
-pub use agreement::{Agreement, RecordAgreement, agreement};
+pub use agreement::{Agreement, RecordAgreement, agreement, residuals};
 pub use error::RecordError;
 pub use fit::{Estimate, Fit, FitReport, Parameter};
 pub use mapping::{ColumnMeaning, Mapping, Signal, Unit};

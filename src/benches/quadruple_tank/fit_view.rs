@@ -6,6 +6,7 @@ use quadtank_record::{Estimate, Fit, FitReport, Parameter, RecordError};
 use quadtank_scenario::Scenario;
 
 use super::flags::locks;
+use super::record::OpenRecord;
 use super::record_view::why;
 use super::session::{Session, use_session};
 use crate::lab::Lab;
@@ -73,6 +74,9 @@ pub fn FitControls() -> impl IntoView {
         <details class="more fit" data-testid="fit-fold">
             <summary>{say!(lab, record.fit_title)}</summary>
             <p class="remark">{say!(lab, record.fit_about)}</p>
+            <p class="remark" hidden=move || unrecorded(session).is_empty() data-testid="fit-unrecorded">
+                {move || tr!(lab, record.begins_at_rest, tanks = unrecorded(session).join(", "))}
+            </p>
             <div class="parameters" role="group" aria-label=say!(lab, record.fit_title)>
                 {Parameter::ALL.map(|parameter| view! { <ParameterTick parameter chosen /> }).collect_view()}
             </div>
@@ -86,6 +90,15 @@ pub fn FitControls() -> impl IntoView {
             {move || is_over.get().then(|| shown.get_untracked()).flatten().map(|shown| found(session, &shown))}
         </details>
     }
+}
+
+/// Numbers of the tanks whose levels the record that is open has not.
+fn unrecorded(session: Session) -> Vec<String> {
+    session.own.record.with(|opened| {
+        let record = opened.as_ref().and_then(OpenRecord::record);
+        let columns = record.into_iter().flat_map(|record| record.levels.iter().enumerate());
+        columns.filter(|(_, column)| column.is_empty()).map(|(tank, _)| (tank + 1).to_string()).collect()
+    })
 }
 
 #[component]

@@ -10,8 +10,8 @@ use quadtank::linear::Complex;
 use quadtank::sim::{EventKind, Settling};
 use quadtank::study::quadruple_tank::{Run, ValveMap};
 use quadtank_figure::{
-    self, Chart, Flag, Levels, PoleZero, PoleZeroTexts, ResponseTexts, Responses, Role, RunColumns, ValvePlane,
-    ValvePlaneTexts,
+    self, Chart, Flag, Levels, PoleZero, PoleZeroTexts, Residuals, ResponseTexts, Responses, Role, RunColumns,
+    ValvePlane, ValvePlaneTexts,
 };
 use quadtank_record::Record;
 use quadtank_scenario::{roots_to_csv, run_to_csv, valve_map_to_csv};
@@ -145,6 +145,27 @@ fn flags(lab: Lab, run: &Run) -> Vec<Flag> {
         Flag { time_s: event.time_s, text, role: Role::RightHalfPlane }
     });
     settled.chain(events).collect()
+}
+
+/// What the simulation leaves of the levels of the record that is open.
+pub fn residuals(session: Session) -> Picture {
+    let lab = session.lab;
+    let build = move |visit: &mut dyn FnMut(&[Chart])| {
+        let (opened, run) = (session.own.record.get(), session.throttled.run.get());
+        let (Some(record), Ok(run)) = (opened.as_ref().and_then(OpenRecord::record), run.as_ref()) else { return };
+        let [level_1, level_2] = quadtank_record::residuals(record, &run.nonlinear);
+        let unit = session.own.unit.get();
+        let names = [1, 2].map(|k| tr!(lab, responses.level, number = k));
+        visit(&[quadtank_figure::residuals(&Residuals {
+            time_s: &record.time_s,
+            levels: [&level_1, &level_2],
+            level_scale: per_metre(unit),
+            time: &tr!(lab, chart.time),
+            residual: &tr!(lab, record.residual_axis, unit = unit_name(unit)),
+            names: [&names[0], &names[1]],
+        })]);
+    };
+    Picture::new(build, String::new)
 }
 
 /// Levels and pump voltages; the level axis shows at least `held`.

@@ -4,17 +4,19 @@ use std::sync::Arc;
 
 use leptos::html::Input;
 use leptos::prelude::*;
+use quadtank_figure::Frame;
 use quadtank_record::{Agreement, ColumnMeaning, MAX_BYTES, RecordError, Signal as Recorded, Unit, agreement, replay};
 
 use super::fit_view::FitControls;
 use super::flags::locks;
+use super::pictures::residuals;
 use super::record::OpenRecord;
 use super::session::{Session, use_session};
 use crate::lab::Lab;
 use crate::share::read_file;
 use crate::shown::{to_shown, unit_name};
 use crate::texts::{say, tr};
-use crate::widgets::{Cells, Choice, Figures, Select, TableContent};
+use crate::widgets::{Cells, ChartCanvas, Choice, DataTable, Figures, Select, TableContent, is_open};
 
 /// Bytes of a megabyte, as files are counted.
 const MEGABYTE: f64 = 1024.0 * 1024.0;
@@ -116,7 +118,7 @@ fn OpenFile() -> impl IntoView {
             {move || told().map(|(_, text)| text)}
         </p>
         <Columns />
-        {move || is_record.get().then(|| view! { <AgreementTable /><RunButton /><FitControls /> })}
+        {move || is_record.get().then(|| view! { <AgreementTable /><ResidualPlot /><RunButton /><FitControls /> })}
     }
 }
 
@@ -264,6 +266,30 @@ fn AgreementTable() -> impl IntoView {
             {move || view! { <TableContent caption=tr!(lab, record.figures) columns=heads() rows=rows() /> }}
         </Figures>
         <p class="remark">{say!(lab, record.fit_hint)}</p>
+    }
+}
+
+/// What the simulation leaves of the record, folded away.
+#[component]
+fn ResidualPlot() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let open = RwSignal::new(false);
+    let frames = RwSignal::new(Vec::<Frame>::new());
+    let picture = residuals(session);
+    let chart = move || {
+        let (picture, for_table) = (picture.clone(), picture.clone());
+        view! {
+            <div class="chart"><ChartCanvas picture frames summary=say!(lab, record.residuals) name="residual-chart" /></div>
+            <p class="remark">{say!(lab, record.residuals_hint)}</p>
+            <DataTable picture=for_table id="residual-table" />
+        }
+    };
+    view! {
+        <details class="more" on:toggle=move |event| open.set(is_open(&event))>
+            <summary data-testid="residuals">{say!(lab, record.residuals)}</summary>
+            {move || open.get().then(chart.clone())}
+        </details>
     }
 }
 
