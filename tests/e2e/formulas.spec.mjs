@@ -42,7 +42,7 @@ test('lines of MATLAB make a plant, which the rules tune', async ({ lab, page })
   await lab.id('take-script').click();
   await lab.settle();
   await expect(lab.id('script-taken')).toBeVisible();
-  await expect(lab.id('g22')).toHaveValue('1.5 exp(-2 s)/(12 s + 1)');
+  await expect(lab.id('g22')).toHaveValue('1,5 exp(-2 s)/(12 s + 1)');
   await lab.id('side-by-side').click();
   await lab.settle();
   await lab.id('take-simc').click();

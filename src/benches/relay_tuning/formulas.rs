@@ -60,8 +60,11 @@ struct Draft {
 fn FormulaField(row: usize, column: usize) -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
+    // Points stand in numbers only.
+    let written =
+        move |element: &Element| formula_of(element).replace('.', lab.number_style().decimal.encode_utf8(&mut [0; 4]));
     let formula =
-        session.part(move |s| s.plant.elements().map_or_else(|_| String::new(), |e| formula_of(&e[row][column])));
+        session.part(move |s| s.plant.elements().map_or_else(|_| String::new(), |e| written(&e[row][column])));
     let draft = RwSignal::new(None::<Draft>);
     let typed = move || draft.get().filter(|draft| draft.formula == formula.get());
     let refusal = Memo::new(move |_| typed().and_then(|draft| draft.refusal));
