@@ -24,6 +24,13 @@ test('published controllers are taken over and stand side by side', async ({ lab
   await expect(page.getByRole('row', { name: 'At work now' })).toContainText('3.98');
   await lab.clean();
   await lab.axe();
+  // The derivative filter is a number of its own where there is derivative action.
+  await expect(lab.id('given-tf1')).toBeHidden();
+  await lab.id('given-published').selectOption('wood-berry-boyd-hast-astrom');
+  await lab.settle();
+  expect(await lab.value('given-tf1')).toBe(0.3);
+  await lab.id('undo').click();
+  await lab.settle();
   // A gain of one's own is none of them; a far one makes the loop unstable, and what follows says so.
   await lab.type('given-gain1', '3');
   await expect(lab.id('given-published')).toHaveValue('');

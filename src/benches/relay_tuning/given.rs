@@ -43,6 +43,15 @@ const DERIVATIVE_TIME: ParamControl<TuningSetup> = ParamControl {
     path: |_, _| "design.controllers[].derivative_time",
     ..OF_LOOP
 };
+const FILTER_TIME: ParamControl<TuningSetup> = ParamControl {
+    ids: [("", "given-tf1"), ("", "given-tf2")],
+    label: |_, k| ["Tf₁", "Tf₂"][k].to_owned(),
+    name: |lab, k| tr!(lab, relay.given_filter_time, number = k + 1),
+    read: |s, k| given(s, k).filter_in_force(),
+    write: |s, k, time| change(s, k, |pid| pid.filter_time = Some(time)),
+    path: |_, _| "design.controllers[].filter_time",
+    ..OF_LOOP
+};
 const OF_LOOP: ParamControl<TuningSetup> = ParamControl {
     class: ["loop1", "loop2"],
     shown_unit: Some(|_| ShownUnit::called("")),
@@ -65,6 +74,12 @@ fn set_derivative_time(pid: &mut GivenPid, time: f64) {
     if time == 0.0 {
         pid.filter_time = None;
     }
+}
+
+/// Whether a controller has derivative action, and so something to filter.
+fn has_derivative(setup: &TuningSetup, index: usize) -> bool {
+    let GivenPid { gain, derivative_time, .. } = given(setup, index);
+    gain != 0.0 && derivative_time != 0.0
 }
 
 /// Whether the controllers of a session are given.
@@ -128,6 +143,8 @@ pub fn GivenControllers() -> impl IntoView {
             <ParamRow session control=&INTEGRAL_TIME index=1 />
             <ParamRow session control=&DERIVATIVE_TIME index=0 />
             <ParamRow session control=&DERIVATIVE_TIME index=1 />
+            <div hidden=session.throttled_part(|s| !has_derivative(s, 0))><ParamRow session control=&FILTER_TIME index=0 /></div>
+            <div hidden=session.throttled_part(|s| !has_derivative(s, 1))><ParamRow session control=&FILTER_TIME index=1 /></div>
         </div>
         <Switch
             session

@@ -56,6 +56,13 @@ pub struct GivenPid {
     pub filter_time: Option<f64>,
 }
 
+impl GivenPid {
+    /// Time constant of the derivative filter in force; 0 without derivative action.
+    pub fn filter_in_force(self) -> f64 {
+        ParallelPid::from(self).filter_time()
+    }
+}
+
 impl From<GivenPid> for IsaPid {
     fn from(GivenPid { gain, integral_time, derivative_time, .. }: GivenPid) -> Self {
         Self { gain, integral_time: integral_time.unwrap_or(f64::INFINITY), derivative_time }
