@@ -108,6 +108,24 @@ fn simulate_gives_trajectories_events_and_metrics_as_json() {
 }
 
 #[test]
+fn simulate_judges_every_step_of_a_published_sequence() {
+    let output = pipe(&["simulate", "-", "--format", "json"], preset(PresetId::Seville).as_bytes());
+    let run: Value = serde_json::from_str(&stdout(&output)).unwrap();
+    for (steps, metrics) in [("steps", "metrics"), ("linear_steps", "linear_metrics")] {
+        let steps = run[steps].as_array().unwrap();
+        let places: Vec<_> = steps.iter().map(|step| (&step["level"], &step["time_s"], &step["window_s"])).collect();
+        let expected =
+            [(0, 3000.0), (1, 3000.0), (0, 6000.0), (1, 6000.0), (0, 9000.0)].map(|(l, t)| (json!(l), json!(t)));
+        assert_eq!(places, expected.each_ref().map(|(level, time_s)| (level, time_s, &steps[0]["window_s"])));
+        assert_eq!(steps[0]["window_s"], json!(3000.0));
+        for (level, figure) in [(0, "overshoot"), (1, "overshoot"), (0, "settling_2_percent"), (1, "window_iae")] {
+            assert_eq!(steps[level][figure], run[metrics][level][figure], "{figure}");
+        }
+        assert_relative_eq!(steps[4]["to"].as_f64().unwrap(), 0.9, max_relative = 1e-12);
+    }
+}
+
+#[test]
 fn plot_draws_every_chart_in_both_themes() {
     let folder = folder("plot");
     let scenario = folder.join("scenario.json");
