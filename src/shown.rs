@@ -39,6 +39,14 @@ pub const fn length_digits(unit: DisplayUnit) -> usize {
     }
 }
 
+/// Decimals that a length in a field has beyond those in centimetres, so that it tells millimetres apart.
+pub const fn finer_digits(unit: DisplayUnit) -> usize {
+    match unit {
+        DisplayUnit::Cm | DisplayUnit::Mm => 0,
+        DisplayUnit::M => 2,
+    }
+}
+
 /// The unit of a field that is not that of the document.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShownUnit {
