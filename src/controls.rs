@@ -38,6 +38,8 @@ pub struct ParamControl<S> {
     pub scale: Option<Scale>,
     /// Decimals shown; `None` for three significant digits.
     pub digits: Option<usize>,
+    /// How many decimals more the unit of a setup asks for, with steps as much smaller; `None` where it never does.
+    pub finer: Option<fn(&S) -> usize>,
     /// The shown unit; `None` for that of the row.
     pub shown_unit: Option<fn(&S) -> ShownUnit>,
     /// Classes: the colours of the loops.
@@ -65,6 +67,7 @@ impl<S> ParamControl<S> {
             travel: None,
             scale: None,
             digits: None,
+            finer: None,
             shown_unit: None,
             class: [""; 2],
             grid: |_| 0.0,
@@ -126,10 +129,10 @@ pub fn ParamRow<B: Bench>(
     #[prop(optional)]
     index: usize,
 ) -> impl IntoView {
-    let &ParamControl { ids, digits, smallest, class, .. } = control;
+    let &ParamControl { ids, smallest, class, .. } = control;
     let (id, class, lab) = (ids[index], class[index], session.lab);
     let label = Signal::derive(move || (control.label)(lab, index));
-    let Wires { name, value, on_change, limits, scale, disabled } = wires(session, control, index);
+    let Wires { name, value, on_change, limits, scale, digits, disabled } = wires(session, control, index);
     let unit = unit_text(session, control, index);
     let Some(travel) = control.travel else {
         return view! {
@@ -157,8 +160,8 @@ pub fn ParamNumber<B: Bench>(
     #[prop(optional)]
     index: usize,
 ) -> impl IntoView {
-    let &ParamControl { ids, digits, smallest, .. } = control;
-    let Wires { name, value, on_change, limits, scale, disabled } = wires(session, control, index);
+    let &ParamControl { ids, smallest, .. } = control;
+    let Wires { name, value, on_change, limits, scale, digits, disabled } = wires(session, control, index);
     let grid = Signal::derive(move || session.read(control.grid));
     view! { <NumberField id=ids[index].1 name value on_change limits scale digits smallest grid disabled /> }
 }
@@ -195,19 +198,26 @@ struct Wires {
     value: Signal<f64>,
     on_change: Callback<f64>,
     limits: Signal<(f64, f64)>,
-    scale: Scale,
+    scale: Signal<Scale>,
+    digits: Signal<Option<usize>>,
     disabled: Signal<bool>,
 }
 
 fn wires<B: Bench>(session: Session<B>, control: &'static ParamControl<SetupOf<B>>, index: usize) -> Wires {
     let (lab, locked) = (session.lab, session.lab.locks(control.lock));
-    // No memos: fields read all but the last when texts are updated or a key is pressed, and do not follow it.
+    let scale = session.document.with_untracked(|document| control.scale(document.setup(), index));
+    let finer = control.finer.map(|finer| Memo::new(move |_| session.read(finer)));
+    // No memos: fields read the next four when texts are updated or a key is pressed, and do not follow them.
     Wires {
         name: Signal::derive(move || (control.name)(lab, index)),
         value: Signal::derive(move || session.read(|s| control.shown(s, index))),
         on_change: Callback::new(move |shown| session.edit(|s| control.set_shown(s, index, shown))),
         limits: Signal::derive(move || session.read(|s| control.shown_limits(s, index))),
-        scale: session.document.with_untracked(|document| control.scale(document.setup(), index)),
+        scale: finer.map_or_else(|| Signal::stored(scale), |finer| Signal::derive(move || scale.finer(finer.get()))),
+        digits: finer.map_or_else(
+            || Signal::stored(control.digits),
+            |finer| Signal::derive(move || control.digits.map(|digits| digits + finer.get())),
+        ),
         disabled: match control.matters {
             Some(matters) => Memo::new(move |_| locked || !session.read(matters)).into(),
             None => locked.into(),

@@ -7,6 +7,7 @@ pub const fn per_metre(unit: DisplayUnit) -> f64 {
     match unit {
         DisplayUnit::Cm => 100.0,
         DisplayUnit::Mm => 1000.0,
+        DisplayUnit::M => 1.0,
     }
 }
 
@@ -25,6 +26,7 @@ pub const fn unit_name(unit: DisplayUnit) -> &'static str {
     match unit {
         DisplayUnit::Cm => "cm",
         DisplayUnit::Mm => "mm",
+        DisplayUnit::M => "m",
     }
 }
 
@@ -33,6 +35,15 @@ pub const fn length_digits(unit: DisplayUnit) -> usize {
     match unit {
         DisplayUnit::Cm => 2,
         DisplayUnit::Mm => 1,
+        DisplayUnit::M => 4,
+    }
+}
+
+/// Decimals that a length in a field has beyond those in centimetres, so that it tells millimetres apart.
+pub const fn finer_digits(unit: DisplayUnit) -> usize {
+    match unit {
+        DisplayUnit::Cm | DisplayUnit::Mm => 0,
+        DisplayUnit::M => 2,
     }
 }
 

@@ -20,6 +20,15 @@ pub enum Scale {
 const POSITIONS: f64 = 600.0;
 
 impl Scale {
+    /// The same with steps that are smaller by this many powers of ten.
+    #[must_use]
+    pub fn finer(self, powers: usize) -> Self {
+        match self {
+            Self::Linear(step) => Self::Linear((0..powers).fold(step, |step, _| step / 10.0)),
+            Self::Logarithmic => self,
+        }
+    }
+
     fn position(self, value: f64, min: f64, max: f64) -> f64 {
         match self {
             Self::Linear(_) => value,
@@ -84,9 +93,11 @@ pub fn NumberField(
     #[prop(into)]
     limits: Signal<(f64, f64)>,
     /// Travel of the arrow keys.
-    scale: Scale,
+    #[prop(into)]
+    scale: Signal<Scale>,
     /// Decimals shown; `None` for three significant digits.
-    digits: Option<usize>,
+    #[prop(into)]
+    digits: Signal<Option<usize>>,
     /// Smallest allowed magnitude besides zero, where the sign is free.
     #[prop(default = 0.0)]
     smallest: f64,
@@ -107,7 +118,7 @@ pub fn NumberField(
     let refusal = Signal::derive(move || typed.with(|typed| typed.as_ref().and_then(|draft| draft.refused)));
     let refused = Signal::derive(move || refusal.get().is_some());
     let style = move || lab.number_style();
-    let show = move |v: f64| match digits {
+    let show = move |v: f64| match digits.get() {
         Some(digits) => style().fixed(v, digits),
         None => style().significant(v, 3),
     };
@@ -141,6 +152,7 @@ pub fn NumberField(
         event.prevent_default();
         let (min, max) = limits.get_untracked();
         draft.set(None);
+        let scale = scale.get_untracked();
         let floor = if scale == Scale::Logarithmic { min.max(max * 1e-5) } else { min };
         let step = grid.get_untracked();
         let scale = if step > 0.0 { Scale::Linear(step) } else { scale };
@@ -220,9 +232,11 @@ pub fn SliderField(
     #[prop(default = 0.0)]
     smallest: f64,
     /// Travel to value.
-    scale: Scale,
+    #[prop(into)]
+    scale: Signal<Scale>,
     /// Decimals shown; `None` for three significant digits.
-    digits: Option<usize>,
+    #[prop(into)]
+    digits: Signal<Option<usize>>,
     /// Unit behind the number.
     #[prop(into)]
     unit: Signal<String>,
@@ -238,13 +252,13 @@ pub fn SliderField(
     let (shown, shown_travel) = (lab.throttled_or(moved, value), lab.throttled(travel));
     let position = move || {
         let (min, max) = shown_travel.get();
-        scale.position(shown.get(), min, max)
+        scale.get().position(shown.get(), min, max)
     };
     let take = move |text: String| {
         let (min, max) = travel.get_untracked();
         if let Some(at) = NumberStyle::parse(&text) {
             let (lowest, highest) = limits.unwrap_or(travel).get_untracked();
-            on_change.run(scale.value(at, min, max, value.get_untracked()).clamp(lowest, highest));
+            on_change.run(scale.get_untracked().value(at, min, max, value.get_untracked()).clamp(lowest, highest));
             moved.notify();
         }
     };
@@ -270,13 +284,13 @@ pub fn SliderField(
             event_target::<HtmlInputElement>(&event).set_value(&untrack(position).to_string());
         }
     };
-    let range = move || match scale {
+    let range = move || match scale.get() {
         Scale::Linear(step) => (shown_travel.get().0, shown_travel.get().1, step),
         Scale::Logarithmic => (0.0, POSITIONS, 1.0),
     };
     let spoken = move || {
         let style = lab.number_style();
-        let number = digits.map_or_else(|| style.significant(shown.get(), 3), |d| style.fixed(shown.get(), d));
+        let number = digits.get().map_or_else(|| style.significant(shown.get(), 3), |d| style.fixed(shown.get(), d));
         format!("{number} {}", unit.get())
     };
     view! {

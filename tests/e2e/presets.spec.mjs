@@ -109,6 +109,60 @@ for (const [name, lambda] of [['junqueira-case-a', 1.8], ['junqueira-case-b', -0
   });
 }
 
+// Levels as the sources print them (DTU: masses over density and area). They print nothing else, and nothing else stands there as
+// printed. λ11 = γ1γ2/(γ1 + γ2 − 1).
+const OTHERS = {
+  'seville-hd-mpc': { unit: 'm', levels: ['0.65', '0.66', '0.65', '0.66'], lambda: -0.4 },
+  'quanser-mpctools': { unit: 'cm', levels: ['15.0751', '15.0036', '6.2151', '6.1003'], lambda: -0.46 },
+  'mpctools-nonlinear': {
+    unit: 'cm', levels: ['8.24441415257276', '19.01629576919927', '4.31462580236556', '8.80652939083585'], lambda: -0.22,
+  },
+  'dtu-modified-four-tank': { unit: 'cm', levels: ['46.331222', '77.974532', '12.217364', '24.671629'], lambda: 1.4 },
+};
+
+test('rigs of other researchers show what is printed and whose the controller is', async ({ lab, page }) => {
+  await lab.open('lang=en');
+  await page.locator('[data-testid=operating-point-fold] > summary').click();
+  const printed = (key) => lab.id('published').locator(`[data-printed^="${key}"]`).textContent();
+  for (const [name, rig] of Object.entries(OTHERS)) {
+    await lab.preset(name);
+    await lab.settle();
+    for (const k of [0, 1, 2, 3]) {
+      expect(await printed(`h${subscript[k]} (${rig.unit})`), name).toBe(rig.levels[k]);
+      expect(await printed(`T${subscript[k]}`), name).toBe('–');
+    }
+    expect(await printed('z₁'), name).toBe('–');
+    expect(await printed('λ'), name).toBe('–');
+    expect(await lab.number('lambda-11'), name).toBeCloseTo(rig.lambda, 2);
+    expect(await lab.text('preset-remark'), name).toContain("the laboratory's");
+    expect(await lab.text('stability'), name).toMatch(/Closed loop stable/);
+  }
+  await lab.clean();
+});
+
+test('the published sequence of Seville has figures for each of its steps', async ({ lab, page }) => {
+  await lab.open('lang=en&preset=seville-hd-mpc');
+  await page.locator('[data-testid=metrics-fold] > summary').click();
+  await lab.id('each-step').click();
+  const rows = page.locator('details:has(> [data-testid=each-step]) tbody tr');
+  await expect(rows).toHaveCount(5);
+  const told = await rows.evaluateAll((all) => all.map((row) => [...row.children].slice(0, 3).map((cell) => cell.textContent)));
+  expect(told).toEqual([
+    ['level 1', '3000', '0.6538 → 0.3000'],
+    ['level 2', '3000', '0.6498 → 0.3000'],
+    ['level 1', '6000', '0.3000 → 0.5000'],
+    ['level 2', '6000', '0.3000 → 0.7500'],
+    ['level 1', '9000', '0.5000 → 0.9000'],
+  ]);
+  // The first step of each loop is the one of the table above; every window is 3000 s.
+  for (const k of [0, 1]) {
+    const first = await lab.id('metrics').locator('tbody tr').nth(k).locator('td').allTextContents();
+    expect((await rows.nth(k).locator('td').allTextContents()).slice(2)).toEqual(first);
+    expect(first.at(-1)).toBe('3000');
+  }
+  await lab.clean();
+});
+
 /** A row of the metrics: [rise, settling 2 %, 5 %, overshoot, undershoot, other, …]. */
 const metrics = async (lab, row) =>
   (await lab.id('metrics').locator('tbody tr').nth(row).locator('td').allTextContents()).map(numberIn);

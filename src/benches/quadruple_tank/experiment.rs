@@ -8,7 +8,7 @@ use super::session::{Session, use_session};
 use super::start::{PumpControls, StartControls};
 use super::steps::AllSteps;
 use crate::controls::{ParamControl, ParamNumber, ParamRow};
-use crate::shown::{ShownUnit, to_shown};
+use crate::shown::{ShownUnit, finer_digits, to_shown};
 use crate::texts::{say, terms, tr};
 use crate::widgets::{Card, Choice, Scale, Select, Text, Tick};
 use quadtank::sim::{Experiment, Load, LoadStep, SetPointStep};
@@ -42,6 +42,7 @@ const REFERENCE: ParamControl<Setup> = ParamControl {
         (-reach, reach)
     }),
     shown_unit: Some(|s| ShownUnit::length(s.plant.display_unit())),
+    finer: Some(|s| finer_digits(s.plant.display_unit())),
     class: ["loop1-row", "loop2-row"],
     ..OF_EXPERIMENT
 };
@@ -94,6 +95,7 @@ const NOISE: ParamControl<Setup> = ParamControl {
     write: |s, _, noise| s.experiment.measurement.noise_std = noise,
     travel: Some(|s| (0.0, to_shown(NOISE_TRAVEL, s.plant.display_unit()))),
     shown_unit: Some(|s| ShownUnit::length(s.plant.display_unit())),
+    finer: Some(|s| finer_digits(s.plant.display_unit())),
     ..OF_EXPERIMENT
 };
 const DURATION: ParamControl<Setup> = ParamControl {

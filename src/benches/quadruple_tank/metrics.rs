@@ -1,16 +1,18 @@
-//! How the runs did: figures of the first step within its window, and apart from them the costs of the whole run.
+//! How the runs did: figures of the first step and of each step within its window, and apart from them the costs of the whole run.
 
 use leptos::prelude::*;
 
 use super::session::{Session, use_session};
 use crate::shown::{length_digits, per_metre, to_shown, unit_name};
 use crate::texts::{say, tr};
-use crate::widgets::{Figure, Figures, ReasonedRow, Row, TableContent};
-use quadtank::sim::{LoopMetrics, NoResponse, Settling};
+use crate::widgets::{Figure, Figures, Folded, ReasonedRow, Row, TableContent};
+use quadtank::sim::{LoopMetrics, NoResponse, Settling, StepAnswer, StepFigures};
 use quadtank::study::quadruple_tank::Run;
 
 /// Integrals below this, in the shown unit, are what rounding leaves of a run at rest.
 const ROUNDING: f64 = 1e-7;
+/// Decimals of the time of a step that is between two seconds.
+const TIME_DECIMALS: usize = 2;
 
 /// Figures of the step, costs, and what to know of both.
 #[component]
@@ -21,6 +23,12 @@ pub fn MetricsTable() -> impl IntoView {
     view! {
         <h3>{of_step}</h3>
         <Figures name="metrics" caption=of_step>{move || step_table(session)}</Figures>
+        <Folded
+            id="each-step"
+            summary=say!(lab, responses.each_step)
+            caption=say!(lab, responses.each_step)
+            content=move || each_step_table(session)
+        />
         <h3>{of_run}</h3>
         <Figures name="costs" caption=of_run>{move || cost_table(session)}</Figures>
         <p class="remark" data-testid="metrics-note">{move || note(session)}</p>
@@ -29,9 +37,46 @@ pub fn MetricsTable() -> impl IntoView {
 
 fn step_table(session: Session) -> impl IntoView {
     let lab = session.lab;
+    let columns = [tr!(lab, responses.run)].into_iter().chain(columns_of_step(session)).collect();
+    let row = |name: String, k: usize, metrics: &LoopMetrics| {
+        let figures = figures_of_step(session, k, &metrics.first_step());
+        view! { <ReasonedRow class=["loop1", "loop2"][k] name figures /> }.into_any()
+    };
+    view! { <TableContent caption=tr!(lab, responses.step_figures) columns rows=rows(session, row) /> }
+}
+
+/// A row for each step of the references in the present run.
+fn each_step_table(session: Session) -> impl IntoView {
+    let lab = session.lab;
     let unit = unit_name(session.own.unit.get());
-    let columns = vec![
-        tr!(lab, responses.run),
+    let of_step =
+        [tr!(lab, responses.run), tr!(lab, responses.step_time), tr!(lab, responses.step_change, unit = unit)];
+    let columns = of_step.into_iter().chain(columns_of_step(session)).collect();
+    let steps = session
+        .throttled
+        .run
+        .with(|outcome| outcome.as_ref().as_ref().map_or_else(|_| Vec::new(), |run| run.steps.clone()));
+    let rows = steps.iter().map(|step| step_row(session, step)).collect();
+    view! { <TableContent caption=tr!(lab, responses.each_step) columns rows /> }
+}
+
+fn step_row(session: Session, step: &StepAnswer) -> AnyView {
+    let lab = session.lab;
+    let style = lab.number_style();
+    let unit = session.own.unit.get();
+    let level = |metres: f64| style.fixed(to_shown(metres, unit), length_digits(unit));
+    let time = style.fixed(step.time_s, if step.time_s.fract() == 0.0 { 0 } else { TIME_DECIMALS });
+    let change = format!("{} → {}", level(step.from), level(step.to));
+    let mut figures = vec![Figure::Shown(time), Figure::Shown(change)];
+    figures.extend(figures_of_step(session, step.level, &step.figures));
+    let name = tr!(lab, responses.row, number = step.level + 1);
+    view! { <ReasonedRow class=["loop1", "loop2"][step.level] name figures /> }.into_any()
+}
+
+fn columns_of_step(session: Session) -> [String; 8] {
+    let lab = session.lab;
+    let unit = unit_name(session.own.unit.get());
+    [
         tr!(lab, responses.rise),
         tr!(lab, responses.settling_2),
         tr!(lab, responses.settling_5),
@@ -40,12 +85,7 @@ fn step_table(session: Session) -> impl IntoView {
         tr!(lab, responses.other, unit = unit),
         tr!(lab, responses.iae, unit = unit),
         tr!(lab, responses.window),
-    ];
-    let row = |name: String, k: usize, metrics: &LoopMetrics| {
-        let figures = figures_of_step(session, k, metrics);
-        view! { <ReasonedRow class=["loop1", "loop2"][k] name figures /> }.into_any()
-    };
-    view! { <TableContent caption=tr!(lab, responses.step_figures) columns rows=rows(session, row) /> }
+    ]
 }
 
 fn cost_table(session: Session) -> impl IntoView {
@@ -87,7 +127,7 @@ fn rows(session: Session, row: impl Fn(String, usize, &LoopMetrics) -> AnyView) 
     rows
 }
 
-fn figures_of_step(session: Session, index: usize, m: &LoopMetrics) -> Vec<Figure> {
+fn figures_of_step(session: Session, index: usize, m: &StepFigures) -> Vec<Figure> {
     let lab = session.lab;
     let style = lab.number_style();
     let unit = session.own.unit.get();

@@ -20,6 +20,10 @@ pub fn name_of(lab: Lab, id: PresetId) -> String {
         PresetId::CocotaNonMinimumPhase => tr!(lab, preset.cocota_plus),
         PresetId::JunqueiraA => tr!(lab, preset.junqueira_a),
         PresetId::JunqueiraB => tr!(lab, preset.junqueira_b),
+        PresetId::Seville => tr!(lab, preset.seville),
+        PresetId::Quanser => tr!(lab, preset.quanser),
+        PresetId::MpcTools => tr!(lab, preset.mpctools),
+        PresetId::Dtu => tr!(lab, preset.dtu),
     }
 }
 
@@ -35,6 +39,10 @@ pub fn remark_of(lab: Lab, id: Option<PresetId>) -> String {
         Some(PresetId::CocotaMinimumPhase) => tr!(lab, preset.remark_cocota_minus),
         Some(PresetId::CocotaNonMinimumPhase) => tr!(lab, preset.remark_cocota_plus),
         Some(PresetId::JunqueiraA | PresetId::JunqueiraB) => tr!(lab, preset.remark_junqueira),
+        Some(PresetId::Seville) => tr!(lab, preset.remark_seville),
+        Some(PresetId::Quanser) => tr!(lab, preset.remark_quanser),
+        Some(PresetId::MpcTools) => tr!(lab, preset.remark_mpctools),
+        Some(PresetId::Dtu) => tr!(lab, preset.remark_dtu),
         None => tr!(lab, preset.remark_own),
     }
 }

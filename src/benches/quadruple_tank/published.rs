@@ -59,29 +59,33 @@ fn rows(session: Session, preset: Option<&Preset>) -> Vec<Row> {
     let style = lab.number_style();
     let unit = session.own.unit.get();
     let printed = preset.and_then(|p| p.printed);
-    let length = |m: f64| style.fixed(to_shown(m, unit), length_digits(unit));
+    // As many decimals as are printed, and of the exact figure no fewer than elsewhere on the page.
+    let decimals = printed.map_or(0, |p| p.level_decimals);
+    let length = |m: f64, decimals: usize| style.fixed(to_shown(m, unit), decimals);
     session
         .throttled
         .with_analysis(|a| {
             let mut rows: Vec<Row> = Vec::new();
             for tank in 0..4 {
                 let name = format!("h{} ({})", ["₁", "₂", "₃", "₄"][tank], unit_name(unit));
-                rows.push((name, length(a.operating_point.levels[tank]), printed.map(|p| length(p.levels[tank]))));
+                let exact = length(a.operating_point.levels[tank], decimals.max(length_digits(unit)));
+                rows.push((name, exact, printed.map(|p| length(p.levels[tank], decimals))));
             }
             for tank in 0..4 {
                 let name = format!("T{} (s)", ["₁", "₂", "₃", "₄"][tank]);
                 let exact = a.time_constants_s[tank].map_or_else(|| "0".to_owned(), |t| style.fixed(t, 2));
-                rows.push((name, exact, printed.map(|p| style.fixed(p.time_constants_s[tank], 0))));
+                let source = printed.and_then(|p| p.time_constants_s).map(|times| style.fixed(times[tank], 0));
+                rows.push((name, exact, source));
             }
             if let Ok(zeros) = &a.linear.zeros {
                 for (k, zero) in zeros.iter().enumerate() {
                     let text = style.significant(zero.value.re, 4);
-                    let source = printed.and_then(|p| p.zeros.get(k).map(|&z| style.significant(z, 2)));
+                    let source = printed.and_then(|p| p.zeros?.get(k).map(|&z| style.significant(z, 2)));
                     rows.push((format!("z{} (1/s)", ["₁", "₂"].get(k).unwrap_or(&"")), text, source));
                 }
             }
             let rga = a.linear.rga_11.as_ref().map_or_else(|_| "∞".to_owned(), |l| style.fixed(*l, 4));
-            rows.push(("λ₁₁".to_owned(), rga, printed.map(|p| style.significant(p.rga_11, 3))));
+            rows.push(("λ₁₁".to_owned(), rga, printed.and_then(|p| p.rga_11).map(|l| style.significant(l, 3))));
             rows
         })
         .unwrap_or_default()

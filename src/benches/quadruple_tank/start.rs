@@ -8,7 +8,7 @@ use super::flags::locks;
 use super::session::use_session;
 use crate::controls::{ParamControl, ParamNumber};
 use crate::lab::Lab;
-use crate::shown::{ShownUnit, unit_name};
+use crate::shown::{ShownUnit, finer_digits, unit_name};
 use crate::texts::{say, tr};
 use crate::widgets::{Choice, Select};
 
@@ -31,6 +31,7 @@ const UPPER: ParamControl<Setup> = ParamControl {
 const LEVEL: ParamControl<Setup> = ParamControl {
     path: |_, _| "experiment.initial_levels[]",
     shown_unit: Some(|s| ShownUnit::length(s.plant.display_unit())),
+    finer: Some(|s| finer_digits(s.plant.display_unit())),
     digits: Some(2),
     ..ParamControl::locked_by(locks::EXPERIMENT)
 };

@@ -7,7 +7,7 @@ use quadtank_scenario::{Limits, limits};
 use super::experiment::FIRST_STEP_AT_S;
 use super::flags::locks;
 use super::session::{Session, use_session};
-use crate::shown::{per_metre, unit_name};
+use crate::shown::{finer_digits, per_metre, unit_name};
 use crate::texts::{say, tr};
 use crate::widgets::{Choice, NumberField, Scale, Select};
 
@@ -81,6 +81,7 @@ fn StepRow(index: usize) -> impl IntoView {
         });
     };
     let scale = move || per_metre(session.own.unit.get());
+    let finer = move || finer_digits(session.own.unit.get());
     let size_limits = move || {
         let Limits { min, max } = limits::SET_POINT_STEP;
         (min * scale(), max * scale())
@@ -115,8 +116,8 @@ fn StepRow(index: usize) -> impl IntoView {
                 value=Signal::derive(move || step(session).size * scale())
                 on_change=move |size: f64| change(&|step| step.size = size / untrack(scale))
                 limits=Signal::derive(size_limits)
-                scale=Scale::Linear(0.1)
-                digits=Some(2)
+                scale=Signal::derive(move || Scale::Linear(0.1).finer(finer()))
+                digits=Signal::derive(move || Some(2 + finer()))
                 disabled
             />
             <span class="unit">{move || unit_name(session.own.unit.get())}</span>

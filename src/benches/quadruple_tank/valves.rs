@@ -143,6 +143,10 @@ fn PublishedPoint(id: PresetId, frames: RwSignal<Vec<Frame>>) -> impl IntoView {
         PresetId::JohanssonNonMinimumPhase | PresetId::CocotaNonMinimumPhase => "P+",
         PresetId::JunqueiraA => "a",
         PresetId::JunqueiraB => "b",
+        PresetId::Seville => "HD-MPC",
+        PresetId::Quanser => "Quanser",
+        PresetId::MpcTools => "MPCtools",
+        PresetId::Dtu => "DTU",
     };
     let label = Signal::derive(move || {
         let style = lab.number_style();

@@ -50,6 +50,7 @@ fn responses(setup: &Setup, style: &Style) -> Result<String, StudyError> {
     let (level, level_scale) = match setup.plant.display_unit() {
         DisplayUnit::Cm => ("level (cm)", 100.0),
         DisplayUnit::Mm => ("level (mm)", 1000.0),
+        DisplayUnit::M => ("level (m)", 1.0),
     };
     let [pump_1, pump_2] = plant.pumps;
     let charts = quadtank_figure::responses(&Responses {
@@ -114,6 +115,10 @@ fn label(id: PresetId) -> &'static str {
         PresetId::JohanssonNonMinimumPhase | PresetId::CocotaNonMinimumPhase => "P+",
         PresetId::JunqueiraA => "case a",
         PresetId::JunqueiraB => "case b",
+        PresetId::Seville => "HD-MPC",
+        PresetId::Quanser => "Quanser",
+        PresetId::MpcTools => "MPCtools",
+        PresetId::Dtu => "DTU",
     }
 }
 

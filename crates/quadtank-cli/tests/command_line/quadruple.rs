@@ -30,9 +30,11 @@ fn presets_prints_the_scenario_of_a_rig() {
 #[test]
 fn analyse_prints_the_numbers_of_the_oracle() {
     let oracle: Value = serde_json::from_str(include_str!("../../../quadtank/tests/data/quadruple-tank.json")).unwrap();
-    for id in PresetId::ALL {
+    let case = |id: PresetId| oracle["cases"].as_array().unwrap().iter().find(|case| case["name"] == id.name());
+    let known: Vec<_> = PresetId::ALL.into_iter().filter_map(|id| Some((id, case(id)?))).collect();
+    assert_eq!(known.len(), 6);
+    for (id, expected) in known {
         let report: Value = serde_json::from_str(&stdout(&pipe(&["analyse", "-"], preset(id).as_bytes()))).unwrap();
-        let expected = oracle["cases"].as_array().unwrap().iter().find(|case| case["name"] == id.name()).unwrap();
         // The parameters of Junqueira et al. have seven digits in the oracle.
         let tolerance = if id.name().starts_with("junqueira") { 3e-7 } else { 1e-9 };
         let close = |found: &Value, expected: &Value| {
@@ -105,6 +107,24 @@ fn simulate_gives_trajectories_events_and_metrics_as_json() {
     assert_eq!(run["nonlinear"]["events"], json!([]));
     assert_eq!(run["metrics"][0]["step_time_s"], json!(100.0));
     assert!(run["metrics"][0]["settling_2_percent"]["after"]["time_s"].as_f64().unwrap() > 0.0);
+}
+
+#[test]
+fn simulate_judges_every_step_of_a_published_sequence() {
+    let output = pipe(&["simulate", "-", "--format", "json"], preset(PresetId::Seville).as_bytes());
+    let run: Value = serde_json::from_str(&stdout(&output)).unwrap();
+    for (steps, metrics) in [("steps", "metrics"), ("linear_steps", "linear_metrics")] {
+        let steps = run[steps].as_array().unwrap();
+        let places: Vec<_> = steps.iter().map(|step| (&step["level"], &step["time_s"], &step["window_s"])).collect();
+        let expected =
+            [(0, 3000.0), (1, 3000.0), (0, 6000.0), (1, 6000.0), (0, 9000.0)].map(|(l, t)| (json!(l), json!(t)));
+        assert_eq!(places, expected.each_ref().map(|(level, time_s)| (level, time_s, &steps[0]["window_s"])));
+        assert_eq!(steps[0]["window_s"], json!(3000.0));
+        for (level, figure) in [(0, "overshoot"), (1, "overshoot"), (0, "settling_2_percent"), (1, "window_iae")] {
+            assert_eq!(steps[level][figure], run[metrics][level][figure], "{figure}");
+        }
+        assert_relative_eq!(steps[4]["to"].as_f64().unwrap(), 0.9, max_relative = 1e-12);
+    }
 }
 
 #[test]

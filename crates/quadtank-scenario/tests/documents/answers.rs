@@ -18,9 +18,10 @@ use serde_json::Value;
 /// Bar of the project for zeros, poles, gains and relative gains (relative).
 const ORACLE: f64 = 1e-9;
 
-fn oracle(id: PresetId) -> Value {
+/// What the oracle has of a rig; the rigs of other researchers are held against closed forms, in the published figures of the core.
+fn oracle(id: PresetId) -> Option<Value> {
     let file: Value = serde_json::from_str(include_str!("../../../quadtank/tests/data/quadruple-tank.json")).unwrap();
-    file["cases"].as_array().unwrap().iter().find(|case| case["name"] == id.name()).unwrap().clone()
+    file["cases"].as_array().unwrap().iter().find(|case| case["name"] == id.name()).cloned()
 }
 
 fn numbers(value: &Value) -> Vec<f64> {
@@ -40,9 +41,10 @@ fn assert_all_close(found: &[f64], expected: &Value, tolerance: f64) {
 
 #[test]
 fn the_presets_are_analysed_as_the_oracle_does() {
-    for id in PresetId::ALL {
+    let known: Vec<_> = PresetId::ALL.into_iter().filter_map(|id| Some((id, oracle(id)?))).collect();
+    assert_eq!(known.len(), 6);
+    for (id, expected) in known {
         let analysis = analyse(&setup_of(id)).unwrap();
-        let expected = oracle(id);
         // The parameters of Junqueira et al. are seven digits in the oracle and exact circles in the preset.
         let tolerance = if matches!(id, PresetId::JunqueiraA | PresetId::JunqueiraB) { 3e-7 } else { ORACLE };
         assert_all_close(&analysis.operating_point.levels, &expected["levels"], tolerance);
@@ -98,6 +100,10 @@ fn the_pairing_follows_the_line_between_the_phases() {
         (PresetId::CocotaNonMinimumPhase, Pairing::Swapped),
         (PresetId::JunqueiraA, Pairing::Diagonal),
         (PresetId::JunqueiraB, Pairing::Swapped),
+        (PresetId::Seville, Pairing::Swapped),
+        (PresetId::Quanser, Pairing::Swapped),
+        (PresetId::MpcTools, Pairing::Swapped),
+        (PresetId::Dtu, Pairing::Diagonal),
     ] {
         let verdict = analyse(&setup_of(id)).unwrap().linear.verdict;
         let reason = match (verdict, pairing) {

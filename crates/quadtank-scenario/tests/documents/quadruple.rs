@@ -142,7 +142,9 @@ fn the_largest_scenario_with_a_pinned_run_fits_into_a_link() {
 fn a_published_setup_takes_a_short_link() {
     for id in PresetId::ALL {
         let link = to_link(&Scenario::from(setup_of(id))).unwrap();
-        assert!(link.len() <= 60, "{id:?}: {} characters", link.len());
+        // The dictionary of the links knows the first six rigs, and never changes.
+        let most = if id as usize <= PresetId::JunqueiraB as usize { 60 } else { 300 };
+        assert!(link.len() <= most, "{id:?}: {} characters", link.len());
     }
 }
 

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::units::{MM, MM2, MM3};
-use super::{DisplayUnit, PiExperiment, Preset, PresetId, Printed};
+use super::{DisplayUnit, PiExperiment, Preset, PresetId, Printed, ReferenceMoves};
 use crate::control::Pairing;
 use crate::plant::{CrossSection, Outlet, Pump, QuadrupleTank, Sensor, Tank};
 
@@ -11,16 +11,18 @@ use crate::plant::{CrossSection, Outlet, Pump, QuadrupleTank, Sensor, Tank};
 pub(super) fn minimum_phase() -> Preset {
     let printed = Printed {
         levels: [156.7, 152.5, 40.4, 43.9].map(|h| h * MM),
-        time_constants_s: [82.0, 78.0, 87.0, 91.0],
-        zeros: [-1.5e-2, -7.5e-3],
-        rga_11: 1.125,
+        level_decimals: 1,
+        time_constants_s: Some([82.0, 78.0, 87.0, 91.0]),
+        zeros: Some([-1.5e-2, -7.5e-3]),
+        rga_11: Some(1.125),
         dc_gain: Some([[0.79, 0.25], [0.26, 0.73]]),
     };
     let pi = PiExperiment {
         pairing: Pairing::Diagonal,
         gains: [1.0, 1.0],
         integral_times_s: [32.0, 32.0],
-        step_times_s: [250.0, 1000.0],
+        sampling_time_s: 1.0,
+        references: ReferenceMoves::Apart([250.0, 1000.0]),
         duration_s: 1750.0,
     };
     rig(
@@ -38,9 +40,10 @@ pub(super) fn minimum_phase() -> Preset {
 pub(super) fn non_minimum_phase() -> Preset {
     let printed = Printed {
         levels: [156.1, 157.5, 234.0, 282.3].map(|h| h * MM),
-        time_constants_s: [82.0, 80.0, 219.0, 255.0],
-        zeros: [-9.9e-3, 1.4e-3],
-        rga_11: -1.32,
+        level_decimals: 1,
+        time_constants_s: Some([82.0, 80.0, 219.0, 255.0]),
+        zeros: Some([-9.9e-3, 1.4e-3]),
+        rga_11: Some(-1.32),
         dc_gain: Some([[0.45, 0.57], [0.61, 0.43]]),
     };
     // Eqs. 4.21 and 4.22. The rig needs almost an hour to settle here (Fig. 4.8).
@@ -48,7 +51,8 @@ pub(super) fn non_minimum_phase() -> Preset {
         pairing: Pairing::Swapped,
         gains: [1.39, 1.75],
         integral_times_s: [380.0, 365.0],
-        step_times_s: [250.0, 3750.0],
+        sampling_time_s: 1.0,
+        references: ReferenceMoves::Apart([250.0, 3750.0]),
         duration_s: 7000.0,
     };
     rig(

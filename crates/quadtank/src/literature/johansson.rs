@@ -1,7 +1,7 @@
 //! Johansson (2000), "The quadruple-tank process": two settings of one rig, with two PI loops.
 
 use super::units::{CM, CM2, CM3};
-use super::{DisplayUnit, PiExperiment, Preset, PresetId, Printed};
+use super::{DisplayUnit, PiExperiment, Preset, PresetId, Printed, ReferenceMoves};
 use crate::control::Pairing;
 use crate::plant::{CrossSection, Outlet, Pump, QuadrupleTank, Sensor, Tank};
 
@@ -9,9 +9,10 @@ use crate::plant::{CrossSection, Outlet, Pump, QuadrupleTank, Sensor, Tank};
 pub(super) fn minimum_phase() -> Preset {
     let printed = Printed {
         levels: [12.4, 12.7, 1.8, 1.4].map(|h| h * CM),
-        time_constants_s: [62.0, 90.0, 23.0, 30.0],
-        zeros: [-0.060, -0.018],
-        rga_11: 1.40,
+        level_decimals: 1,
+        time_constants_s: Some([62.0, 90.0, 23.0, 30.0]),
+        zeros: Some([-0.060, -0.018]),
+        rga_11: Some(1.40),
         dc_gain: None,
     };
     let pi = pi([3.0, 2.7], [30.0, 40.0]);
@@ -23,9 +24,10 @@ pub(super) fn minimum_phase() -> Preset {
 pub(super) fn non_minimum_phase() -> Preset {
     let printed = Printed {
         levels: [12.6, 13.0, 4.8, 4.9].map(|h| h * CM),
-        time_constants_s: [63.0, 91.0, 39.0, 56.0],
-        zeros: [-0.057, 0.013],
-        rga_11: -0.64,
+        level_decimals: 1,
+        time_constants_s: Some([63.0, 91.0, 39.0, 56.0]),
+        zeros: Some([-0.057, 0.013]),
+        rga_11: Some(-0.64),
         dc_gain: None,
     };
     let pi = pi([1.5, -0.12], [110.0, 220.0]);
@@ -74,7 +76,8 @@ fn pi(gains: [f64; 2], integral_times_s: [f64; 2]) -> PiExperiment {
         pairing: Pairing::Diagonal,
         gains,
         integral_times_s,
-        step_times_s: [100.0, 1500.0],
+        sampling_time_s: 1.0,
+        references: ReferenceMoves::Apart([100.0, 1500.0]),
         duration_s: 3000.0,
     }
 }

@@ -1,7 +1,7 @@
 //! Junqueira, Neves and Angelico: the model-free law on a quadruple tank with still and moving valves.
 
 use super::units::{CM, CM2, CM3};
-use super::{DisplayUnit, PiExperiment, Preset, PresetId};
+use super::{DisplayUnit, PiExperiment, Preset, PresetId, ReferenceMoves};
 use crate::control::Pairing;
 use crate::plant::{CrossSection, Outlet, Pump, QuadrupleTank, Sensor, Tank, ValveSchedule};
 use crate::sim::{Experiment, Measurement, SetPointStep};
@@ -44,7 +44,8 @@ pub(super) fn case(id: PresetId, gamma: f64) -> Preset {
                 pairing: Pairing::Swapped,
                 gains: [0.3; 2],
                 integral_times_s: [60.0; 2],
-                step_times_s: [100.0, 1100.0],
+                sampling_time_s: 1.0,
+                references: ReferenceMoves::Apart([100.0, 1100.0]),
                 duration_s: 2100.0,
             }
         } else {
@@ -52,7 +53,8 @@ pub(super) fn case(id: PresetId, gamma: f64) -> Preset {
                 pairing: Pairing::Diagonal,
                 gains: [3.0; 2],
                 integral_times_s: [40.0; 2],
-                step_times_s: [100.0, 600.0],
+                sampling_time_s: 1.0,
+                references: ReferenceMoves::Apart([100.0, 600.0]),
                 duration_s: 1100.0,
             }
         },

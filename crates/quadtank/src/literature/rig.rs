@@ -1,6 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-use super::{cocota, johansson, junqueira};
+use super::{cocota, dtu, johansson, junqueira, mpctools, quanser, seville};
 use crate::control::Pairing;
 use crate::plant::QuadrupleTank;
 
@@ -26,17 +26,33 @@ pub enum PresetId {
     /// Junqueira, Neves and Angelico, case b: γ = 0.4, non-minimum phase.
     #[serde(rename = "junqueira-case-b")]
     JunqueiraB,
+    /// Alvarado et al. (2011), the four-tank benchmark of the HD-MPC project in Seville.
+    #[serde(rename = "seville-hd-mpc")]
+    Seville,
+    /// The coupled tanks of Quanser, with the numbers of `MPCtools` and jMPC.
+    #[serde(rename = "quanser-mpctools")]
+    Quanser,
+    /// The nonlinear example of `MPCtools`, on Johansson's rig.
+    #[serde(rename = "mpctools-nonlinear")]
+    MpcTools,
+    /// The modified four-tank system of a course at DTU, with inflow into the upper tanks.
+    #[serde(rename = "dtu-modified-four-tank")]
+    Dtu,
 }
 
 impl PresetId {
-    /// All of them, in the order of publication.
-    pub const ALL: [Self; 6] = [
+    /// All of them: the rigs of the laboratory's own sources by year, then those of other researchers.
+    pub const ALL: [Self; 10] = [
         Self::JohanssonMinimumPhase,
         Self::JohanssonNonMinimumPhase,
         Self::CocotaMinimumPhase,
         Self::CocotaNonMinimumPhase,
         Self::JunqueiraA,
         Self::JunqueiraB,
+        Self::Seville,
+        Self::Quanser,
+        Self::MpcTools,
+        Self::Dtu,
     ];
 
     /// The name in the scenario document.
@@ -48,6 +64,10 @@ impl PresetId {
             Self::CocotaNonMinimumPhase => "cocota-2009-non-minimum-phase",
             Self::JunqueiraA => "junqueira-case-a",
             Self::JunqueiraB => "junqueira-case-b",
+            Self::Seville => "seville-hd-mpc",
+            Self::Quanser => "quanser-mpctools",
+            Self::MpcTools => "mpctools-nonlinear",
+            Self::Dtu => "dtu-modified-four-tank",
         }
     }
 
@@ -65,6 +85,10 @@ impl PresetId {
             Self::CocotaNonMinimumPhase => cocota::non_minimum_phase(),
             Self::JunqueiraA => junqueira::case(self, 0.6),
             Self::JunqueiraB => junqueira::case(self, 0.4),
+            Self::Seville => seville::preset(),
+            Self::Quanser => quanser::preset(),
+            Self::MpcTools => mpctools::preset(),
+            Self::Dtu => dtu::preset(),
         }
     }
 }
@@ -78,24 +102,44 @@ pub enum DisplayUnit {
     Cm,
     /// Millimetres.
     Mm,
+    /// Metres.
+    M,
 }
 
-/// Numbers as a source prints them, in SI, to compare with.
+/// Numbers as a source prints them, in SI, to compare with. What it does not print is absent: nothing here is computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Printed {
     /// Levels h1…h4 (m), measured or rounded: the printed parameters and inputs have another exact equilibrium.
     pub levels: [f64; 4],
+    /// How many decimals of them are printed, in the unit of the source.
+    pub level_decimals: usize,
     /// Time constants T1…T4 (s).
-    pub time_constants_s: [f64; 4],
+    pub time_constants_s: Option<[f64; 4]>,
     /// Transmission zeros (1/s), the smaller first.
-    pub zeros: [f64; 2],
+    pub zeros: Option<[f64; 2]>,
     /// Relative gain λ11.
-    pub rga_11: f64,
-    /// Steady-state gain matrix, by rows (V/V), where it is printed.
+    pub rga_11: Option<f64>,
+    /// Steady-state gain matrix, by rows (V/V).
     pub dc_gain: Option<[[f64; 2]; 2]>,
 }
 
-/// Two PI loops and an experiment that steps one reference after the other. The settings are those of the source where it prints any.
+impl Printed {
+    /// Levels (m) that are printed with some decimals, and nothing else.
+    pub const fn levels(levels: [f64; 4], level_decimals: usize) -> Self {
+        Self { levels, level_decimals, time_constants_s: None, zeros: None, rga_11: None, dc_gain: None }
+    }
+}
+
+/// How the references of an experiment move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ReferenceMoves {
+    /// References 1 and 2 rise by a share of their levels at rest, each at its time (s).
+    Apart([f64; 2]),
+    /// Both references go to the given levels (m), at the given times (s).
+    Sequence(&'static [(f64, [f64; 2])]),
+}
+
+/// Two PI loops and an experiment that moves the references. The settings are those of the source where it prints any.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PiExperiment {
     /// Which pump each loop drives.
@@ -104,8 +148,10 @@ pub struct PiExperiment {
     pub gains: [f64; 2],
     /// Ti (s) of the loops of levels 1 and 2.
     pub integral_times_s: [f64; 2],
-    /// When references 1 and 2 step (s).
-    pub step_times_s: [f64; 2],
+    /// Sampling time (s) of both loops.
+    pub sampling_time_s: f64,
+    /// How the references move.
+    pub references: ReferenceMoves,
     /// When the experiment ends (s).
     pub duration_s: f64,
 }

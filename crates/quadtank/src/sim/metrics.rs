@@ -6,7 +6,8 @@ use crate::control::DecentralisedPi;
 use crate::plant::QuadrupleTank;
 
 use super::experiment::Experiment;
-use super::response::{NoResponse, Response, Settling};
+use super::response::{NoResponse, Settling};
+use super::step_answer::{StepAnswer, StepFigures, step_answers};
 use super::trajectory::Trajectory;
 
 /// How one loop answered its first set-point step, within one window for all figures of it, and what the whole run cost.
@@ -61,13 +62,14 @@ pub fn loop_metrics(
     controller: &DecentralisedPi,
     experiment: &Experiment,
 ) -> [LoopMetrics; 2] {
-    loop_metrics_judging(trajectory, trajectory, plant, controller, experiment)
+    let answers = step_answers(trajectory, experiment, controller.sampling_time_s);
+    loop_metrics_judging(&answers, trajectory, plant, controller, experiment)
 }
 
-/// The same with the figures of the step from another run of the experiment, `judged`: its twin without noise, since the
-/// extremes of noise are no overshoot and its excursions no want of settling. The costs are those of `trajectory`.
+/// The same with the figures of the step from the [`step_answers`] of another run of the experiment: its twin without noise, since
+/// the extremes of noise are no overshoot and its excursions no want of settling. The costs are those of `trajectory`.
 pub fn loop_metrics_judging(
-    judged: &Trajectory,
+    answers: &[StepAnswer],
     trajectory: &Trajectory,
     plant: &QuadrupleTank,
     controller: &DecentralisedPi,
@@ -75,39 +77,31 @@ pub fn loop_metrics_judging(
 ) -> [LoopMetrics; 2] {
     let limits = controller.pairing.by_loop(plant.controller_limits());
     std::array::from_fn(|index| {
-        let mut metrics = figures_of_step(judged, experiment, controller.sampling_time_s, index);
+        let mut metrics = figures_of_step(answers, experiment, index);
         metrics.add_up(trajectory, index, limits[index]);
         metrics
     })
 }
 
-fn figures_of_step(
-    trajectory: &Trajectory,
-    experiment: &Experiment,
-    sampling_time_s: f64,
-    index: usize,
-) -> LoopMetrics {
-    let window = Response::first(trajectory, experiment, sampling_time_s, index);
-    let window = window.as_ref();
+/// The figures of the first step that the run comes to, without costs.
+fn figures_of_step(answers: &[StepAnswer], experiment: &Experiment, index: usize) -> LoopMetrics {
+    let first = answers.iter().find(|answer| answer.level == index && answer.figures.window_s.is_some());
     let without_step = || match experiment.step_after_end_s(index) {
         Some(time_s) => NoResponse::StepAfterEnd { time_s },
         None => NoResponse::NoStep,
     };
-    let no_response = window.map_or_else(|| Some(without_step()), Response::refusal);
-    // How a level that was under way goes on is counted as well, for who asks with the reason in view.
-    let is_counted = no_response.is_none_or(|reason| matches!(reason, NoResponse::NotAtRest { .. }));
-    let response = window.filter(|_| is_counted);
+    let figures = first.map_or_else(|| StepFigures::none(without_step()), |answer| answer.figures);
     LoopMetrics {
-        step_time_s: window.map(Response::step_time),
-        window_s: window.map(Response::duration),
-        no_response,
-        rise_time_s: response.and_then(Response::rise_time),
-        settling_2_percent: response.map(|response| response.settling(0.02)),
-        settling_5_percent: response.map(|response| response.settling(0.05)),
-        overshoot: response.map(Response::overshoot),
-        undershoot: response.map(Response::undershoot),
-        window_iae: response.map(Response::iae),
-        other_peak: window.map_or(0.0, Response::other_peak),
+        step_time_s: first.map(|answer| answer.time_s),
+        window_s: figures.window_s,
+        no_response: figures.no_response,
+        rise_time_s: figures.rise_time_s,
+        settling_2_percent: figures.settling_2_percent,
+        settling_5_percent: figures.settling_5_percent,
+        overshoot: figures.overshoot,
+        undershoot: figures.undershoot,
+        window_iae: figures.window_iae,
+        other_peak: figures.other_peak,
         iae: 0.0,
         ise: 0.0,
         itae: 0.0,
@@ -117,20 +111,18 @@ fn figures_of_step(
 }
 
 impl LoopMetrics {
-    /// The same without the figures of a step response, for a reason that holds for any step. It goes before that of a level
-    /// which was not at rest, being the cause of that.
-    #[must_use]
-    pub fn without_response(self, reason: NoResponse) -> Self {
-        let own = self.no_response.filter(|own| !matches!(own, NoResponse::NotAtRest { .. }));
-        Self {
-            no_response: own.or(Some(reason)),
-            rise_time_s: None,
-            settling_2_percent: None,
-            settling_5_percent: None,
-            overshoot: None,
-            undershoot: None,
-            window_iae: None,
-            ..self
+    /// The figures of the first step alone.
+    pub const fn first_step(&self) -> StepFigures {
+        StepFigures {
+            window_s: self.window_s,
+            no_response: self.no_response,
+            rise_time_s: self.rise_time_s,
+            settling_2_percent: self.settling_2_percent,
+            settling_5_percent: self.settling_5_percent,
+            overshoot: self.overshoot,
+            undershoot: self.undershoot,
+            window_iae: self.window_iae,
+            other_peak: self.other_peak,
         }
     }
 
@@ -307,8 +299,6 @@ mod tests {
         for (away, row) in [(0.03, 36), (0.019, 37), (-0.019, 40)] {
             assert_eq!(figures(away, row).no_response, None);
         }
-        let unstable = figures(0.03, 40).without_response(NoResponse::UnstableLoop);
-        assert_eq!(unstable.no_response, Some(NoResponse::UnstableLoop));
     }
 
     #[test]
@@ -365,7 +355,10 @@ mod tests {
         let (calm, noisy) = (run(&steps, |t| 1.0 - (-t / 8.0).exp()), run(&steps, |_| 3.0));
         let experiment = experiment(&steps, vec![]);
         let plant = PresetId::JohanssonMinimumPhase.preset().plant;
-        let judge = |judged, run| loop_metrics_judging(judged, run, &plant, &law(), &experiment)[0];
+        let judge = |judged, run| {
+            let answers = step_answers(judged, &experiment, law().sampling_time_s);
+            loop_metrics_judging(&answers, run, &plant, &law(), &experiment)[0]
+        };
         let (twin, alone, both) = (judge(&calm, &calm), judge(&noisy, &noisy), judge(&calm, &noisy));
         assert_eq!((both.overshoot, both.settling_2_percent), (Some(0.0), twin.settling_2_percent));
         assert_eq!((both.window_iae, both.iae), (twin.window_iae, alone.iae));

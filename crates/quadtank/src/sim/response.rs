@@ -1,4 +1,4 @@
-//! The answer of one level to the first step of its reference, cut out of a run.
+//! The answers of one level to the steps of its reference, cut out of a run.
 
 use serde::Serialize;
 
@@ -86,21 +86,32 @@ pub(super) struct Response<'a> {
 }
 
 impl<'a> Response<'a> {
-    /// The response of level `index` to the first step of its reference, in a run with the given sampling time (s); `None`
-    /// when its reference never moves.
-    pub(super) fn first(
+    /// The responses of level `index` to the steps of its reference, by time, in a run with the given sampling time (s).
+    pub(super) fn all(
         trajectory: &'a Trajectory,
         experiment: &Experiment,
         sampling_time_s: f64,
         index: usize,
-    ) -> Option<Self> {
-        let steps_of = |level: usize| reference_steps(trajectory, experiment, sampling_time_s, level);
-        let other = 1 - index;
-        let ReferenceStep { row: first, size: step } = *steps_of(index).first()?;
+    ) -> Vec<Self> {
+        let steps = [0, 1].map(|level| reference_steps(trajectory, experiment, sampling_time_s, level));
+        let of = |step: &ReferenceStep| Self::of(trajectory, experiment, sampling_time_s, index, *step, &steps);
+        steps[index].iter().map(of).collect()
+    }
+
+    /// The response to `step`, one of the steps of both references.
+    fn of(
+        trajectory: &'a Trajectory,
+        experiment: &Experiment,
+        sampling_time_s: f64,
+        index: usize,
+        step: ReferenceStep,
+        steps: &[Vec<ReferenceStep>; 2],
+    ) -> Self {
+        let ReferenceStep { row: first, size } = step;
         let slack = TIME_SLACK * sampling_time_s;
         let begin_s = trajectory.time_s[first];
-        let later_steps = [0, 1].into_iter().flat_map(steps_of).filter(|later| later.row > first);
-        let earlier_steps = [0, 1].into_iter().flat_map(steps_of).filter(|earlier| earlier.row < first);
+        let later_steps = steps.iter().flatten().filter(|later| later.row > first);
+        let earlier_steps = steps.iter().flatten().filter(|earlier| earlier.row < first);
         let moved_s = earlier_steps
             .map(|earlier| trajectory.time_s[earlier.row])
             .chain(experiment.last_change_s(begin_s - slack))
@@ -116,17 +127,17 @@ impl<'a> Response<'a> {
         let end = trajectory.time_s.partition_point(|&time| time <= end_s + slack).max(first + 1);
         let reference = &trajectory.references[index];
         let after = reference[first];
-        Some(Self {
+        Self {
             time: &trajectory.time_s[first..end],
             level: &trajectory.levels[index][first..end],
-            other_level: &trajectory.levels[other][first..end],
+            other_level: &trajectory.levels[1 - index][first..end],
             reference: &reference[first..end],
             approach: &trajectory.levels[index][rest..=first],
-            step,
-            before: if first == 0 { after - step } else { reference[first - 1] },
+            step: size,
+            before: if first == 0 { after - size } else { reference[first - 1] },
             after,
             end_s,
-        })
+        }
     }
 
     /// Why the step has no figures, where it has none.
@@ -143,6 +154,16 @@ impl<'a> Response<'a> {
         let ends = self.time.iter().skip(1).copied().chain([self.end_s]).map(|time| time.min(self.end_s));
         let errors = self.reference.iter().zip(self.level).map(|(reference, level)| (reference - level).abs());
         self.time.iter().zip(ends).zip(errors).map(|((begin, end), error)| (end - begin).max(0.0) * error).sum()
+    }
+
+    /// The reference before the step (m).
+    pub(super) fn before(&self) -> f64 {
+        self.before
+    }
+
+    /// The reference after the step (m).
+    pub(super) fn after(&self) -> f64 {
+        self.after
     }
 
     /// When the reference stepped (s).
@@ -215,20 +236,44 @@ fn reference_steps(
     sampling_time_s: f64,
     level: usize,
 ) -> Vec<ReferenceStep> {
-    let row_of = |time_s: f64| {
-        // A reference steps at the first sample at or after its time.
-        let sample = (time_s / sampling_time_s - TIME_SLACK).ceil();
-        trajectory.time_s.partition_point(|&time| time < (sample - TIME_SLACK) * sampling_time_s)
-    };
+    let row_of = |time_s: f64| row_of(trajectory, sampling_time_s, time_s);
     let steps = experiment.set_point_steps.iter().filter(|step| step.level == level);
     let mut steps: Vec<ReferenceStep> =
         steps.map(|step| ReferenceStep { row: row_of(step.time_s), size: step.size }).collect();
-    // What acts at the last row shows nowhere.
-    steps.retain(|step| step.row + 1 < trajectory.time_s.len());
+    steps.retain(|step| shows(trajectory, step.row));
     steps.sort_by_key(|step| step.row);
     let at_once = steps.chunk_by(|one, next| one.row == next.row);
     at_once
         .map(|steps| ReferenceStep { row: steps[0].row, size: net(steps.iter().map(|step| step.size)) })
         .filter(|step| step.size != 0.0)
         .collect()
+}
+
+/// Steps of the reference of a level that a run does not show, in order of time: when they would come (s), and by how much (m). Those
+/// at the same time are one, and those that cancel are none.
+pub(super) fn late_steps(
+    trajectory: &Trajectory,
+    experiment: &Experiment,
+    sampling_time_s: f64,
+    level: usize,
+) -> Vec<(f64, f64)> {
+    let steps = experiment.set_point_steps.iter().filter(|step| step.level == level);
+    let mut steps: Vec<(f64, f64)> = steps
+        .map(|step| (step.time_s, step.size))
+        .filter(|&(time_s, _)| !shows(trajectory, row_of(trajectory, sampling_time_s, time_s)))
+        .collect();
+    steps.sort_by(|one, next| one.0.total_cmp(&next.0));
+    let at_once = steps.chunk_by(|one, next| one.0 == next.0);
+    at_once.map(|steps| (steps[0].0, net(steps.iter().map(|step| step.1)))).filter(|&(_, size)| size != 0.0).collect()
+}
+
+/// The row at which a step of a reference acts: that of the first sample at or after its time (s).
+fn row_of(trajectory: &Trajectory, sampling_time_s: f64, time_s: f64) -> usize {
+    let sample = (time_s / sampling_time_s - TIME_SLACK).ceil();
+    trajectory.time_s.partition_point(|&time| time < (sample - TIME_SLACK) * sampling_time_s)
+}
+
+/// Whether a run shows what acts at a row: what acts at the last one shows nowhere.
+fn shows(trajectory: &Trajectory, row: usize) -> bool {
+    row + 1 < trajectory.time_s.len()
 }

@@ -315,7 +315,7 @@ prop_compose! {
     fn open_loops()(
         id in prop::sample::select(&PresetId::ALL),
         valves in [valve(), valve()],
-        voltage in [1.0..8.0, 1.0..8.0],
+        shares in [0.1..0.8, 0.1..0.8],
         slopes in [0.0..0.05, 0.0..0.05, 0.0..0.05, 0.0..0.05_f64],
         heights in [0.5..1.5, 0.5..1.5, 0.5..1.5, 0.5..1.5],
         changes in [(10.0..500.0, [0.0..2.0, 0.0..2.0]), (600.0..1200.0, [0.0..2.0, 0.0..2.0])],
@@ -326,6 +326,7 @@ prop_compose! {
         for (tank, slope) in plant.tanks.iter_mut().zip(slopes) {
             tank.section.area_slope += slope;
         }
+        let voltage = [0, 1].map(|i: usize| shares[i] * plant.pumps[i].voltage_max);
         let levels = plant.free_equilibrium(voltage).levels;
         plant = with_heights(plant, std::array::from_fn(|i| f64::max(heights[i] * levels[i], 0.01)));
         let mut set = OpenLoop::new(&plant, levels, voltage, duration_s).leak(leak.0, leak.1, leak.2);

@@ -10,6 +10,7 @@ use quadtank::sim::{
     EventKind, Experiment, Load, LoadStep, Measurement, SetPointStep, Trajectory, loop_metrics, simulate,
     simulate_linear,
 };
+use quadtank::study::quadruple_tank::setup_of;
 
 const NO_NOISE: Measurement = Measurement { noise_std: 0.0, seed: 0, quantised: false };
 
@@ -138,13 +139,13 @@ fn volume(plant: &QuadrupleTank, run: &Trajectory, row: usize) -> f64 {
     (0..4).map(|i| plant.tanks[i].section.volume(run.levels[i][row])).sum()
 }
 
-/// What the pumps bring in and the lower tanks let out between two rows (m³); the outflow by the trapezium rule.
+/// What comes in by the pumps and from outside, less what the lower tanks let out, between two rows (m³); the outflow by the trapezium rule.
 fn exchanged(plant: &QuadrupleTank, run: &Trajectory, row: usize) -> f64 {
     let levels = |row: usize| [0, 1, 2, 3].map(|i| run.levels[i][row]);
     let out = |row: usize| plant.outflows(&levels(row))[..2].iter().sum::<f64>();
     let voltage = [run.pump_voltage[0][row], run.pump_voltage[1][row]];
-    let pumped: f64 = plant.valve_flows(&voltage, &Disturbance::default()).iter().sum();
-    (run.time_s[row + 1] - run.time_s[row]) * (pumped - f64::midpoint(out(row), out(row + 1)))
+    let fed: f64 = plant.feed_flows(&voltage, &Disturbance::default()).iter().sum();
+    (run.time_s[row + 1] - run.time_s[row]) * (fed - f64::midpoint(out(row), out(row + 1)))
 }
 
 proptest! {
@@ -244,7 +245,10 @@ proptest! {
 fn the_linear_model_is_the_limit_of_small_steps() {
     for id in PresetId::ALL {
         let difference = |relative_step: f64| {
-            let setup = gentle(id, relative_step);
+            let mut setup = gentle(id, relative_step);
+            // Loops of its own: those of another rig may be unstable, and what grows is soon far from any linear model.
+            let own = setup_of(id).controller;
+            (setup.law.pairing, setup.law.loops) = (own.pairing, own.loops);
             let (run, linear) = (setup.run(), setup.run_linear());
             let rows = 0..=300;
             let worst =

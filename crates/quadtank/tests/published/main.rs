@@ -17,6 +17,7 @@ mod closed_loop;
 mod junqueira;
 mod level_loop_study;
 mod level_slides;
+mod other_rigs;
 mod tables;
 mod wood_berry;
 

@@ -3,7 +3,8 @@ use serde::Serialize;
 use crate::control::closed_loop;
 use crate::linear::Stability;
 use crate::sim::{
-    Experiment, LoopMetrics, MAX_JUDGED_WORK, NoResponse, Trajectory, loop_metrics_judging, simulate, simulate_linear,
+    Experiment, LoopMetrics, MAX_JUDGED_WORK, NoResponse, StepAnswer, Trajectory, loop_metrics_judging, simulate,
+    simulate_linear, step_answers,
 };
 
 use super::{Prepared, Setup};
@@ -17,6 +18,10 @@ pub struct Run {
     pub metrics: [LoopMetrics; 2],
     /// Metrics of loops 1 and 2 of the linear run.
     pub linear_metrics: [LoopMetrics; 2],
+    /// How both loops of the nonlinear run answered each step of their references, by time. The first of a loop is that of its metrics.
+    pub steps: Vec<StepAnswer>,
+    /// The same of the linear run.
+    pub linear_steps: Vec<StepAnswer>,
     /// Whether the figures of the step are those of the same experiment without noise, since this one has some.
     pub judged_without_noise: bool,
     /// The nonlinear plant.
@@ -69,15 +74,24 @@ impl Run {
         let reason = reason.or(is_too_long.then_some(NoResponse::TooLongToJudge));
         // Without figures of a step there is nothing to judge.
         let twin = (is_noisy && reason.is_none()).then(|| runs(&experiment.without_noise())).transpose()?;
-        let metrics = |judged: &Trajectory, run: &Trajectory| {
-            let metrics = loop_metrics_judging(judged, run, plant, controller, experiment);
-            reason.map_or(metrics, |reason| metrics.map(|metrics| metrics.without_response(reason)))
-        };
         let (judged, judged_linear) =
             twin.as_ref().map_or((&nonlinear, &linear), |(nonlinear, linear)| (nonlinear, linear));
+        let answers = |judged: &Trajectory| {
+            let mut answers = step_answers(judged, experiment, controller.sampling_time_s);
+            for answer in &mut answers {
+                *answer = reason.map_or(*answer, |reason| answer.without_response(reason));
+            }
+            answers
+        };
+        let (steps, linear_steps) = (answers(judged), answers(judged_linear));
+        let metrics = |answers: &[StepAnswer], run: &Trajectory| {
+            loop_metrics_judging(answers, run, plant, controller, experiment)
+        };
         Ok(Self {
-            metrics: metrics(judged, &nonlinear),
-            linear_metrics: metrics(judged_linear, &linear),
+            metrics: metrics(&steps, &nonlinear),
+            linear_metrics: metrics(&linear_steps, &linear),
+            steps,
+            linear_steps,
             judged_without_noise: is_noisy && !is_too_long,
             nonlinear,
             linear,
@@ -96,7 +110,7 @@ mod tests {
     use super::*;
     use crate::control::Pairing;
     use crate::literature::PresetId;
-    use crate::sim::PumpVoltageStep;
+    use crate::sim::{PumpVoltageStep, Settling};
     use crate::study::quadruple_tank::setup_of;
 
     #[test]
@@ -150,6 +164,35 @@ mod tests {
         assert_eq!((second.step_time_s, second.window_s), (Some(120.0), Some(2880.0)));
         // Level 2 still answers the first step.
         assert!(matches!(second.no_response, Some(NoResponse::NotAtRest { .. })) && first.no_response.is_none());
+    }
+
+    #[test]
+    fn every_step_is_judged_by_the_rules_of_the_first() {
+        let run = run(&setup_of(PresetId::Seville)).unwrap();
+        let told: Vec<_> = run.steps.iter().map(|step| (step.level, step.time_s, step.figures.window_s)).collect();
+        let window = Some(3000.0);
+        let expected = [(0, 3000.0), (1, 3000.0), (0, 6000.0), (1, 6000.0), (0, 9000.0)];
+        assert_eq!(told, expected.map(|(level, time_s)| (level, time_s, window)));
+        for (level, metrics) in run.metrics.iter().enumerate() {
+            let first = run.steps.iter().find(|step| step.level == level).unwrap();
+            assert_eq!((metrics.step_time_s, metrics.first_step()), (Some(first.time_s), first.figures));
+        }
+        for step in run.steps.iter().chain(&run.linear_steps) {
+            assert_eq!(step.figures.no_response, None, "{step:?}");
+            assert!(
+                matches!(step.figures.settling_2_percent, Some(Settling::After { time_s }) if time_s < 3000.0),
+                "{step:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_reason_against_the_first_step_is_one_against_all() {
+        let mut setup = setup_of(PresetId::Seville);
+        setup.controller.pairing = Pairing::Diagonal;
+        for step in run(&setup).unwrap().steps {
+            assert_eq!((step.figures.no_response, step.figures.overshoot), (Some(NoResponse::UnstableLoop), None));
+        }
     }
 
     #[test]
