@@ -1,5 +1,5 @@
 # Every goal sets up what it needs; the logic is in tools/.
-.PHONY: help setup serve dev build single check check-exports test bench fmt
+.PHONY: help setup serve dev build single module check check-exports test bench fmt
 
 PORT ?= 8080
 
@@ -23,6 +23,10 @@ build: ## build the site into dist/, with the single file beside it
 	@tools/build.sh
 
 single: build ## the whole laboratory as one file: dist/quadtank.html
+
+module: ## the core as a JavaScript module: the npm package in target/npm/quadtank, with an example beside it
+	@tools/setup.sh build
+	@tools/module.sh
 
 check: ## format, lints and native tests: what is quick enough to run before every commit
 	@tools/setup.sh build 2>&1

@@ -18,6 +18,7 @@ use super::naming::{ExperimentName, NameFields};
 use super::scripts::Scripts;
 use super::share;
 use super::storage::{DEPTH, LANGUAGE, THEME};
+use super::tables::CsvStyleChoice;
 use super::texts::{Language, say, tr};
 use super::widgets::Segmented;
 
@@ -250,6 +251,7 @@ fn FileMenu() -> impl IntoView {
                 })}
                 <Scripts />
                 <button type="button" data-testid="print" on:click=move |_| handout::print()>{say!(lab, handout.print)}</button>
+                <CsvStyleChoice />
                 <NameFields />
             </div>
             <input type="file" accept=".json,application/json" hidden node_ref=picker data-testid="open-input" on:change=on_file />

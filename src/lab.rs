@@ -16,7 +16,7 @@ use super::texts::Language;
 use super::widgets::Picture;
 use quadtank::literature::PresetId;
 use quadtank_figure::{Palette, Style};
-use quadtank_scenario::{Document, ScenarioError};
+use quadtank_scenario::{CsvStyle, Document, ScenarioError};
 
 /// For an audience charts are so much larger as the window is wider than this (CSS px), within limits.
 const PRESENTED_AT_PX: f64 = 860.0;
@@ -39,6 +39,10 @@ pub enum Notice {
     Copied,
     /// The clipboard is out of reach: here is the link.
     CopyByHand(String),
+    /// A table is on the clipboard.
+    TableCopied,
+    /// The clipboard is out of reach, so a table is not on it.
+    TableNotCopied,
     /// The browser remembers the link of the last experiment.
     Continue(String),
     /// What was loaded, by its name; it can be undone.
@@ -74,6 +78,8 @@ pub struct State {
     texts_update: Trigger,
     /// The language of the texts.
     pub language: RwSignal<Language>,
+    /// Separator and decimal sign of CSV; `None` for those of the language.
+    pub csv_style: RwSignal<Option<CsvStyle>>,
     /// Whether the theme is dark.
     pub dark: RwSignal<bool>,
     /// The notice at the top of the page.
@@ -145,6 +151,7 @@ impl Lab {
             bench: RwSignal::new(flags.bench.unwrap_or(&benches[0])),
             texts_update: Trigger::new(),
             language: RwSignal::new(language),
+            csv_style: RwSignal::new(None),
             dark: RwSignal::new(dark),
             notice: RwSignal::new(None),
             depth: RwSignal::new(depth),

@@ -33,6 +33,7 @@ mod slices;
 mod start;
 mod stopped;
 mod storage;
+mod tables;
 mod texts;
 mod timing;
 mod widgets;

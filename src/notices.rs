@@ -38,6 +38,8 @@ pub fn Notices() -> impl IntoView {
         Notice::NotRead => view! { <div>{tr!(lab, refused.not_read)}</div> }.into_any(),
         Notice::NotUnderstood(names) => view! { <div>{tr!(lab, app.not_understood, names = names.join(", "))}</div> }.into_any(),
         Notice::Copied => view! { <div>{tr!(lab, app.copied)}</div> }.into_any(),
+        Notice::TableCopied => view! { <div>{tr!(lab, chart.copied)}</div> }.into_any(),
+        Notice::TableNotCopied => view! { <div>{tr!(lab, chart.not_copied)}</div> }.into_any(),
         Notice::CopyByHand(link) => view! {
             <div>
                 {tr!(lab, app.copy_by_hand)}
@@ -77,7 +79,13 @@ pub fn Notices() -> impl IntoView {
     Effect::new(move || {
         let goes = matches!(
             lab.notice.get(),
-            Some(Notice::Copied | Notice::Loaded(_) | Notice::ValvesOf(_) | Notice::DeadTimeAdded(_))
+            Some(
+                Notice::Copied
+                    | Notice::TableCopied
+                    | Notice::Loaded(_)
+                    | Notice::ValvesOf(_)
+                    | Notice::DeadTimeAdded(_)
+            )
         );
         let close = move || lab.notice.set(None);
         passing.set_value(goes.then(|| Timeout::new(PASSING_MS, close)));
@@ -85,7 +93,7 @@ pub fn Notices() -> impl IntoView {
     view! {
         <div role="status" aria-live="polite" class="notices">
             {move || lab.notice.get().map(|notice| {
-                let is_bad = matches!(notice, Notice::Refused(_) | Notice::NoLesson(_) | Notice::NotRead | Notice::NotUnderstood(_) | Notice::NotKept);
+                let is_bad = matches!(notice, Notice::Refused(_) | Notice::NoLesson(_) | Notice::NotRead | Notice::NotUnderstood(_) | Notice::NotKept | Notice::TableNotCopied);
                 let class = if is_bad { "notice" } else { "notice good" };
                 view! {
                     <div class=class data-testid="notice">

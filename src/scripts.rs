@@ -1,14 +1,14 @@
-//! The experiment of the home bench as a script in another language.
+//! The experiment of the home bench as a script in another language, and its model as LaTeX.
 
 use leptos::prelude::*;
-use quadtank_export::{ExportError, Language, export};
-use quadtank_scenario::{Document, ScenarioError};
+use quadtank_export::{ExportError, LATEX_FILE_NAME, LATEX_MEDIA_TYPE, Language, export, latex};
+use quadtank_scenario::{Document, Scenario, ScenarioError};
 
 use super::download::download_text;
 use super::lab::{Lab, Notice, use_lab};
-use super::texts::tr;
+use super::texts::{say, tr};
 
-/// A button for each language, where the bench has an experiment that can be exported.
+/// A button for each language and for LaTeX, where the bench has an experiment that can be exported.
 #[component]
 pub fn Scripts() -> impl IntoView {
     let lab = use_lab();
@@ -27,14 +27,30 @@ pub fn Scripts() -> impl IntoView {
             </button>
         }
     };
-    move || has_scripts.get().then(|| Language::ALL.map(button))
+    move || {
+        has_scripts.get().then(|| {
+            view! {
+                {Language::ALL.map(button)}
+                <button type="button" data-testid="script-tex" on:click=move |_| save_latex(lab)>{say!(lab, app.latex)}</button>
+            }
+        })
+    }
 }
 
 /// Hands the script over under the name that its language finds it by, or says why there is none.
 fn save(lab: Lab, language: Language) {
+    hand_over(lab, language.file_name(), language.media_type(), |scenario| export(scenario, language));
+}
+
+/// The same of linear model and controller as LaTeX.
+fn save_latex(lab: Lab) {
+    hand_over(lab, LATEX_FILE_NAME, LATEX_MEDIA_TYPE, latex);
+}
+
+fn hand_over(lab: Lab, name: &str, mime: &str, write: impl Fn(&Scenario) -> Result<String, ExportError>) {
     let Document::Quadruple(scenario) = (lab.bench.get_untracked().document)(lab) else { return };
-    match export(&scenario, language) {
-        Ok(script) => download_text(language.file_name(), language.media_type(), &script),
+    match write(&scenario) {
+        Ok(text) => download_text(name, mime, &text),
         Err(ExportError::Scenario(error)) => lab.notice.set(Some(Notice::Refused(error))),
         Err(ExportError::Study(error)) => {
             lab.notice.set(Some(Notice::Refused(ScenarioError::Study { setup: "setup", error })));

@@ -19,6 +19,7 @@ use super::share;
 use super::start::StartFlags;
 use super::stopped::Stopped;
 use super::storage::{DEPTH, LANGUAGE, THEME};
+use super::tables::remembered_style;
 use super::texts::{Language, say, tr};
 
 /// The element of the page that the laboratory fills; it holds the static outline until then.
@@ -197,6 +198,7 @@ fn start(benches: &'static [BenchEntry]) -> Lab {
     let linked = share::from_address();
     let depth = Depth::at_start(&flags, linked.is_some(), DEPTH.read().as_deref());
     let lab = Lab::new(benches, language, dark, depth, flags);
+    lab.csv_style.set(remembered_style());
     // Before any bench is shown, so that its document is computed at once.
     if let Some(outcome) = linked {
         lab.open(outcome);

@@ -13,6 +13,8 @@ pub const THEME: Preference = Preference("quadtank-theme");
 pub const LANGUAGE: Preference = Preference("quadtank-language");
 /// The depth that was chosen, by its name.
 pub const DEPTH: Preference = Preference("quadtank-depth");
+/// The style of CSV that was chosen, by its name in `tables.rs`; `usual` for that of the language.
+pub const CSV: Preference = Preference("quadtank-csv");
 /// The link of the last experiment.
 pub const LAST: Preference = Preference("quadtank-last");
 

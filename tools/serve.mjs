@@ -1,7 +1,7 @@
-// A static server for the site: `node tools/serve.mjs` on 127.0.0.1, port 8080 or $PORT.
+// A static server for the site, or for another folder: `node tools/serve.mjs [FOLDER]` on 127.0.0.1, port 8080 or $PORT.
 import { createReadStream, readFileSync, statSync } from 'node:fs';
 import { createServer } from 'node:http';
-import { extname, join, normalize } from 'node:path';
+import { extname, join, normalize, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { gzipSync } from 'node:zlib';
 
@@ -52,9 +52,10 @@ export function serve(port, { site = SITE, compress = false, headers = {} } = {}
 
 if (process.argv[1] === fileURLToPath(import.meta.url)) {
   const port = Number(process.env.PORT ?? 8080);
+  const folder = process.argv[2];
   try {
-    await serve(port);
-    console.log(`serve: the laboratory is at http://${HOST}:${port}/ (Ctrl+C ends)`);
+    await serve(port, { site: folder ? resolve(folder) : SITE });
+    console.log(`serve: ${folder ?? 'the laboratory'} is at http://${HOST}:${port}/ (Ctrl+C ends)`);
   } catch (error) {
     console.error(`serve: port ${port} cannot be used (${error.code}); choose another: make serve PORT=8081`);
     process.exitCode = 1;

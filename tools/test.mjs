@@ -20,6 +20,12 @@ function playwrightCounts() {
 
 const CARGO = ['--locked', '--color', 'never'];
 
+/** Counts of the test runner of Node.js in its TAP report. */
+function nodeCounts(output) {
+  const count = (word) => Number(output.match(new RegExp(`^# ${word} (\\d+)$`, 'm'))[1]);
+  return { passed: count('pass'), failed: count('fail') + count('cancelled') + count('skipped') + count('todo') };
+}
+
 // A step without `counts` is a check: it can fail, but it holds no tests. `quick` steps are those of `make check`.
 const STEPS = [
   { name: 'format', quick: true, run: ['cargo', 'fmt', '--all', '--check'] },
@@ -51,6 +57,12 @@ const STEPS = [
     counts: cargoCounts,
   },
   { name: 'release build', run: ['tools/build.sh'] },
+  { name: 'JavaScript module', run: ['tools/module.sh', '--beside-page'] },
+  {
+    name: 'the module in Node.js',
+    run: ['node', '--test', '--test-reporter=tap', 'crates/quadtank-js/tests/'],
+    counts: nodeCounts,
+  },
   {
     name: 'end-to-end tests',
     run: ['npx', '--no-install', 'playwright', 'test', '--reporter=list,json'],

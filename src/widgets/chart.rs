@@ -10,6 +10,7 @@ use crate::download::{download_canvas, download_text};
 use crate::lab::{Figure, use_lab};
 use crate::naming::file_name;
 use crate::share::address_of;
+use crate::tables::save_csv;
 use crate::texts::tr;
 use quadtank_figure::{Chart, Frame, Rect, Sheet, Size, Style, layout, to_svg};
 
@@ -136,9 +137,8 @@ pub fn ChartMenu(
 ) -> impl IntoView {
     let lab = use_lab();
     let (for_csv, for_svg, for_png) = (picture.clone(), picture.clone(), picture);
-    let save_csv = move |_| {
-        let text = untrack(|| (for_csv.csv)());
-        download_text(&file_name(lab, &format!("{file}.csv")), "text/csv", &text);
+    let save_table = move |_| {
+        save_csv(lab, &format!("{file}.csv"), &untrack(|| (for_csv.csv)()));
     };
     let save_svg = move |_| {
         let text = untrack(|| {
@@ -159,7 +159,7 @@ pub fn ChartMenu(
         <details class="menu small" data-testid=format!("{file}-menu")>
             <summary aria-label=Signal::derive(move || format!("{}: {}", tr!(lab, chart.export), title.get()))>"⤓"</summary>
             <div>
-                <button type="button" data-testid=format!("{file}-csv") on:click=save_csv>"CSV"</button>
+                <button type="button" data-testid=format!("{file}-csv") on:click=save_table>"CSV"</button>
                 <button type="button" data-testid=format!("{file}-svg") on:click=save_svg>"SVG"</button>
                 <button type="button" data-testid=format!("{file}-png") on:click=save_png>"PNG"</button>
             </div>

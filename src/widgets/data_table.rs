@@ -3,6 +3,7 @@ use leptos::prelude::*;
 use super::{Caption, Cells, Folded, Headings, Picture};
 use crate::format::NumberStyle;
 use crate::lab::use_lab;
+use crate::tables::copy_table;
 use crate::texts::{say, tr};
 use quadtank_figure::{Table, table};
 
@@ -20,13 +21,19 @@ pub fn DataTable(
     id: &'static str,
 ) -> impl IntoView {
     let lab = use_lab();
+    let for_copy = picture.clone();
     let content = move || {
         view! {
             <Caption text=tr!(lab, chart.table_caption) />
             {rows(picture.visit(|charts| table(charts, ROWS)), lab.number_style())}
         }
     };
-    view! { <Folded id summary=say!(lab, chart.table) caption=say!(lab, chart.table_caption) content /> }
+    let copy = move |_| copy_table(lab, &untrack(|| for_copy.visit(|charts| table(charts, ROWS))));
+    view! {
+        <Folded id summary=say!(lab, chart.table) caption=say!(lab, chart.table_caption) content>
+            <button type="button" class="button small" data-testid=format!("{id}-copy") on:click=copy>{say!(lab, chart.copy)}</button>
+        </Folded>
+    }
 }
 
 fn rows(table: Table, style: NumberStyle) -> impl IntoView {

@@ -40,11 +40,15 @@ pub fn Folded(
     /// The content of the table.
     #[prop(into)]
     content: ViewFn,
+    /// What can be done with it.
+    #[prop(optional)]
+    children: Option<Children>,
 ) -> impl IntoView {
     let open = RwSignal::new(false);
     view! {
         <details class="more" on:toggle=move |event| open.set(is_open(&event))>
             <summary data-testid=id>{summary}</summary>
+            {children.map(|children| children())}
             <div class="scroll" tabindex="0" role="region" aria-label=caption>
                 <table class="plain">{move || open.get().then(|| content.run())}</table>
             </div>

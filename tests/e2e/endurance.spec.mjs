@@ -25,7 +25,7 @@ const batch = (page, dice) =>
     const KEYS = ['ArrowLeft', 'ArrowRight', 'ArrowUp', 'ArrowDown', 'PageUp', 'PageDown', 'Home', 'End', '+', '-', '0', 'Escape'];
     const TEXTS = ['0', '1', '-3', '1e9', '0.001', '', 'x', '12,5', '400', '−0.4', '0.5', '19000'];
     // What hands over files, opens dialogues or runs by the clock has tests of its own.
-    const AVOID = /^(share|save|print|open|single-file|open-input|record-(open|input)|script-.*|to-(relays|rig|model-free)|(free-|test-|level-|re)?play|.*-(csv|svg|png))$/;
+    const AVOID = /^(share|save|print|open|single-file|open-input|record-(open|input)|script-.*|to-(relays|rig|model-free)|(free-|test-|level-|re)?play|.*-(csv|svg|png|copy))$/;
     const fire = (element, event) => element.dispatchEvent(event);
     const drag = (element, u, v) => {
       const box = (element.closest('svg') ?? element).getBoundingClientRect();

@@ -23,10 +23,10 @@ const TYPES = {
   '.webmanifest': 'application/manifest+json',
 };
 
-/** The file of the site that a path means; nothing outside the site. */
-function fileOf(path) {
+/** The file of a site that a path means; nothing outside the site. */
+function fileOf(site, path) {
   try {
-    const file = join(SITE, normalize(`/${decodeURIComponent(path)}`));
+    const file = join(site, normalize(`/${decodeURIComponent(path)}`));
     const found = statSync(file);
     return found.isDirectory() ? join(file, 'index.html') : file;
   } catch {
@@ -35,16 +35,16 @@ function fileOf(path) {
 }
 
 /**
- * Serves `dist/` under `base`, and the given extra pages (path → HTML, without a policy of their own) beside it.
+ * Serves `dist/`, or another `site`, under `base`, and the given extra pages (path → HTML, without a policy of their own) beside it.
  * `open` adds the header that a sandboxed frame needs.
  */
-export async function serve({ base = '/', pages = {}, open = false } = {}) {
+export async function serve({ site = SITE, base = '/', pages = {}, open = false } = {}) {
   const server = createServer((request, response) => {
     const path = request.url.split('?')[0];
     if (pages[path]) return response.writeHead(200, { 'content-type': HTML }).end(pages[path]);
     // Browsers ask for it on pages that name no icon; that is no failure of the page.
     if (path === '/favicon.ico') return response.writeHead(204).end();
-    const file = path.startsWith(base) ? fileOf(path.slice(base.length)) : null;
+    const file = path.startsWith(base) ? fileOf(site, path.slice(base.length)) : null;
     const type = file && TYPES[extname(file)];
     if (!type) return response.writeHead(404).end();
     const headers = { 'content-type': type };

@@ -7,7 +7,8 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use quadtank::literature::PresetId;
 use quadtank::study::quadruple_tank::setup_of;
 use quadtank::study::relay_tuning::TuningSetup;
-use quadtank_export::Language;
+use quadtank_drawing::{Drawing, HomePicture, LevelPicture, SessionPicture, Theme, draw};
+use quadtank_export::{ExportError, Language, export, latex};
 use quadtank_lesson::lesson_schema;
 use quadtank_scenario::level_loop::LevelLoopScenario;
 use quadtank_scenario::model_free::ModelFreeScenario;
@@ -24,20 +25,17 @@ mod check;
 mod elements;
 mod files;
 mod level_loop;
-mod level_plot;
 mod mark;
 mod message;
-mod model_free;
-mod plot;
 mod published;
 mod quantities;
 mod record;
 mod report;
 mod scorm;
-mod tune;
+mod table;
 
 use andreis::TableNumber;
-use answers::{Answers, Drawing, Fault};
+use answers::Fault;
 use check::{CheckFault, CheckOptions};
 use elements::ElementsFault;
 use files::{bytes_of, file_name, is_standard_stream, print, print_json, write_file};
@@ -45,6 +43,7 @@ use level_loop::SearchOptions;
 use published::{Case, case_of, list_of_cases, list_of_presets, preset_parser};
 use record::{RecordFault, RecordOptions};
 use scorm::{ScormFault, ScormOptions};
+use table::TableOptions;
 
 /// The quadruple-tank laboratory without a screen.
 ///
@@ -85,6 +84,8 @@ enum Command {
         /// csv: trajectories; json: trajectories, events and metrics
         #[arg(long, value_enum, default_value_t = Format::Csv)]
         format: Format,
+        #[command(flatten)]
+        table: TableOptions,
     },
     /// Hold a run of the quadruple tank against a measured record, or fit the rig to it
     ///
@@ -100,28 +101,29 @@ enum Command {
         #[arg(long, value_name = "OUT")]
         svg: PathBuf,
         /// What to draw of a run of the quadruple tank (version 1)
-        #[arg(long, value_enum, default_value_t = plot::Chart::Responses)]
-        chart: plot::Chart,
+        #[arg(long, value_enum, default_value_t = HomePicture::Responses)]
+        chart: HomePicture,
         /// What to draw of a relay-tuning session (version 2)
-        #[arg(long, value_enum, default_value_t = tune::Picture::Loci)]
-        picture: tune::Picture,
+        #[arg(long, value_enum, default_value_t = SessionPicture::Loci)]
+        picture: SessionPicture,
         /// What to draw of a level loop (version 4)
-        #[arg(long, value_enum, default_value_t = level_plot::LevelPicture::Run)]
-        level_picture: level_plot::LevelPicture,
+        #[arg(long, value_enum, default_value_t = LevelPicture::Run)]
+        level_picture: LevelPicture,
         /// Colours
-        #[arg(long, value_enum, default_value_t = plot::Colours::Light)]
-        theme: plot::Colours,
+        #[arg(long, value_enum, default_value_t = Theme::Light)]
+        theme: Theme,
     },
-    /// Print the experiment of the quadruple tank (version 1) as a script in another language
+    /// Print the experiment of the quadruple tank (version 1) as a script in another language, or its model as LaTeX
     ///
     /// The script needs nothing of this program: parameters, linear analysis, the nonlinear closed loop, and the figures that this
-    /// program finds, which it holds its own against. Noise is left out.
+    /// program finds, which it holds its own against. Noise is left out. LaTeX has the linear model, zeros, relative gains and the
+    /// laws of the loops with their numbers; it needs amsmath alone.
     Export {
         #[command(flatten)]
         source: Source,
-        /// The language of the script
+        /// The language
         #[arg(long = "as", value_enum, value_name = "LANGUAGE")]
-        language: ScriptLanguage,
+        language: ExportLanguage,
     },
     /// List the published rigs, or print the scenario of one
     Presets {
@@ -143,6 +145,8 @@ enum Command {
         /// of the search
         #[arg(long, value_enum, default_value_t = Format::Json)]
         format: Format,
+        #[command(flatten)]
+        table: TableOptions,
     },
     /// List the published cases of Campestrini (2006), Junqueira et al., Andreis (2017), of lecture slides on a level tank, and
     /// controllers published for the column of Wood and Berry, or print the scenario of one
@@ -222,23 +226,26 @@ enum Format {
     Json,
 }
 
-/// The language of a script.
+/// The language of an export.
 #[derive(Clone, Copy, ValueEnum)]
-enum ScriptLanguage {
+enum ExportLanguage {
     /// Python with numpy, scipy and python-control
     Python,
     /// MATLAB with the Control System Toolbox, or GNU Octave with the package control
     Octave,
     /// Julia with the package `ControlSystems`; unlike the others not checked
     Julia,
+    /// Linear model and controller as LaTeX
+    Latex,
 }
 
-impl From<ScriptLanguage> for Language {
-    fn from(language: ScriptLanguage) -> Self {
-        match language {
-            ScriptLanguage::Python => Self::Python,
-            ScriptLanguage::Octave => Self::Octave,
-            ScriptLanguage::Julia => Self::Julia,
+impl ExportLanguage {
+    fn write(self, scenario: &Scenario) -> Result<String, ExportError> {
+        match self {
+            Self::Python => export(scenario, Language::Python),
+            Self::Octave => export(scenario, Language::Octave),
+            Self::Julia => export(scenario, Language::Julia),
+            Self::Latex => latex(scenario),
         }
     }
 }
@@ -309,20 +316,28 @@ fn wrong_command(error: &clap::Error) -> ExitCode {
 
 fn execute(command: Command) -> Result<(), Failure> {
     match command {
-        Command::Analyse { source, only } if only.is_empty() => print(&answer(&source, |document| document.analyse())?),
+        Command::Analyse { source, only } if only.is_empty() => {
+            print(&answer(&source, |document| Ok(document.analysis_json()?))?)
+        }
         Command::Analyse { source, only } => {
             let document = document_of(&source)?;
             print(&told(&source.file, quantities::only(&document, &only))?)
         }
         Command::Quantities { version } => print(&quantities::list(version)),
-        Command::Simulate { source, format } => print(&answer(&source, |document| document.simulate(format))?),
-        Command::Tune { source, search, format } => print(&answer(&source, |document| document.tune(format, &search))?),
+        Command::Simulate { source, format, table } => {
+            print(&answer(&source, |document| Ok(answers::simulate(document, format, table.style()?)?))?)
+        }
+        Command::Tune { source, search, format, table } => {
+            print(&answer(&source, |document| Ok(answers::tune(document, format, &search.into(), table.style()?)?))?)
+        }
         Command::Plot { source, svg, chart, picture, level_picture, theme } => {
-            let drawing = Drawing { chart, picture, level_picture, style: theme.style() };
-            let drawing = answer(&source, |document| document.plot(&drawing))?;
+            let drawing = Drawing { home: chart, session: picture, level: level_picture, theme };
+            let drawing = answer(&source, |document| Ok(draw(document, &drawing)?))?;
             if is_standard_stream(&svg) { print(&drawing) } else { write_file(&svg, &drawing) }
         }
-        Command::Export { source, language } => print(&answer(&source, |document| document.export(language.into()))?),
+        Command::Export { source, language } => {
+            print(&answer(&source, |document| answers::exported(document, |scenario| language.write(scenario)))?)
+        }
         Command::Cases { table: Some(table), .. } => print(&told(Path::new("this table"), andreis::table(table))?),
         Command::Cases { name: None, .. } => print(&list_of_cases()),
         Command::Cases { name: Some(Case::Tuning(case)), .. } => {
@@ -352,11 +367,10 @@ fn execute(command: Command) -> Result<(), Failure> {
 }
 
 /// Reads a document and asks it. What it may not have been meant to say is printed as warnings.
-fn answer(source: &Source, ask: impl Fn(&dyn Answers) -> Result<String, Fault>) -> Result<String, Failure> {
+fn answer(source: &Source, ask: impl Fn(&Document) -> Result<String, Fault>) -> Result<String, Failure> {
     let file = &source.file;
     let document = document_of(source)?;
-    let document = answers::of(&document);
-    let answer = told(file, ask(document))?;
+    let answer = told(file, ask(&document))?;
     for warning in document.warnings() {
         message::tell(format!("{}: warning: {warning}", file_name(file)));
     }

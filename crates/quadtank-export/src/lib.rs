@@ -1,4 +1,4 @@
-//! The experiment of the home bench as a script in a language of control engineers.
+//! The experiment of the home bench as a script in a language of control engineers, and its linear model as LaTeX.
 //!
 //! [`export`] writes a script that needs nothing of this laboratory: the parameters of a [`Scenario`], the equations, linear
 //! analysis with the usual library of the language, the nonlinear closed loop, and the figures that this laboratory finds, which
@@ -8,11 +8,13 @@
 mod data;
 mod expected;
 mod language;
+mod latex;
 mod remark;
 #[cfg(test)]
 mod sample;
 
 pub use language::Language;
+pub use latex::{LATEX_FILE_NAME, LATEX_MEDIA_TYPE, latex};
 
 use quadtank::study::StudyError;
 use quadtank_scenario::{BenchDocument, Scenario, ScenarioError};

@@ -11,6 +11,23 @@ const WIDTH: usize = 110;
 
 /// What the experiment is called, its rig, and what is not in the script.
 pub fn head(scenario: &Scenario, language: Language) -> String {
+    let mut text = lines_about(scenario);
+    let noise = scenario.setup.experiment.measurement.noise_std;
+    if noise > 0.0 {
+        text.push(format!(
+            "Noise with a standard deviation {noise:?} m is left out: its generator is not that of this language, so the figures \
+             are those of the same experiment without noise."
+        ));
+    }
+    comment(&text.join("\n"), language.comment_mark())
+}
+
+/// What the experiment is called, and its rig, behind this mark of a comment.
+pub fn about(scenario: &Scenario, mark: &str) -> String {
+    comment(&lines_about(scenario).join("\n"), mark)
+}
+
+fn lines_about(scenario: &Scenario) -> Vec<String> {
     let label = &scenario.label;
     let mut text = Vec::new();
     if !label.name.trim().is_empty() {
@@ -23,22 +40,14 @@ pub fn head(scenario: &Scenario, language: Language) -> String {
         PlantSpec::Preset(id) => format!("Rig: {}, valves and controller as set in the experiment.", id.name()),
         PlantSpec::Parameters { .. } => "Rig: one's own.".to_owned(),
     });
-    let noise = scenario.setup.experiment.measurement.noise_std;
-    if noise > 0.0 {
-        text.push(format!(
-            "Noise with a standard deviation {noise:?} m is left out: its generator is not that of this language, so the figures \
-             are those of the same experiment without noise."
-        ));
-    }
-    comment(&text.join("\n"), language)
+    text
 }
 
 /// A text from anywhere as lines of comment.
 ///
 /// Every line begins with the mark and a space, which no language takes for the beginning of a block or of a pragma. What some
 /// language or editor takes for the end of a line ends one here too; what else is not printable is written as an escape.
-fn comment(text: &str, language: Language) -> String {
-    let mark = language.comment_mark();
+fn comment(text: &str, mark: &str) -> String {
     let lines = text.split(is_line_break).map(printable).flat_map(|line| wrapped(&line));
     lines.map(|line| format!("{mark} {line}").trim_end().to_owned() + "\n").collect()
 }

@@ -26,6 +26,20 @@ pub struct Table {
     pub rows: Vec<Vec<f64>>,
 }
 
+impl Table {
+    /// The table as spreadsheets take it from the clipboard: tabs between columns, all digits, numbers with this decimal sign, and an
+    /// empty cell where there is no value.
+    pub fn to_tsv(&self, decimal: char) -> String {
+        let cell = |value: &f64| {
+            if value.is_finite() { value.to_string().replace('.', &decimal.to_string()) } else { String::new() }
+        };
+        let name = |name: &String| name.split_whitespace().collect::<Vec<_>>().join(" ");
+        let rows = self.rows.iter().map(|row| row.iter().map(cell).collect::<Vec<_>>());
+        let lines = std::iter::once(self.columns.iter().map(name).collect()).chain(rows);
+        lines.map(|cells: Vec<String>| cells.join("\t") + "\n").collect()
+    }
+}
+
 impl Chart<'_> {
     /// A summary of every curve that has a finite value, from the back to the front.
     pub fn summary(&self) -> Vec<Summary> {
@@ -75,5 +89,20 @@ pub fn table(charts: &[Chart], most: usize) -> Table {
     Table {
         columns: std::iter::once(label).chain(named().map(|series| series.name.to_string())).collect(),
         rows: chosen.map(|(_, &x)| row(x)).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_table_for_the_clipboard_has_tabs_and_the_decimal_sign_of_the_reader() {
+        let table = Table {
+            columns: vec!["time (s)".to_owned(), "level\t1".to_owned()],
+            rows: vec![vec![0.5, -12.25], vec![1.0, f64::NAN]],
+        };
+        assert_eq!(table.to_tsv(','), "time (s)\tlevel 1\n0,5\t-12,25\n1\t\n");
+        assert_eq!(table.to_tsv('.').lines().nth(1), Some("0.5\t-12.25"));
     }
 }

@@ -191,15 +191,17 @@ pub fn to_json(document: &impl BenchDocument) -> Result<String, ScenarioError> {
     serde_json::to_string_pretty(document).map_err(|error| malformed(String::new(), error.to_string()))
 }
 
-/// Writes a document of any kind as JSON.
-///
-/// # Errors
-/// As [`to_json`].
-pub(super) fn document_to_json(document: &Document) -> Result<String, ScenarioError> {
-    match document {
-        Document::Quadruple(scenario) => to_json(scenario),
-        Document::Tuning(scenario) => to_json(scenario),
-        Document::ModelFree(scenario) => to_json(scenario),
-        Document::LevelLoop(scenario) => to_json(scenario),
+impl Document {
+    /// Writes a document of any kind as JSON.
+    ///
+    /// # Errors
+    /// As [`to_json`].
+    pub fn to_json(&self) -> Result<String, ScenarioError> {
+        match self {
+            Self::Quadruple(scenario) => to_json(scenario),
+            Self::Tuning(scenario) => to_json(scenario),
+            Self::ModelFree(scenario) => to_json(scenario),
+            Self::LevelLoop(scenario) => to_json(scenario),
+        }
     }
 }

@@ -5,8 +5,10 @@
 //! against its row in the table of [parameters](params) and take any bytes; [`to_json`] and [`to_link`] write it, with all digits.
 //! What a document holds besides its version, a setup, is a type of [`quadtank::study`], which also computes what follows from it.
 
+pub mod answers;
 mod codec;
 mod csv;
+mod csv_style;
 mod document;
 mod entries;
 mod error;
@@ -34,13 +36,14 @@ pub use codec::{
     DOCUMENT_LIMIT, Document, check_length, document_from_bytes, document_from_json, from_json, read_json, to_json,
 };
 pub use csv::{roots_to_csv, run_to_csv, valve_map_to_csv};
+pub use csv_style::{CsvStyle, DecimalSign, Separator, TwoCommas};
 pub use document::{BenchDocument, Scenario, View};
 pub use entries::{Entry, EntryValue, entries};
 pub use error::{ScenarioError, runs_backwards};
 pub use label::Label;
 pub use limits::Limits;
 pub use link::{LINK_LIMIT, document_from_link, to_link};
-pub use published::{level_loop_cases, model_free_cases, published_document};
+pub use published::{level_loop_cases, model_free_cases, published_document, published_names};
 pub use quantities::{Quantities, QuantityRow, UnknownQuantity, bench_of, quantities_of};
 #[cfg(feature = "schema")]
 pub use schema::{schema_of, schema_of_report};

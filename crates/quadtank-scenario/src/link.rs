@@ -41,6 +41,21 @@ pub fn to_link<D: BenchDocument>(document: &D) -> Result<String, ScenarioError> 
     Ok(link)
 }
 
+impl Document {
+    /// Writes a document of any kind as text for the fragment of a URL.
+    ///
+    /// # Errors
+    /// As [`to_link`].
+    pub fn to_link(&self) -> Result<String, ScenarioError> {
+        match self {
+            Self::Quadruple(scenario) => to_link(scenario),
+            Self::Tuning(scenario) => to_link(scenario),
+            Self::ModelFree(scenario) => to_link(scenario),
+            Self::LevelLoop(scenario) => to_link(scenario),
+        }
+    }
+}
+
 /// Reads a document from the text that [`to_link`] writes.
 ///
 /// # Errors

@@ -36,6 +36,15 @@ pub fn published_document(name: &str) -> Option<Document> {
     rig().or_else(tuning).or_else(given).or_else(model_free).or_else(level_loop)
 }
 
+/// The names that [`published_document`] knows: rigs, then cases.
+pub fn published_names() -> Vec<String> {
+    let rigs = PresetId::ALL.into_iter().map(|id| id.name().to_owned());
+    let tuning = PublishedCase::all().map(PublishedCase::name);
+    let given = PublishedControllers::ALL.into_iter().map(|controllers| controllers.name().to_owned());
+    let model_free = model_free_cases().map(|(name, ..)| name);
+    rigs.chain(tuning).chain(given).chain(model_free).chain(level_loop_cases().map(|(name, ..)| name)).collect()
+}
+
 /// The published cases by name: `junqueira-a-s1` and so on.
 pub fn model_free_cases() -> impl Iterator<Item = (String, PublishedValves, PublishedExperiment)> {
     PublishedValves::ALL.into_iter().flat_map(|valves| {

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::codec::{document_from_json, document_to_json};
+use super::codec::document_from_json;
 use super::error::{malformed, quoted};
 use super::{Document, ScenarioError};
 
@@ -17,7 +17,7 @@ impl Document {
         values: impl IntoIterator<Item = &'a (String, Value)>,
     ) -> Result<Self, ScenarioError> {
         let unreadable = |error: serde_json::Error| malformed(String::new(), error.to_string());
-        let mut document: Value = serde_json::from_str(&document_to_json(self)?).map_err(unreadable)?;
+        let mut document: Value = serde_json::from_str(&self.to_json()?).map_err(unreadable)?;
         for (path, value) in values {
             set(&mut document, path, value.clone())?;
         }

@@ -9,6 +9,7 @@ use crate::download::download_text;
 use crate::lab::{Lab, use_lab};
 use crate::lessons::classroom::tongue;
 use crate::lessons::prose::inline;
+use crate::tables::style;
 use crate::texts::{say, tr};
 
 /// What a code holds, or why it holds nothing.
@@ -32,7 +33,10 @@ pub fn ReadCodes(
         [Ok(report)] => Some(detail(lab, lessons, report.clone()).into_any()),
         several => Some(class_table(lab, lessons, several).into_any()),
     };
-    let save = move |_| download_text("quadtank-reports.csv", "text/csv", &reports.with_untracked(|found| csv(found)));
+    let save = move |_| {
+        let separator = untrack(|| style(lab)).separator().sign();
+        download_text("quadtank-reports.csv", "text/csv", &reports.with_untracked(|found| csv(found, separator)));
+    };
     let is_class = move || reports.with(|reports| reports.len() > 1);
     view! {
         <section>
@@ -148,17 +152,17 @@ fn class_table(lab: Lab, lessons: Lessons, found: &[Found]) -> impl IntoView + u
     }
 }
 
-/// The reports as comma-separated values, with names as in files, not as on the screen.
-fn csv(found: &[Found]) -> String {
+/// The reports as values with this separator, with names as in files, not as on the screen.
+fn csv(found: &[Found], separator: char) -> String {
     let row = |report: &Report| {
         let Report { lesson, fingerprint, name, seed, seconds, score, .. } = report;
-        format!("{},{},{fingerprint},{score},{seconds},{seed}", field(name), field(lesson))
+        let [fingerprint, score] = [fingerprint.clone(), score.to_string()];
+        [field(name), field(lesson), fingerprint, score, seconds.to_string(), seed.to_string()]
     };
-    let rows = found.iter().map(|report| report.as_ref().map_or_else(|_| "damaged,,,,,".to_owned(), row));
-    let mut table: Vec<String> =
-        std::iter::once("name,lesson,fingerprint,score,seconds,seed".to_owned()).chain(rows).collect();
-    table.push(String::new());
-    table.join("\n")
+    let damaged = || ["damaged", "", "", "", "", ""].map(str::to_owned);
+    let head = ["name", "lesson", "fingerprint", "score", "seconds", "seed"].map(str::to_owned);
+    let rows = found.iter().map(|report| report.as_ref().map_or_else(|_| damaged(), row));
+    std::iter::once(head).chain(rows).map(|cells| cells.join(&separator.to_string()) + "\n").collect()
 }
 
 /// A text as a field (RFC 4180). A spreadsheet takes what begins with one of these signs for a formula.
@@ -181,7 +185,7 @@ mod tests {
 
     #[test]
     fn a_damaged_code_is_a_line_of_the_table_too() {
-        assert_eq!(csv(&Report::all_in("QL1-x QL1-y")).lines().skip(1).collect::<Vec<_>>(), ["damaged,,,,,"; 2]);
+        assert_eq!(csv(&Report::all_in("QL1-x QL1-y"), ',').lines().skip(1).collect::<Vec<_>>(), ["damaged,,,,,"; 2]);
     }
 
     #[test]

@@ -2,10 +2,11 @@
 
 use std::fmt::Write as _;
 
+use quadtank_scenario::answers::report_json;
 use quadtank_scenario::{Document, Quantities, bench_of, quantities_of};
 use serde_json::{Map, Value};
 
-use super::answers::{Fault, json};
+use super::answers::Fault;
 
 /// Most names that are suggested for one that is unknown.
 const SUGGESTED: usize = 4;
@@ -21,7 +22,7 @@ pub fn only(document: &Document, names: &[String]) -> Result<String, Fault> {
             Err(Fault::UnknownQuantity { near: near(name, quantities.rows().iter().map(|row| row.name)), error })
         }
     };
-    json(&names.iter().map(value).collect::<Result<Map<_, _>, _>>()?)
+    Ok(report_json(&names.iter().map(value).collect::<Result<Map<_, _>, _>>()?)?)
 }
 
 /// The names that are most like one, best first.

@@ -1,7 +1,7 @@
 //! An experiment as a script.
 
 use quadtank::literature::PresetId;
-use quadtank_export::{Language, export};
+use quadtank_export::{Language, export, latex};
 use quadtank_scenario::from_json;
 
 use super::{pipe, preset, run, stderr, stdout};
@@ -13,6 +13,13 @@ fn export_prints_the_script_of_each_language() {
         let script = stdout(&pipe(&["export", "-", "--as", name], document.as_bytes()));
         assert_eq!(script, export(&from_json(&document).unwrap(), language).unwrap());
     }
+}
+
+#[test]
+fn export_prints_model_and_controller_as_latex() {
+    let document = preset(PresetId::CocotaNonMinimumPhase);
+    let text = stdout(&pipe(&["export", "-", "--as", "latex"], document.as_bytes()));
+    assert_eq!(text, latex(&from_json(&document).unwrap()).unwrap());
 }
 
 #[test]

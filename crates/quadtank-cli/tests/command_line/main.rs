@@ -12,6 +12,7 @@ mod record;
 mod reports;
 mod schema;
 mod set;
+mod tables;
 mod tuning;
 
 use std::fs;

@@ -1,6 +1,3 @@
-//! Relay tuning without a screen: what a session finds, as a report, CSV or a picture.
-
-use clap::ValueEnum;
 use quadtank::linear::Loci;
 use quadtank::sim::LoopTrace;
 use quadtank::study::relay_tuning::{Tested, Tuning, TuningSetup, tune};
@@ -9,65 +6,27 @@ use quadtank_figure::{
     Chart, CurveChart, LociChart, LoopsChart, LoopsRecord, Pen, Size, Style, characteristic_loci, critical_curve,
     to_svg, two_loops,
 };
-use quadtank_scenario::report::tuning::TuningReport;
-use quadtank_scenario::tuning::{record_to_csv, response_to_csv};
+use quadtank_scenario::answers::relay_record;
 
-/// What can be drawn of a session.
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Picture {
-    /// The relay test over time
-    Test,
-    /// The critical curve in normalised gains, with estimates
-    Curve,
-    /// Both characteristic loci of the design, and at the critical gains
-    Loci,
-    /// Outputs and inputs after a step of the references
-    Response,
-}
-
-/// What test and design find.
-pub fn report(setup: &TuningSetup) -> Result<TuningReport, TuningError> {
-    TuningReport::of(setup, &tune(setup)?)
-}
-
-/// The record of the relay test; of several tests the last.
-fn record(test: &Tested) -> Option<&LoopTrace> {
-    match test {
-        Tested::Single(test, _) | Tested::Simultaneous(test, _) => Some(&test.trace),
-        Tested::Independent(loops) => loops.last().map(|(test, _)| &test.trace),
-        Tested::Sequential(steps) => steps.last().map(|step| &step.test.trace),
-    }
-}
-
-/// The response of the design, one row per sample and per arrival of what a dead time had held back, beside the one that it is
-/// compared with.
-pub fn response_csv(setup: &TuningSetup) -> Result<String, TuningError> {
-    let found = tune(setup)?;
-    Ok(found.design.as_ref().map(response_to_csv).unwrap_or_default())
-}
-
-/// The record of the relay test, one row per step, switch and arrival.
-pub fn test_csv(setup: &TuningSetup) -> Result<String, TuningError> {
-    Ok(record(&tune(setup)?.test).map(record_to_csv).unwrap_or_default())
-}
+use crate::SessionPicture;
 
 /// Draws a picture of a session as an SVG document.
-pub fn svg(setup: &TuningSetup, picture: Picture, style: &Style) -> Result<String, TuningError> {
+pub fn svg(setup: &TuningSetup, picture: SessionPicture, style: &Style) -> Result<String, TuningError> {
     let found = tune(setup)?;
     let size = Size { width: 720.0, height: 560.0 };
     let empty = LoopTrace::default();
     let (title, description) = match picture {
-        Picture::Test => ("Relay test", "Outputs and relay outputs of both loops over time."),
-        Picture::Curve => ("Critical curve", "The boundary of the stable gains of two proportional loops."),
-        Picture::Loci => ("Characteristic loci", "Both characteristic loci with the point −1 and the target."),
-        Picture::Response => ("Response", "Outputs and inputs after a step of the references."),
+        SessionPicture::Test => ("Relay test", "Outputs and relay outputs of both loops over time."),
+        SessionPicture::Curve => ("Critical curve", "The boundary of the stable gains of two proportional loops."),
+        SessionPicture::Loci => ("Characteristic loci", "Both characteristic loci with the point −1 and the target."),
+        SessionPicture::Response => ("Response", "Outputs and inputs after a step of the references."),
     };
     Ok(match picture {
-        Picture::Test => {
-            let trace = record(&found.test).unwrap_or(&empty);
+        SessionPicture::Test => {
+            let trace = relay_record(&found.test).unwrap_or(&empty);
             loops_svg(&[(trace, Pen::Solid)], None, |charts| to_svg(charts, size, style, title, description))
         }
-        Picture::Response => {
+        SessionPicture::Response => {
             let compared = found.design.as_ref().and_then(|design| design.comparison.as_ref());
             let compared = compared.map(|comparison| (&comparison.response.trace, Pen::Dotted));
             let trace = found.design.as_ref().map_or(&empty, |design| &design.response.trace);
@@ -75,8 +34,10 @@ pub fn svg(setup: &TuningSetup, picture: Picture, style: &Style) -> Result<Strin
             let references = Some(setup.response.references);
             loops_svg(&records, references, |charts| to_svg(charts, size, style, title, description))
         }
-        Picture::Curve => curve(&found, |chart| to_svg(&[critical_curve(chart)], size, style, title, description)),
-        Picture::Loci => {
+        SessionPicture::Curve => {
+            curve(&found, |chart| to_svg(&[critical_curve(chart)], size, style, title, description))
+        }
+        SessionPicture::Loci => {
             loci(&found, setup, |chart| to_svg(&[characteristic_loci(chart)], size, style, title, description))
         }
     })

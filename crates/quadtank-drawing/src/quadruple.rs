@@ -1,46 +1,19 @@
-use clap::ValueEnum;
 use quadtank::literature::{DisplayUnit, PresetId};
 use quadtank::study::StudyError;
 use quadtank::study::quadruple_tank::{PlantSpec, Setup, ValveMap, analyse, run};
 use quadtank_figure::{
-    self, Palette, PoleZero, PoleZeroTexts, ResponseTexts, Responses, RunColumns, Size, Style, ValvePlane,
-    ValvePlaneTexts, to_svg,
+    self, PoleZero, PoleZeroTexts, ResponseTexts, Responses, RunColumns, Size, Style, ValvePlane, ValvePlaneTexts,
+    to_svg,
 };
 
-/// What can be drawn.
-#[derive(Clone, Copy, ValueEnum)]
-pub enum Chart {
-    /// Levels, references and pump voltages over time
-    Responses,
-    /// The right-most zero over the valves
-    ValvePlane,
-    /// Poles and zeros, open and closed loop
-    PoleZero,
-}
+use crate::HomePicture;
 
-#[derive(Clone, Copy, ValueEnum)]
-pub enum Colours {
-    Light,
-    Dark,
-}
-
-impl Colours {
-    /// How charts are painted with these.
-    pub fn style(self) -> Style {
-        let palette = match self {
-            Self::Light => Palette::LIGHT,
-            Self::Dark => Palette::DARK,
-        };
-        Style { palette, decimal: '.', scale: 8 }
-    }
-}
-
-/// Draws a chart of a setup as an SVG document.
-pub fn svg(setup: &Setup, chart: Chart, style: &Style) -> Result<String, StudyError> {
-    match chart {
-        Chart::Responses => responses(setup, style),
-        Chart::ValvePlane => valve_plane(setup, style),
-        Chart::PoleZero => pole_zero(setup, style),
+/// Draws a picture of a setup as an SVG document.
+pub fn svg(setup: &Setup, picture: HomePicture, style: &Style) -> Result<String, StudyError> {
+    match picture {
+        HomePicture::Responses => responses(setup, style),
+        HomePicture::ValvePlane => valve_plane(setup, style),
+        HomePicture::PoleZero => pole_zero(setup, style),
     }
 }
 
@@ -132,7 +105,7 @@ fn pole_zero(setup: &Setup, style: &Style) -> Result<String, StudyError> {
         zeros: &zeros,
         zero_paths: &ValveMap::of(setup)?.zero_paths(POINTS),
         closed_loop: &analysis.closed_loop.poles_s,
-        decimal: '.',
+        decimal: style.decimal,
         texts: PoleZeroTexts {
             real: "real part (1/s)",
             imaginary: "imaginary part (1/s)",

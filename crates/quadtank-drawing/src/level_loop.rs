@@ -1,6 +1,3 @@
-//! Pictures of level loops.
-
-use clap::ValueEnum;
 use quadtank::study::level_loop::{
     ContourMap, ContourSettings, LevelLoopSetup, Objective, run_level_loop, run_step_test, trade_off,
 };
@@ -10,26 +7,15 @@ use quadtank_figure::{
     Size, StepTestCharts, StepTestTexts, Style, TradeOffChart, to_svg,
 };
 
-use super::answers::Fault;
+use quadtank_scenario::answers::AnswerError;
 
-/// What can be drawn of a level loop.
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum LevelPicture {
-    /// Level, flows and controller output over time
-    Run,
-    /// The step test with the model that is read from it
-    StepTest,
-    /// The variance of the level against that of the outflow
-    TradeOff,
-    /// The cost over gain and integral time
-    CostMap,
-}
+use crate::LevelPicture;
 
 /// Cells along each side of a map.
 const CELLS: usize = 40;
 
 /// Draws a picture of a level loop as an SVG document.
-pub fn svg(setup: &LevelLoopSetup, picture: LevelPicture, style: &Style) -> Result<String, Fault> {
+pub fn svg(setup: &LevelLoopSetup, picture: LevelPicture, style: &Style) -> Result<String, AnswerError> {
     match picture {
         LevelPicture::Run => run(setup, style),
         LevelPicture::StepTest => step_test(setup, style),
@@ -42,7 +28,7 @@ fn drawn(charts: &[Chart], style: &Style, title: &str, description: &str) -> Str
     to_svg(charts, Size { width: 840.0, height: 560.0 }, style, title, description)
 }
 
-fn run(setup: &LevelLoopSetup, style: &Style) -> Result<String, Fault> {
+fn run(setup: &LevelLoopSetup, style: &Style) -> Result<String, AnswerError> {
     let answer = run_level_loop(setup)?;
     let (plant, log) = (setup.plant(), &answer.log);
     let reference: Vec<f64> = log.reference.iter().map(|&signal| plant.transmitter.level_of(signal)).collect();
@@ -71,7 +57,7 @@ fn run(setup: &LevelLoopSetup, style: &Style) -> Result<String, Fault> {
     Ok(drawn(&charts, style, "Level loop", "Level with its reference, inflow and outflow, and the controller output."))
 }
 
-fn step_test(setup: &LevelLoopSetup, style: &Style) -> Result<String, Fault> {
+fn step_test(setup: &LevelLoopSetup, style: &Style) -> Result<String, AnswerError> {
     let test = run_step_test(&setup.plant(), &setup.test)?;
     let charts = quadtank_figure::step_test(&StepTestCharts {
         time_s: &test.log.time_s,
@@ -110,7 +96,7 @@ fn variances(setup: &LevelLoopSetup, style: &Style) -> String {
     drawn(&[chart], style, "Trade-off", description)
 }
 
-fn cost_map(setup: &LevelLoopSetup, style: &Style) -> Result<String, Fault> {
+fn cost_map(setup: &LevelLoopSetup, style: &Style) -> Result<String, AnswerError> {
     let mut map = ContourMap::new(setup, ContourSettings { size: [CELLS; 2] })?;
     while map.advance(CELLS) {}
     let cells: Vec<CostCell> = map

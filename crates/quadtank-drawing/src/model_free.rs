@@ -1,25 +1,6 @@
-//! The model-free law without a screen: what theory says of a run and what happens in it, as a report, CSV or a picture.
-
 use quadtank::study::StudyError;
-use quadtank::study::model_free::{ModelFreeSetup, analyse_model_free, run_model_free};
+use quadtank::study::model_free::{ModelFreeSetup, run_model_free};
 use quadtank_figure::{ModelFreeCourse, ModelFreeTexts, Size, Style, model_free_course, to_svg};
-use quadtank_scenario::model_free::run_to_csv;
-use quadtank_scenario::report::model_free::{ModelFreeAnalysisReport, ModelFreeReport};
-
-/// What theory says at the references that the run ends with.
-pub fn analysis(setup: &ModelFreeSetup) -> ModelFreeAnalysisReport {
-    ModelFreeAnalysisReport::of(setup, &analyse_model_free(setup))
-}
-
-/// What happens in the run.
-pub fn report(setup: &ModelFreeSetup) -> Result<ModelFreeReport, StudyError> {
-    Ok(ModelFreeReport::from(&run_model_free(setup)?))
-}
-
-/// The run, one row per sample.
-pub fn csv(setup: &ModelFreeSetup) -> Result<String, StudyError> {
-    Ok(run_to_csv(&run_model_free(setup)?, setup))
-}
 
 /// Draws the run as an SVG document.
 pub fn svg(setup: &ModelFreeSetup, style: &Style) -> Result<String, StudyError> {
