@@ -118,10 +118,32 @@ export interface LoopMetrics {
   saturated_s: number;
 }
 
+/** A step of a reference, and how its loop answered it. */
+export interface StepAnswer {
+  /** Index of the loop, 0 or 1. */
+  level: number;
+  time_s: number;
+  /** The reference before and after the step (m). */
+  from: number;
+  to: number;
+  window_s: number | null;
+  no_response: unknown;
+  rise_time_s: number | null;
+  settling_2_percent: unknown;
+  settling_5_percent: unknown;
+  /** Share of the step. */
+  overshoot: number | null;
+  undershoot: number | null;
+  window_iae: number | null;
+  other_peak: number;
+}
+
 /** What happens in a run of the quadruple tank. */
 export interface RunReport {
   metrics: [LoopMetrics, LoopMetrics];
   linear_metrics: [LoopMetrics, LoopMetrics];
+  steps: StepAnswer[];
+  linear_steps: StepAnswer[];
   judged_without_noise: boolean;
   nonlinear: Trajectory;
   linear: Trajectory;
@@ -197,7 +219,8 @@ export function published(
   name:
     | 'johansson-2000-minimum-phase' | 'johansson-2000-non-minimum-phase'
     | 'cocota-2009-minimum-phase' | 'cocota-2009-non-minimum-phase'
-    | 'junqueira-case-a' | 'junqueira-case-b',
+    | 'junqueira-case-a' | 'junqueira-case-b'
+    | 'seville-hd-mpc' | 'quanser-mpctools' | 'mpctools-nonlinear' | 'dtu-modified-four-tank',
 ): Scenario;
 export function published(name: string): Document;
 

@@ -103,6 +103,7 @@ test('the types have the fields of the reports, and every function', () => {
     RunReport: run,
     Trajectory: run.nonlinear,
     LoopMetrics: run.metrics[0],
+    StepAnswer: run.steps[0],
     PiSettings: document.setup.controller.loops[0],
   })) {
     assert.deepEqual(fields(name), Object.keys(value), name);
