@@ -11,20 +11,20 @@ const open = async (lab, query = 'lang=en') => {
 test('an element is typed as a formula, and a wrong one is explained at its place', async ({ lab, page }) => {
   await open(lab);
   await expect(lab.id('g12')).toHaveValue('-18.9 exp(-3 s)/(21 s + 1)');
-  await lab.id('g11').fill('6.4 exp(-2 s)/(16.7 s + 1)');
+  await lab.id('g11').fill('25.6 exp(-2 s)/(16.7 s + 1)');
   await lab.settle();
-  // λ11 of the steady state: 1/(1 − (18.9 · 6.6)/(6.4 · 19.4)).
-  await expect(lab.id('plant-remark')).toContainText((1 / (1 - (18.9 * 6.6) / (6.4 * 19.4))).toFixed(3));
-  await lab.id('g11').fill('6.4 exp(-2 s)/(tau s + 1)');
+  // λ11 of the steady state: 1/(1 − (18.9 · 6.6)/(25.6 · 19.4)).
+  await expect(lab.id('plant-remark')).toContainText((1 / (1 - (18.9 * 6.6) / (25.6 * 19.4))).toFixed(3));
+  await lab.id('g11').fill('25.6 exp(-2 s)/(tau s + 1)');
   const problem = page.locator('#g11-problem');
   await expect(problem).toContainText('“tau” is not known');
-  await expect(problem.locator('pre')).toHaveText('6.4 exp(-2 s)/(tau s + 1)\n               ^^^');
+  await expect(problem.locator('pre')).toHaveText('25.6 exp(-2 s)/(tau s + 1)\n                ^^^');
   await lab.axe();
   await lab.id('g11').fill('(s + 1)/(2 s + 1)');
   await expect(problem).toContainText('biproper');
   // The plant is as it was; Escape gives its formula back.
   await lab.id('g11').press('Escape');
-  await expect(lab.id('g11')).toHaveValue('6.4 exp(-2 s)/(16.7 s + 1)');
+  await expect(lab.id('g11')).toHaveValue('25.6 exp(-2 s)/(16.7 s + 1)');
   await expect(problem).toHaveCount(0);
   await lab.id('undo').click();
   await lab.settle();
