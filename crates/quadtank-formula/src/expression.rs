@@ -2,7 +2,7 @@ use std::collections::HashMap;
 use std::ops::Range;
 
 use crate::delay::{delayed, transfer_function};
-use crate::quotient::Quotient;
+use crate::quotient::{MAX_EXPONENT, Quotient};
 use crate::token::{Token, TokenKind};
 use crate::value::Value;
 use crate::{FormulaError, FormulaFault};
@@ -176,7 +176,7 @@ impl<'a> Reader<'a> {
         }
         let exponent = self.exponent(blanks)?;
         combine(&base, &exponent, |base, exponent| {
-            base.power(exponent.as_number().ok_or(FormulaFault::Exponent { max: 16 })?)
+            base.power(exponent.as_number().ok_or(FormulaFault::Exponent { max: MAX_EXPONENT })?)
         })
     }
 
@@ -326,16 +326,13 @@ fn call(name: &str, arguments: &[Written], span: Range<usize>) -> Read {
         ("tf" | "TransferFunction", [numerator, denominator, options @ ..]) => {
             let mut value = transfer_function(&numerator.value, &denominator.value).map_err(at)?;
             for option in options.chunks(2) {
-                let of = |written: &Written| written.span.clone();
-                value = match option {
-                    [Written { value: Value::Text(property), .. }, delay] => delayed(&value, property, &delay.value)
-                        .map_err(|fault| FormulaError::new(fault, of(&option[0]).start..of(delay).end))?,
-                    // A third number would be a sampling time.
-                    _ => {
-                        let found = "…".to_owned();
-                        return Err(FormulaError::new(FormulaFault::Unexpected { found }, of(&option[0])));
-                    }
+                // A third number would be a sampling time.
+                let [Written { value: Value::Text(property), span: name }, delay] = option else {
+                    let found = "…".to_owned();
+                    return Err(FormulaError::new(FormulaFault::Unexpected { found }, option[0].span.clone()));
                 };
+                let place = name.start..delay.span.end;
+                value = delayed(&value, property, &delay.value).map_err(|fault| FormulaError::new(fault, place))?;
             }
             Ok(Written { value, span })
         }

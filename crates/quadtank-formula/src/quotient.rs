@@ -4,7 +4,7 @@ use quadtank::study::relay_tuning::Element;
 /// Highest degree of a polynomial, so that powers of powers have an end.
 const MAX_DEGREE: usize = 32;
 /// Largest magnitude of an exponent.
-const MAX_EXPONENT: i32 = 16;
+pub const MAX_EXPONENT: i32 = 16;
 
 type Calculated = Result<Quotient, FormulaFault>;
 
@@ -45,7 +45,9 @@ impl Quotient {
             if number == 0.0 {
                 return Err(FormulaFault::DivisionByZero);
             }
-            numerator.iter_mut().for_each(|c| *c /= number);
+            for coefficient in &mut numerator {
+                *coefficient /= number;
+            }
             denominator = vec![1.0];
         }
         if dead_time < 0.0 {
@@ -84,7 +86,9 @@ impl Quotient {
     }
 
     pub fn negative(mut self) -> Self {
-        self.numerator.iter_mut().for_each(|c| *c = -*c);
+        for coefficient in &mut self.numerator {
+            *coefficient = -*coefficient;
+        }
         self
     }
 
@@ -105,14 +109,14 @@ impl Quotient {
 
     /// A whole power.
     pub fn power(&self, exponent: f64) -> Calculated {
-        let wrong = FormulaFault::Exponent { max: MAX_EXPONENT };
-        if exponent.fract() != 0.0 || exponent.abs() > f64::from(MAX_EXPONENT) {
-            return Err(wrong);
-        }
+        let whole = (-MAX_EXPONENT..=MAX_EXPONENT).find(|&whole| f64::from(whole) == exponent);
+        let whole = whole.ok_or(FormulaFault::Exponent { max: MAX_EXPONENT })?;
         let one = Self::number(1.0);
-        let magnitude = exponent.abs() as usize;
-        let power = std::iter::repeat_n(self, magnitude).try_fold(one.clone(), |so_far, base| so_far.times(base))?;
-        if exponent < 0.0 { one.over(&power) } else { Ok(power) }
+        let mut power = one.clone();
+        for _ in 0..whole.unsigned_abs() {
+            power = power.times(self)?;
+        }
+        if whole < 0 { one.over(&power) } else { Ok(power) }
     }
 
     /// `e` to the power of it, which is a dead time.
