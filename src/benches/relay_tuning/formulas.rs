@@ -265,8 +265,8 @@ mod tests {
         assert_eq!((&rows[0][0], &rows[0][1], &rows[1]), (&element, &column[0][1], &column[1]));
         assert_eq!((changed.test, changed.design, changed.response), (setup.test, setup.design, setup.response));
 
-        // A lag of a nanosecond cannot be followed for 400 minutes, so that the records become shorter.
-        let quick = ["1/(1e-9 s + 1)", "0", "0", "1/(1e-9 s + 1)"].map(|text| element_from_formula(text).unwrap());
+        // A lag of a microsecond cannot be followed for 400 minutes, so that the records become shorter.
+        let quick = ["1/(1e-6 s + 1)", "0", "0", "1/(1e-6 s + 1)"].map(|text| element_from_formula(text).unwrap());
         let [g11, g12, g21, g22] = quick;
         let own =
             TuningSetup { plant: TuningPlant::Elements([[g11.clone(), g12.clone()], [g21, g22.clone()]]), ..setup };

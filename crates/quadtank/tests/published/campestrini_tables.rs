@@ -23,10 +23,14 @@ fn within(found: f64, printed: f64, half_unit: f64) {
 #[test]
 fn table_1_and_2_rules() {
     let point = UltimatePoint { gain: 2.0, period: 10.0 };
-    let rows = TuningRule::ALL.map(|rule| {
-        let c = rule.settings(point);
-        (c.gain, c.integral_time, c.derivative_time)
-    });
+    // The variant of 1942 is not in these tables.
+    let printed = TuningRule::ALL.into_iter().filter(|rule| *rule != TuningRule::ZieglerNichols1942Pi);
+    let rows: Vec<_> = printed
+        .map(|rule| {
+            let c = rule.settings(point);
+            (c.gain, c.integral_time, c.derivative_time)
+        })
+        .collect();
     let expected = [
         (1.0, f64::INFINITY, 0.0),
         (0.8, 8.0, 0.0),
@@ -34,6 +38,7 @@ fn table_1_and_2_rules() {
         (2.0 / 3.2, 22.0, 0.0),
         (2.0 / 2.2, 22.0, 10.0 / 6.3),
     ];
+    assert_eq!(rows.len(), expected.len());
     for (found, expected) in rows.into_iter().zip(expected) {
         assert_relative_eq!(found.0, expected.0, max_relative = 1e-15);
         assert!(found.1 == expected.1 || (found.1 - expected.1).abs() < 1e-12);

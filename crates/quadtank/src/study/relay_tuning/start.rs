@@ -18,6 +18,14 @@ const TEST_PERIODS: f64 = 25.0;
 const RESPONSE_PERIODS: f64 = 12.0;
 const ROWS: f64 = 200.0;
 const NO_PERIOD: f64 = 100.0;
+/// The longest such period in time constants of the quickest pole, so that its record can be followed.
+const QUICKEST_IN_PERIOD: f64 = 1000.0;
+
+/// The period that records are made for where nothing oscillates.
+fn period_without_oscillation(plant: &TuningPlant) -> f64 {
+    let quickest = plant.pace().map_or(0.0, |(quickest, _)| quickest);
+    NO_PERIOD.min(QUICKEST_IN_PERIOD / quickest)
+}
 
 impl TestSpec {
     /// Ideal relays of amplitude 1 in both loops.
@@ -62,7 +70,7 @@ impl TuningSetup {
         let limit = PlantStudy::of(&plant).map(|study| study.search.limit(importance_direction(&study.dc_gain, 1.0)));
         let period = match limit {
             Ok(GainLimit::Oscillation(point)) => TAU / point.frequency,
-            _ => NO_PERIOD,
+            _ => period_without_oscillation(&plant),
         };
         Self {
             plant,
