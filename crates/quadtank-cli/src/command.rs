@@ -161,7 +161,7 @@ enum Command {
     /// Print a relay-tuning session (version 2) on the plant that lines of MATLAB or python-control define
     ///
     /// Understood are assignments, `s = tf('s')` and formulas in s, `tf(numerator, denominator)` with falling powers of s, matrices
-    /// `[g11, g12; g21, g22]`, and the options and properties InputDelay, OutputDelay and `IODelay`. The last plant with two inputs and
+    /// `[g11, g12; g21, g22]`, and the options and properties `InputDelay`, `OutputDelay` and `IODelay`. The last plant with two inputs and
     /// two outputs counts.
     Elements {
         /// Script, or - for standard input
