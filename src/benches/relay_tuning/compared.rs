@@ -32,7 +32,7 @@ struct Compared {
 fn table(session: Session) -> impl IntoView {
     let lab = session.lab;
     let rows = rows(session).into_iter().map(|row| row_of(session, row)).collect::<Vec<_>>();
-    let columns = [&*tr!(lab, relay.controllers), "Lc (dB)", "Ms", "IAE y₁", "IAE y₂", &*tr!(lab, relay.take_over)];
+    let columns = [&*tr!(lab, relay.controllers), "Lc (dB)", "Ms", "IAE y₁", "IAE y₂", &*tr!(lab, relay.use_these)];
     view! { <TableContent caption=tr!(lab, relay.side_by_side) columns=columns.map(str::to_owned).to_vec() rows /> }
 }
 
@@ -81,7 +81,7 @@ fn row_of(session: Session, row: Compared) -> AnyView {
                         disabled=lab.locks(locks::TARGET)
                         on:click=take
                     >
-                        {say!(lab, relay.take_over)}
+                        {say!(lab, relay.use_these)}
                         <span class="visually-hidden">" " {row.name}</span>
                     </button>
                 }
