@@ -1,19 +1,7 @@
 // The laboratory in a browser.
-import { begin } from './functions.js';
+import { begin } from './begin.js';
 
-export {
-  analyse,
-  fromLink,
-  link,
-  plot,
-  published,
-  publishedNames,
-  quantities,
-  simulate,
-  simulateCsv,
-  tune,
-  warnings,
-} from './functions.js';
+export * from './functions.js';
 
 /** Loads the laboratory, from beside this file if nothing else is said. */
 export default function init(source = new URL('./quadtank_bg.wasm', import.meta.url)) {

@@ -41,7 +41,7 @@ fn to_digits(found: &[f64], expected: &[f64], last_digit: f64, what: &str) {
     }
 }
 
-/// What is told of `preset.printed` is what the source prints.
+/// `preset.printed` holds the figures that the source prints and no others.
 #[track_caller]
 fn is_printed(preset: &Preset, levels_in_unit: [f64; 4], unit: f64, decimals: usize) {
     let printed = preset.printed.unwrap();

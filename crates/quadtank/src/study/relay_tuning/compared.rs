@@ -9,7 +9,7 @@ use crate::tuning::{PairRule, PairRuleError, TuningError};
 
 use super::{DesignRoot, GivenPid, LoopPeaks, PlantStudy, TuningPlant, TuningSetup};
 
-/// A pair of controllers and what it does in the response of a session, without a decoupler.
+/// Stability, robustness and step figures of a loop with a pair of controllers, in the response of a session without its decoupler.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JudgedControllers {
     /// Whether the loop is stable.

@@ -15,7 +15,8 @@ use super::{Comparison, CriticalSpec, DesignSpec, GivenPid, PlantStudy, StepResp
 /// The controllers of a session, both roots of a placement or given ones, with what they do.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Designed {
-    /// The critical point of the session; `None` with given controllers where the curve has none for the importance r2 asked for.
+    /// The critical point of the session. `None` is possible with given controllers only: the critical curve has no point of the
+    /// importance r2 that the session names.
     pub critical: Option<CriticalResponse>,
     /// Root 1, with the larger controller in loop 1, and root 2; given controllers alone.
     pub roots: Vec<DesignRoot>,
