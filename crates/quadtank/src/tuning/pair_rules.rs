@@ -251,14 +251,12 @@ mod tests {
         assert!(detuned.gain < plain.gain && detuned.integral_time > plain.integral_time);
     }
 
-    /// Skogestad (2003), example E1: a second-order process with dead time, `e^(−s)/((20 s + 1)(2 s + 1))`, and its half rule:
-    /// τ = 21, θ = 2, so that Kc = 21/4 and Ti = 16.
+    /// Skogestad (2003), case E1, `1/((s + 1)(0.2 s + 1))`: τ = 1.1 and θ = 0.1 by the half rule, PI with Kc = 5.5 and τI = 0.8.
     #[test]
     fn simc_settings_follow_the_half_rule() {
-        let element = TransferFunction::lags(1.0, &[20.0, 2.0], 1.0).unwrap();
-        let settings = first(PairRule::Simc, element).unwrap();
-        assert_relative_eq!(settings.gain, 21.0 / 4.0, max_relative = 1e-9);
-        assert_relative_eq!(settings.integral_time, 16.0, max_relative = 1e-9);
+        let settings = first(PairRule::Simc, TransferFunction::lags(1.0, &[1.0, 0.2], 0.0).unwrap()).unwrap();
+        assert_relative_eq!(settings.gain, 5.5, max_relative = 1e-9);
+        assert_relative_eq!(settings.integral_time, 0.8, max_relative = 1e-9);
         // A zero in the right half-plane is a dead time.
         let inverse = TransferFunction::new(vec![1.0, -3.0], vec![1.0, 30.0], 1.0).unwrap();
         let settings = first(PairRule::Simc, inverse).unwrap();
