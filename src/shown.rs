@@ -61,6 +61,8 @@ impl ShownUnit {
     pub const FLOW: Self = Self { name: "cm³/s", per_unit: 1e6 };
     /// Of small areas (m²).
     pub const SMALL_AREA: Self = Self { name: "mm²", per_unit: 1e6 };
+    /// Of shares.
+    pub const PER_CENT: Self = Self { name: "%", per_unit: 100.0 };
 
     /// Of lengths (m).
     pub const fn length(unit: DisplayUnit) -> Self {

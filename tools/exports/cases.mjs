@@ -54,6 +54,18 @@ export const CASES = [
       ],
     },
   },
+  {
+    name: 'pumps, valves and outlets that change',
+    preset: P_MINUS,
+    set: {
+      'setup.experiment.load_steps': [
+        { time_s: 200.25, load: { pump_gain: { pump: 0, change: -0.2 } } },
+        { time_s: 300, load: { valve: { valve: 1, change: -0.1 } } },
+        { time_s: 500.5, load: { outlet: { tank: 3, change: -1 } } },
+        { time_s: 900, load: { outlet: { tank: 3, change: 1 } } },
+      ],
+    },
+  },
   { name: 'levels as operating point', preset: COCOTA_PLUS, set: { 'setup.operating_point': { levels: [0.12, 0.14] } } },
   {
     name: 'tanks overflow and come down again',

@@ -4,7 +4,7 @@ use std::array::from_fn;
 
 use quadtank::control::{AntiWindup, LoopMode, PiSettings};
 use quadtank::plant::{Pump, Tank};
-use quadtank::sim::{Experiment, Load};
+use quadtank::sim::Load;
 use quadtank::study::quadruple_tank::{OperatingPointSpec, Setup};
 
 /// Something that a script gives a name.
@@ -44,6 +44,9 @@ pub fn item(name: &'static str, value: Value, comment: &'static str) -> Item {
     Item { name, value, comment }
 }
 
+/// Flow that no pump has (m³/s), for a pump without a largest flow.
+const NO_LIMIT: f64 = 1e9;
+
 /// Rig, operating point, controller and experiment of a setup.
 pub fn sections(setup: &Setup) -> [Section; 4] {
     [rig(setup), operating_point(setup), controller(setup), experiment(setup)]
@@ -64,6 +67,13 @@ fn rig(setup: &Setup) -> Section {
             item("pump_gain", pumps(|pump| pump.gain), "k (m^3/(s V))"),
             item("pump_min", pumps(|pump| pump.voltage_min), "lowest voltage (V)"),
             item("pump_max", pumps(|pump| pump.voltage_max), "highest voltage (V)"),
+            item("pump_offset", pumps(|pump| pump.offset), "flow of the straight line of the curve at 0 V (m^3/s)"),
+            item("pump_start", pumps(|pump| pump.start_voltage), "voltage below which the pump gives nothing (V)"),
+            item(
+                "pump_flow_max",
+                pumps(|pump| pump.flow_max.unwrap_or(NO_LIMIT)),
+                "largest flow (m^3/s); 1e9 for none",
+            ),
             item("gamma", Value::Numbers(plant.valves.to_vec()), "share of each pump that goes to its lower tank"),
             item("power_gain", Value::Number(plant.power_gain), "pump voltage per controller output"),
             item("sensor_gain", Value::Number(plant.sensor.gain), "k_c (V/m)"),
@@ -122,21 +132,23 @@ fn experiment(setup: &Setup) -> Section {
     let moves = experiment.pump_voltage_steps.iter().map(|step| (step.time_s, step.pump, step.voltage)).collect();
     let initial_level = experiment.initial_levels.map_or(Value::Missing, |levels| Value::Numbers(levels.to_vec()));
     let steps = experiment.set_point_steps.iter().map(|step| (step.time_s, step.level, step.size)).collect();
+    let loads = |of: &dyn Fn(Load) -> Option<(usize, f64)>| {
+        let kind = experiment
+            .load_steps
+            .iter()
+            .filter_map(|step| of(step.load).map(|(index, size)| (step.time_s, index, size)));
+        Value::Changes(in_order(kind.collect()))
+    };
     Section {
         title: "The experiment: steps and loads in the order of their times, each of which stays.",
         items: vec![
             item("set_point_steps", Value::Changes(in_order(steps)), "time (s), loop, change of its reference (m)"),
-            item(
-                "pump_loads",
-                Value::Changes(in_order(pump_loads(experiment))),
-                "time (s), pump, additional flow (m^3/s)",
-            ),
-            item(
-                "tank_flows",
-                Value::Changes(in_order(tank_flows(experiment))),
-                "time (s), tank, additional flow from outside (m^3/s)",
-            ),
-            item("leaks", Value::Changes(in_order(leaks(experiment))), "time (s), tank, area of the hole (m^2)"),
+            item("pump_loads", loads(&pump_flow), "time (s), pump, additional flow (m^3/s)"),
+            item("tank_flows", loads(&tank_flow), "time (s), tank, additional flow from outside (m^3/s)"),
+            item("leaks", loads(&leak), "time (s), tank, area of the hole (m^2)"),
+            item("pump_gain_changes", loads(&pump_gain), "time (s), pump, share by which its flow grows"),
+            item("valve_changes", loads(&valve), "time (s), valve, change of gamma"),
+            item("outlet_changes", loads(&outlet), "time (s), tank, share by which its outlet widens"),
             item("initial_level", initial_level, "levels at the start (m); none for those at rest"),
             item(
                 "pump_moves",
@@ -152,28 +164,28 @@ fn experiment(setup: &Setup) -> Section {
     }
 }
 
-fn pump_loads(experiment: &Experiment) -> Vec<(f64, usize, f64)> {
-    let flow = |time, load| match load {
-        Load::PumpFlow { pump, flow } => Some((time, pump, flow)),
-        Load::Leak { .. } | Load::TankFlow { .. } => None,
-    };
-    experiment.load_steps.iter().filter_map(|step| flow(step.time_s, step.load)).collect()
+fn pump_flow(load: Load) -> Option<(usize, f64)> {
+    if let Load::PumpFlow { pump, flow } = load { Some((pump, flow)) } else { None }
 }
 
-fn leaks(experiment: &Experiment) -> Vec<(f64, usize, f64)> {
-    let leak = |time, load| match load {
-        Load::Leak { tank, area } => Some((time, tank, area)),
-        Load::PumpFlow { .. } | Load::TankFlow { .. } => None,
-    };
-    experiment.load_steps.iter().filter_map(|step| leak(step.time_s, step.load)).collect()
+fn tank_flow(load: Load) -> Option<(usize, f64)> {
+    if let Load::TankFlow { tank, flow } = load { Some((tank, flow)) } else { None }
 }
 
-fn tank_flows(experiment: &Experiment) -> Vec<(f64, usize, f64)> {
-    let flow = |time, load| match load {
-        Load::TankFlow { tank, flow } => Some((time, tank, flow)),
-        Load::PumpFlow { .. } | Load::Leak { .. } => None,
-    };
-    experiment.load_steps.iter().filter_map(|step| flow(step.time_s, step.load)).collect()
+fn leak(load: Load) -> Option<(usize, f64)> {
+    if let Load::Leak { tank, area } = load { Some((tank, area)) } else { None }
+}
+
+fn pump_gain(load: Load) -> Option<(usize, f64)> {
+    if let Load::PumpGain { pump, change } = load { Some((pump, change)) } else { None }
+}
+
+fn valve(load: Load) -> Option<(usize, f64)> {
+    if let Load::Valve { valve, change } = load { Some((valve, change)) } else { None }
+}
+
+fn outlet(load: Load) -> Option<(usize, f64)> {
+    if let Load::Outlet { tank, change } = load { Some((tank, change)) } else { None }
 }
 
 fn in_order(mut changes: Vec<(f64, usize, f64)>) -> Vec<(f64, usize, f64)> {

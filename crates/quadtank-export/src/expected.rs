@@ -15,7 +15,7 @@ const CHECKS: usize = 10;
 /// [`StudyError`] where the setup has no operating point, no linear model, or a run that takes too much work.
 pub fn section(setup: &Setup) -> Result<Section, StudyError> {
     let mut setup = setup.clone();
-    setup.experiment.measurement.noise_std = 0.0;
+    setup.experiment = setup.experiment.without_noise();
     let analysis = analyse(&setup)?;
     let run = run(&setup)?.nonlinear;
     let rows = checked_rows(&run, setup.controller.sampling_time_s);

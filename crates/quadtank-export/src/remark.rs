@@ -19,6 +19,10 @@ pub fn head(scenario: &Scenario, language: Language) -> String {
              are those of the same experiment without noise."
         ));
     }
+    let flow_noise = scenario.setup.experiment.pump_flow_noise_std;
+    if flow_noise > 0.0 {
+        text.push(format!("So is the noise of the flow of the pumps with a standard deviation {flow_noise:?} m^3/s."));
+    }
     comment(&text.join("\n"), language.comment_mark())
 }
 

@@ -33,20 +33,30 @@ area(level) = TANK_AREA .+ TANK_AREA_SLOPE .* max.(level, 0.0)
 "Flow through each outlet (m^3/s): Torricelli's law with a loss coefficient (Cocota eqs. 2.26 and 2.32)."
 outflow(level) = LOSS_COEFFICIENT .* OUTLET_AREA .* sqrt.(2 * GRAVITY .* max.(level, 0.0))
 
+"What acts on the rig: flows (m^3/s) added to pumps and tanks, holes (m^2), and changes of pumps, valves and outlets."
+no_loads() = (pump_flow = zeros(2), tank_flow = zeros(4), leak_area = zeros(4),
+              pump_gain = zeros(2), valve = zeros(2), outlet = zeros(4))
+
+"Flow of each pump (m^3/s): a straight line (Cocota eq. 2.25) that may have a dead zone, an offset and an end."
+pump_flow(voltage) = ifelse.(voltage .< PUMP_START, 0.0, clamp.(PUMP_GAIN .* voltage .+ PUMP_OFFSET, 0.0, PUMP_FLOW_MAX))
+
 "Flow from the pumps into each tank (m^3/s). A load adds to the flow of a pump ahead of its valve; no pump sucks."
-function valve_flows(voltage, pump_load)
-    q1, q2 = max.(PUMP_GAIN .* voltage .+ pump_load, 0.0)
-    gamma1, gamma2 = GAMMA
+function valve_flows(voltage, loads)
+    q1, q2 = max.(max.(1 .+ loads.pump_gain, 0.0) .* pump_flow(voltage) .+ loads.pump_flow, 0.0)
+    gamma1, gamma2 = clamp.(GAMMA .+ loads.valve, 0.0, 1.0)
     return [gamma1 * q1, gamma2 * q2, (1 - gamma2) * q2, (1 - gamma1) * q1]
 end
 
 "Flow into each tank from outside of the rig (m^3/s). A load adds to it; nothing is drawn that way."
-outside_flows(tank_load) = max.(INFLOW .+ tank_load, 0.0)
+outside_flows(loads) = max.(INFLOW .+ loads.tank_flow, 0.0)
+
+"What each outlet has of its area."
+outlet_share(loads) = max.(1 .+ loads.outlet, 0.0)
 
 "Flow into each tank, and out of it through outlet and leak (m^3/s): Cocota eqs. 3.1 to 3.4, Johansson eq. (1)."
-function flows(level, pumped, leak_area)
-    out = outflow(level)
-    leak = leak_area .* sqrt.(2 * GRAVITY .* max.(level, 0.0))
+function flows(level, pumped, loads)
+    out = outlet_share(loads) .* outflow(level)
+    leak = loads.leak_area .* sqrt.(2 * GRAVITY .* max.(level, 0.0))
     return pumped .+ [out[3], out[4], 0.0, 0.0], out .+ leak
 end
 
@@ -57,9 +67,10 @@ function operating_point()
     voltage = REST_VOLTAGE
     if isnothing(voltage)
         mixing = [gamma1*k1 (1-gamma2)*k2; (1-gamma1)*k1 gamma2*k2]
-        voltage = mixing \ (outflow([REST_LEVEL; 0.0; 0.0])[1:2] .- INFLOW[1:2] .- INFLOW[3:4])
+        needed = outflow([REST_LEVEL; 0.0; 0.0])[1:2] .- INFLOW[1:2] .- INFLOW[3:4]
+        voltage = mixing \ needed .- PUMP_OFFSET ./ PUMP_GAIN
     end
-    pumped = valve_flows(voltage, zeros(2)) .+ INFLOW
+    pumped = valve_flows(voltage, no_loads()) .+ INFLOW
     inflow = pumped .+ [pumped[3], pumped[4], 0.0, 0.0]
     level = (inflow ./ (LOSS_COEFFICIENT .* OUTLET_AREA)) .^ 2 ./ (2 * GRAVITY)
     if !isnothing(REST_LEVEL)
@@ -208,49 +219,52 @@ end
 dh/dt of each tank (m/s) but for those that are held: a full tank stays full while more comes in than drains, and the
 excess leaves the plant.
 """
-function slopes(level, pumped, leak_area, held)
-    inflow, drain = flows(level, pumped, leak_area)
+function slopes(level, pumped, loads, held)
+    inflow, drain = flows(level, pumped, loads)
     return ifelse.(held, 0.0, (inflow .- drain) ./ area(level))
 end
 
 "One step of the classical method of Runge and Kutta."
-function runge_kutta(level, pumped, leak_area, held, step)
-    k1 = slopes(level, pumped, leak_area, held)
-    k2 = slopes(level .+ step / 2 .* k1, pumped, leak_area, held)
-    k3 = slopes(level .+ step / 2 .* k2, pumped, leak_area, held)
-    k4 = slopes(level .+ step .* k3, pumped, leak_area, held)
+function runge_kutta(level, pumped, loads, held, step)
+    k1 = slopes(level, pumped, loads, held)
+    k2 = slopes(level .+ step / 2 .* k1, pumped, loads, held)
+    k3 = slopes(level .+ step / 2 .* k2, pumped, loads, held)
+    k4 = slopes(level .+ step .* k3, pumped, loads, held)
     return level .+ step / 6 .* (k1 .+ 2 .* k2 .+ 2 .* k3 .+ k4)
 end
 
 "Whether a tank has become higher than its wall, or one that was full would fall."
-function meets_wall(level, pumped, leak_area, full)
-    inflow, drain = flows(level, pumped, leak_area)
+function meets_wall(level, pumped, loads, full)
+    inflow, drain = flows(level, pumped, loads)
     above = .!full .& (level .> TANK_HEIGHT .* (1 + 1e-12))
     return any(above) || any(full .& (inflow .< drain))
 end
 
 "Level (m) at which each tank would lose just what it gets."
-level_at_rest(inflow, leak_area) = (inflow ./ (LOSS_COEFFICIENT .* OUTLET_AREA .+ leak_area)) .^ 2 ./ (2 * GRAVITY)
+function level_at_rest(inflow, loads)
+    drains = outlet_share(loads) .* LOSS_COEFFICIENT .* OUTLET_AREA .+ loads.leak_area
+    return (inflow ./ drains) .^ 2 ./ (2 * GRAVITY)
+end
 
 "Levels (m) after a duration (s) in which nothing is changed from outside. A step ends where a tank fills up or begins to fall."
-function advance(level, pumped, leak_area, duration)
+function advance(level, pumped, loads, duration)
     left = duration
     while left > 0
-        inflow, drain = flows(level, pumped, leak_area)
+        inflow, drain = flows(level, pumped, loads)
         if all(abs.(inflow .- drain) .<= 8 * eps() .* inflow)
             return level  # at rest, apart from rounding
         end
         full = (level .>= TANK_HEIGHT) .& (inflow .> drain)
-        longest, still = longest_step(level, inflow, drain, leak_area, full)
+        longest, still = longest_step(level, inflow, drain, loads, full)
         step = min(left, longest)
-        next = part_of_step(level, pumped, leak_area, full, still, step)
-        if meets_wall(next, pumped, leak_area, full)
+        next = part_of_step(level, pumped, loads, full, still, step)
+        if meets_wall(next, pumped, loads, full)
             # By bisection: the time of the first change, from its later side.
             early = 0.0
             while step - early > 1e-12 * duration
                 middle = (early + step) / 2
-                there = part_of_step(level, pumped, leak_area, full, still, middle)
-                if meets_wall(there, pumped, leak_area, full)
+                there = part_of_step(level, pumped, loads, full, still, middle)
+                if meets_wall(there, pumped, loads, full)
                     step, next = middle, there
                 else
                     early = middle
@@ -268,9 +282,9 @@ Length of a step (s) that is short against how fast levels change, as shares of 
 so a hundred times as quick as another, holds so little that longer steps do. Once it is at rest it is still: it follows
 its inflow.
 """
-function longest_step(level, inflow, drain, leak_area, full)
+function longest_step(level, inflow, drain, loads, full)
     speed = max.(inflow, drain) ./ (2 .* area(level))
-    quick = speed ./ max.(level, level_at_rest(inflow, leak_area))
+    quick = speed ./ max.(level, level_at_rest(inflow, loads))
     stiff = .!full .& (inflow .> 0) .& (quick .> 100 * minimum(quick[speed .> 0]))
     still = stiff .& (abs.(inflow .- drain) .<= 1e-8 .* inflow)
     slow = .!full .& .!stiff .& (speed .> 0)
@@ -279,10 +293,10 @@ function longest_step(level, inflow, drain, leak_area, full)
 end
 
 "Levels (m) after a part of a step (s)."
-function part_of_step(level, pumped, leak_area, full, still, time)
-    level = runge_kutta(level, pumped, leak_area, full .| still, time)
-    inflow, _ = flows(level, pumped, leak_area)
-    return ifelse.(still, level_at_rest(inflow, leak_area), level)
+function part_of_step(level, pumped, loads, full, still, time)
+    level = runge_kutta(level, pumped, loads, full .| still, time)
+    inflow, _ = flows(level, pumped, loads)
+    return ifelse.(still, level_at_rest(inflow, loads), level)
 end
 
 "Adds all changes that are due to what they change. Returns those that are not."
@@ -299,9 +313,11 @@ function simulate(level, voltage)
     slack = 1e-9 * SAMPLING_TIME
     reference = level[1:2]
     loops = [Pi(i, voltage[PUMP_OF_LOOP[i]] / POWER_GAIN, SENSOR_GAIN * level[i]) for i in 1:2]
-    pump_load, tank_load, leak_area = zeros(2), zeros(4), zeros(4)
+    loads = no_loads()
     level, voltage = min.(isnothing(INITIAL_LEVEL) ? level : INITIAL_LEVEL, TANK_HEIGHT), copy(voltage)
-    steps, loads, tank_flows, leaks = SET_POINT_STEPS, PUMP_LOADS, TANK_FLOWS, LEAKS
+    steps = SET_POINT_STEPS
+    changes = [PUMP_LOADS, TANK_FLOWS, LEAKS, PUMP_GAIN_CHANGES, VALVE_CHANGES, OUTLET_CHANGES]
+    acting = [loads.pump_flow, loads.tank_flow, loads.leak_area, loads.pump_gain, loads.valve, loads.outlet]
     hand = copy(voltage)
     rows = Vector{Float64}[]
     for k in 0:floor(Int, END_TIME / SAMPLING_TIME + 1e-9)
@@ -321,13 +337,11 @@ function simulate(level, voltage)
         # Loads begin at their exact times, between samples too.
         due = time + slack
         while time < last
-            loads = act!(pump_load, loads, due)
-            tank_flows = act!(tank_load, tank_flows, due)
-            leaks = act!(leak_area, leaks, due)
-            coming = filter(begins -> begins < last - slack, [loads[:, 1]; tank_flows[:, 1]; leaks[:, 1]])
+            changes = [act!(values, pending, due) for (values, pending) in zip(acting, changes)]
+            coming = filter(begins -> begins < last - slack, vcat([pending[:, 1] for pending in changes]...))
             next = minimum([coming; last])
-            fed = valve_flows(voltage, pump_load) .+ outside_flows(tank_load)
-            level = advance(level, fed, leak_area, next - time)
+            fed = valve_flows(voltage, loads) .+ outside_flows(loads)
+            level = advance(level, fed, loads, next - time)
             time = due = next
         end
         if time > rows[end][1] && last == END_TIME

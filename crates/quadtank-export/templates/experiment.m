@@ -55,24 +55,39 @@ function section = area(p, level)
   section = p.tank_area + p.tank_area_slope .* max(level, 0);
 end
 
-function pumped = valve_flows(p, voltage, pump_load)
-% Flow from the pumps into each tank (m^3/s). A load adds to the flow of a pump ahead of its valve; no pump sucks.
-  q = max(p.pump_gain .* voltage + pump_load, 0);
-  pumped = [p.gamma(1) * q(1), p.gamma(2) * q(2), (1 - p.gamma(2)) * q(2), (1 - p.gamma(1)) * q(1)];
+function loads = no_loads()
+% What acts on the rig: flows (m^3/s) added to pumps and tanks, holes (m^2), and changes of pumps, valves and outlets.
+  loads = struct('pump_flow', zeros(1, 2), 'tank_flow', zeros(1, 4), 'leak_area', zeros(1, 4), ...
+                 'pump_gain', zeros(1, 2), 'valve', zeros(1, 2), 'outlet', zeros(1, 4));
 end
 
-function outside = outside_flows(p, tank_load)
+function pumped = valve_flows(p, voltage, loads)
+% Flow from the pumps into each tank (m^3/s). A load adds to the flow of a pump ahead of its valve; no pump sucks. The curve
+% of a pump is a straight line (Cocota eq. 2.25) that may have a dead zone, an offset and an end.
+  curve = min(max(p.pump_gain .* voltage + p.pump_offset, 0), p.pump_flow_max);
+  curve(voltage < p.pump_start) = 0;
+  q = max(max(1 + loads.pump_gain, 0) .* curve + loads.pump_flow, 0);
+  gamma = min(max(p.gamma + loads.valve, 0), 1);
+  pumped = [gamma(1) * q(1), gamma(2) * q(2), (1 - gamma(2)) * q(2), (1 - gamma(1)) * q(1)];
+end
+
+function outside = outside_flows(p, loads)
 % Flow into each tank from outside of the rig (m^3/s). A load adds to it; nothing is drawn that way.
-  outside = max(p.inflow + tank_load, 0);
+  outside = max(p.inflow + loads.tank_flow, 0);
 end
 
-function [inflow, drain] = flows(p, level, pumped, leak_area)
+function share = outlet_share(loads)
+% What each outlet has of its area.
+  share = max(1 + loads.outlet, 0);
+end
+
+function [inflow, drain] = flows(p, level, pumped, loads)
 % Flow into each tank, and out of it through outlet and leak (m^3/s), by Torricelli's law with a loss coefficient: Cocota
 % eqs. 2.32 and 3.1 to 3.4, Johansson eq. (1).
   speed = sqrt(2 * p.gravity * max(level, 0));
-  out = p.loss_coefficient .* p.outlet_area .* speed;
+  out = outlet_share(loads) .* p.loss_coefficient .* p.outlet_area .* speed;
   inflow = pumped + [out(3), out(4), 0, 0];
-  drain = out + leak_area .* speed;
+  drain = out + loads.leak_area .* speed;
 end
 
 function [level, voltage] = operating_point(p)
@@ -80,10 +95,10 @@ function [level, voltage] = operating_point(p)
   voltage = p.rest_voltage;
   if isempty(voltage)
     mixing = [p.gamma(1), 1 - p.gamma(2); 1 - p.gamma(1), p.gamma(2)] * diag(p.pump_gain);
-    [~, needed] = flows(p, [p.rest_level, 0, 0], zeros(1, 4), zeros(1, 4));
-    voltage = (mixing \ (needed(1:2) - p.inflow(1:2) - p.inflow(3:4)).').';
+    [~, needed] = flows(p, [p.rest_level, 0, 0], zeros(1, 4), no_loads());
+    voltage = (mixing \ (needed(1:2) - p.inflow(1:2) - p.inflow(3:4)).').' - p.pump_offset ./ p.pump_gain;
   end
-  pumped = valve_flows(p, voltage, [0, 0]) + p.inflow;
+  pumped = valve_flows(p, voltage, no_loads()) + p.inflow;
   inflow = pumped + [pumped(3), pumped(4), 0, 0];
   level = (inflow ./ (p.loss_coefficient .* p.outlet_area)) .^ 2 / (2 * p.gravity);
   if ~isempty(p.rest_level)
@@ -216,54 +231,55 @@ end
 
 % ---------------------------------------------------------------- the run
 
-function slope = slopes(p, level, pumped, leak_area, held)
+function slope = slopes(p, level, pumped, loads, held)
 % dh/dt of each tank (m/s) but for those that are held: a full tank stays full while more comes in than drains, and the
 % excess leaves the plant.
-  [inflow, drain] = flows(p, level, pumped, leak_area);
+  [inflow, drain] = flows(p, level, pumped, loads);
   slope = (inflow - drain) ./ area(p, level);
   slope(held) = 0;
 end
 
-function level = runge_kutta(p, level, pumped, leak_area, held, step)
+function level = runge_kutta(p, level, pumped, loads, held, step)
 % One step of the classical method of Runge and Kutta.
-  k1 = slopes(p, level, pumped, leak_area, held);
-  k2 = slopes(p, level + step / 2 * k1, pumped, leak_area, held);
-  k3 = slopes(p, level + step / 2 * k2, pumped, leak_area, held);
-  k4 = slopes(p, level + step * k3, pumped, leak_area, held);
+  k1 = slopes(p, level, pumped, loads, held);
+  k2 = slopes(p, level + step / 2 * k1, pumped, loads, held);
+  k3 = slopes(p, level + step / 2 * k2, pumped, loads, held);
+  k4 = slopes(p, level + step * k3, pumped, loads, held);
   level = level + step / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
 end
 
-function yes = meets_wall(p, level, pumped, leak_area, full)
+function yes = meets_wall(p, level, pumped, loads, full)
 % Whether a tank has become higher than its wall, or one that was full would fall.
-  [inflow, drain] = flows(p, level, pumped, leak_area);
+  [inflow, drain] = flows(p, level, pumped, loads);
   yes = any(~full & level > p.tank_height * (1 + 1e-12)) || any(full & inflow < drain);
 end
 
-function level = level_at_rest(p, inflow, leak_area)
+function level = level_at_rest(p, inflow, loads)
 % Level (m) at which each tank would lose just what it gets.
-  level = (inflow ./ (p.loss_coefficient .* p.outlet_area + leak_area)) .^ 2 / (2 * p.gravity);
+  drains = outlet_share(loads) .* p.loss_coefficient .* p.outlet_area + loads.leak_area;
+  level = (inflow ./ drains) .^ 2 / (2 * p.gravity);
 end
 
-function level = advance(p, level, pumped, leak_area, duration)
+function level = advance(p, level, pumped, loads, duration)
 % Levels (m) after a duration (s) in which nothing is changed from outside. A step ends where a tank fills up or begins to fall.
   left = duration;
   while left > 0
-    [inflow, drain] = flows(p, level, pumped, leak_area);
+    [inflow, drain] = flows(p, level, pumped, loads);
     if all(abs(inflow - drain) <= 8 * eps * inflow)
       return;  % at rest, apart from rounding
     end
     full = level >= p.tank_height & inflow > drain;
-    [longest, still] = longest_step(p, level, inflow, drain, leak_area, full);
+    [longest, still] = longest_step(p, level, inflow, drain, loads, full);
     step = min(left, longest);
-    part = @(time) part_of_step(p, level, pumped, leak_area, full | still, still, time);
+    part = @(time) part_of_step(p, level, pumped, loads, full | still, still, time);
     next = part(step);
-    if meets_wall(p, next, pumped, leak_area, full)
+    if meets_wall(p, next, pumped, loads, full)
       % By bisection: the time of the first change, from its later side.
       early = 0;
       while step - early > 1e-12 * duration
         middle = (early + step) / 2;
         there = part(middle);
-        if meets_wall(p, there, pumped, leak_area, full)
+        if meets_wall(p, there, pumped, loads, full)
           step = middle; next = there;
         else
           early = middle;
@@ -275,22 +291,22 @@ function level = advance(p, level, pumped, leak_area, duration)
   end
 end
 
-function [longest, still] = longest_step(p, level, inflow, drain, leak_area, full)
+function [longest, still] = longest_step(p, level, inflow, drain, loads, full)
 % Length of a step (s) that is short against how fast levels change, as shares of themselves. A tank that is almost dry, and so
 % a hundred times as quick as another, holds so little that longer steps do. Once it is at rest it is still: it follows its inflow.
   speed = max(inflow, drain) ./ (2 * area(p, level));
-  quick = speed ./ max(level, level_at_rest(p, inflow, leak_area));
+  quick = speed ./ max(level, level_at_rest(p, inflow, loads));
   stiff = ~full & inflow > 0 & quick > 100 * min(quick(speed > 0));
   still = stiff & abs(inflow - drain) <= 1e-8 * inflow;
   slow = ~full & ~stiff & speed > 0;
   longest = min([max(1e-3, 0.05 / max([speed(slow) ./ level(slow), 0])), 0.5 ./ quick(stiff & ~still)]);
 end
 
-function level = part_of_step(p, level, pumped, leak_area, held, still, time)
+function level = part_of_step(p, level, pumped, loads, held, still, time)
 % Levels (m) after a part of a step (s).
-  level = runge_kutta(p, level, pumped, leak_area, held, time);
+  level = runge_kutta(p, level, pumped, loads, held, time);
   if any(still)
-    rest = level_at_rest(p, flows(p, level, pumped, leak_area), leak_area);
+    rest = level_at_rest(p, flows(p, level, pumped, loads), loads);
     level(still) = rest(still);
   end
 end
@@ -301,8 +317,10 @@ function run = simulate(p, level, voltage)
   for i = 1:2
     loops(i) = pi_at_rest(p, i, voltage(p.pump_of_loop(i)) / p.power_gain, p.sensor_gain * level(i));
   end
-  changes = {p.set_point_steps, p.pump_loads, p.leaks, p.tank_flows};
-  acting = {level(1:2), zeros(1, 2), zeros(1, 4), zeros(1, 4)};  % what they act on: references, flows, holes, flows from outside
+  loads = no_loads();
+  kinds = {'pump_flow', 'tank_flow', 'leak_area', 'pump_gain', 'valve', 'outlet'};
+  changes = {p.pump_loads, p.tank_flows, p.leaks, p.pump_gain_changes, p.valve_changes, p.outlet_changes};
+  steps = p.set_point_steps; reference = level(1:2);
   moves = p.pump_moves; hand = voltage;
   if ~isempty(p.initial_level)
     level = p.initial_level;
@@ -313,10 +331,10 @@ function run = simulate(p, level, voltage)
   for k = 0:samples
     time = k * p.sampling_time;
     last = min((k + 1) * p.sampling_time, p.end_time);
-    [changes{1}, acting{1}] = take(changes{1}, acting{1}, time + slack);
+    [steps, reference] = take(steps, reference, time + slack);
     measured = measure(p, level(1:2));
     for i = 1:2
-      [output, loops(i)] = pi_step(loops(i), time, p.sensor_gain * acting{1}(i), measured(i));
+      [output, loops(i)] = pi_step(loops(i), time, p.sensor_gain * reference(i), measured(i));
       voltage(p.pump_of_loop(i)) = p.power_gain * output;
     end
     [moves, hand] = move_pumps(moves, hand, time + slack);
@@ -325,22 +343,22 @@ function run = simulate(p, level, voltage)
         voltage(pump) = min(max(hand(pump), p.pump_min(pump)), p.pump_max(pump));
       end
     end
-    rows(k + 1, :) = [time, level, acting{1}, voltage];
+    rows(k + 1, :) = [time, level, reference, voltage];
     % Loads begin at their exact times, between samples too.
     due = time + slack;
     while time < last
-      for kind = 2:4
-        [changes{kind}, acting{kind}] = take(changes{kind}, acting{kind}, due);
+      next = last;
+      for kind = 1:numel(kinds)
+        [changes{kind}, loads.(kinds{kind})] = take(changes{kind}, loads.(kinds{kind}), due);
+        coming = changes{kind}(:, 1);
+        next = min([next; coming(coming < last - slack)]);
       end
-      coming = [changes{2}(:, 1); changes{3}(:, 1); changes{4}(:, 1)];
-      next = min([coming(coming < last - slack); last]);
-      fed = valve_flows(p, voltage, acting{2}) + outside_flows(p, acting{4});
-      level = advance(p, level, fed, acting{3}, next - time);
+      level = advance(p, level, valve_flows(p, voltage, loads) + outside_flows(p, loads), loads, next - time);
       time = next;
       due = time;
     end
   end
-  rows(end, :) = [time, level, acting{1}, voltage];
+  rows(end, :) = [time, level, reference, voltage];
   run = struct('time', rows(:, 1), 'level', rows(:, 2:5), 'reference', rows(:, 6:7), 'voltage', rows(:, 8:9));
 end
 

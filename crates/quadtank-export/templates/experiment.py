@@ -39,22 +39,36 @@ def outflow(level):
     return LOSS_COEFFICIENT * OUTLET_AREA * np.sqrt(2.0 * GRAVITY * np.maximum(level, 0.0))
 
 
-def valve_flows(voltage, pump_load):
+class Loads:
+    """What acts on the rig: flows (m^3/s) added to pumps and tanks, holes (m^2), and changes of pumps, valves and outlets."""
+
+    def __init__(self):
+        self.pump_flow, self.tank_flow, self.leak_area = np.zeros(2), np.zeros(4), np.zeros(4)
+        self.pump_gain, self.valve, self.outlet = np.zeros(2), np.zeros(2), np.zeros(4)
+
+
+def pump_flow(voltage):
+    """Flow of each pump (m^3/s): a straight line (Cocota eq. 2.25) that may have a dead zone, an offset and an end."""
+    line = np.clip(PUMP_GAIN * voltage + PUMP_OFFSET, 0.0, PUMP_FLOW_MAX)
+    return np.where(voltage < PUMP_START, 0.0, line)
+
+
+def valve_flows(voltage, loads):
     """Flow from the pumps into each tank (m^3/s). A load adds to the flow of a pump ahead of its valve; no pump sucks."""
-    q1, q2 = np.maximum(PUMP_GAIN * voltage + pump_load, 0.0)
-    gamma1, gamma2 = GAMMA
+    q1, q2 = np.maximum(np.maximum(1.0 + loads.pump_gain, 0.0) * pump_flow(voltage) + loads.pump_flow, 0.0)
+    gamma1, gamma2 = np.clip(GAMMA + loads.valve, 0.0, 1.0)
     return np.array([gamma1 * q1, gamma2 * q2, (1.0 - gamma2) * q2, (1.0 - gamma1) * q1])
 
 
-def outside_flows(tank_load):
+def outside_flows(loads):
     """Flow into each tank from outside of the rig (m^3/s). A load adds to it; nothing is drawn that way."""
-    return np.maximum(INFLOW + tank_load, 0.0)
+    return np.maximum(INFLOW + loads.tank_flow, 0.0)
 
 
-def flows(level, pumped, leak_area):
+def flows(level, pumped, loads):
     """Flow into each tank, and flow out of it through outlet and leak (m^3/s): Cocota eqs. 3.1 to 3.4, Johansson eq. (1)."""
-    out = outflow(level)
-    leak = leak_area * np.sqrt(2.0 * GRAVITY * np.maximum(level, 0.0))
+    out = np.maximum(1.0 + loads.outlet, 0.0) * outflow(level)
+    leak = loads.leak_area * np.sqrt(2.0 * GRAVITY * np.maximum(level, 0.0))
     return pumped + np.array([out[2], out[3], 0.0, 0.0]), out + leak
 
 
@@ -66,8 +80,9 @@ def operating_point():
         voltage = REST_VOLTAGE
     else:
         mixing = np.array([[gamma1 * k1, (1.0 - gamma2) * k2], [(1.0 - gamma1) * k1, gamma2 * k2]])
-        voltage = np.linalg.solve(mixing, outflow(np.append(REST_LEVEL, [0.0, 0.0]))[:2] - INFLOW[:2] - INFLOW[2:])
-    pumped = valve_flows(voltage, np.zeros(2)) + INFLOW
+        needed = outflow(np.append(REST_LEVEL, [0.0, 0.0]))[:2] - INFLOW[:2] - INFLOW[2:]
+        voltage = np.linalg.solve(mixing, needed) - PUMP_OFFSET / PUMP_GAIN
+    pumped = valve_flows(voltage, Loads()) + INFLOW
     inflow = pumped + np.array([pumped[2], pumped[3], 0.0, 0.0])
     level = (inflow / (LOSS_COEFFICIENT * OUTLET_AREA)) ** 2 / (2.0 * GRAVITY)
     if REST_LEVEL is not None:
@@ -196,17 +211,17 @@ def measure(level):
 
 # ---------------------------------------------------------------- the run
 
-def slopes(_, level, pumped, leak_area, full):
+def slopes(_, level, pumped, loads, full):
     """dh/dt of each tank (m/s); a full tank stays full while more comes in than drains, and the excess leaves the plant."""
-    inflow, drain = flows(level, pumped, leak_area)
+    inflow, drain = flows(level, pumped, loads)
     return np.where(full, 0.0, (inflow - drain) / area(level))
 
 
 def wall_event(tank):
     """Ends an integration where a tank fills up, or where a full tank begins to fall."""
-    def event(_, level, pumped, leak_area, full):
+    def event(_, level, pumped, loads, full):
         if full[tank]:
-            inflow, drain = flows(level, pumped, leak_area)
+            inflow, drain = flows(level, pumped, loads)
             return drain[tank] - inflow[tank]
         return level[tank] - TANK_HEIGHT[tank] * (1.0 + 1e-12)  # what rounding lifts is no overflow
     event.terminal, event.direction = True, 1.0
@@ -216,11 +231,11 @@ def wall_event(tank):
 WALL_EVENTS = [wall_event(tank) for tank in range(4)]
 
 
-def advance(level, pumped, leak_area, duration):
+def advance(level, pumped, loads, duration):
     """Levels (m) after a duration (s) in which nothing is changed from outside."""
     left = duration
     while left > 0.0:
-        inflow, drain = flows(level, pumped, leak_area)
+        inflow, drain = flows(level, pumped, loads)
         if np.all(np.abs(inflow - drain) <= 8.0 * np.finfo(float).eps * inflow):
             return level  # at rest, apart from rounding
         full = (level >= TANK_HEIGHT) & (inflow > drain)
@@ -229,7 +244,7 @@ def advance(level, pumped, leak_area, duration):
             rate = (np.maximum(inflow, drain) / (2.0 * area(level) * level))[moving].max(initial=0.0)
         # A tank that is almost dry makes the equations stiff.
         method = "DOP853" if left * rate < 50.0 else "Radau"
-        part = solve_ivp(slopes, (0.0, left), level, method, args=(pumped, leak_area, full), events=WALL_EVENTS,
+        part = solve_ivp(slopes, (0.0, left), level, method, args=(pumped, loads, full), events=WALL_EVENTS,
                          first_step=left, rtol=1e-10, atol=1e-13)
         if not part.success:
             raise RuntimeError(part.message)
@@ -245,9 +260,13 @@ def simulate(level, voltage):
     slack = 1e-9 * SAMPLING_TIME
     reference = level[:2].copy()
     loops = [Pi(i, voltage[PUMP_OF_LOOP[i]] / POWER_GAIN, SENSOR_GAIN * level[i]) for i in (0, 1)]
-    pump_load, tank_load, leak_area = np.zeros(2), np.zeros(4), np.zeros(4)
+    loads = Loads()
     level, voltage = np.minimum(level if INITIAL_LEVEL is None else INITIAL_LEVEL, TANK_HEIGHT), np.array(voltage)
-    steps, loads, tank_flows, leaks = list(SET_POINT_STEPS), list(PUMP_LOADS), list(TANK_FLOWS), list(LEAKS)
+    steps = list(SET_POINT_STEPS)
+    outside = [
+        (list(PUMP_LOADS), loads.pump_flow), (list(TANK_FLOWS), loads.tank_flow), (list(LEAKS), loads.leak_area),
+        (list(PUMP_GAIN_CHANGES), loads.pump_gain), (list(VALVE_CHANGES), loads.valve), (list(OUTLET_CHANGES), loads.outlet),
+    ]
     moves, hand = list(PUMP_MOVES), voltage.copy()
     by_hand = sorted({int(pump) for _, pump, _ in PUMP_MOVES})
     rows = []
@@ -271,13 +290,12 @@ def simulate(level, voltage):
             voltage[pump] = min(max(hand[pump], PUMP_MIN[pump]), PUMP_MAX[pump])
         rows.append((time, *level, *reference, *voltage))
         # Loads begin at their exact times, between samples too.
-        outside = ((loads, pump_load), (tank_flows, tank_load), (leaks, leak_area))
         for pending, acting in outside:
             take(pending, time + slack, acting)
         while time < end:
             coming = [pending[0][0] for pending, _ in outside if pending]
             following = min([begin for begin in coming if begin < end - slack], default=end)
-            level = advance(level, valve_flows(voltage, pump_load) + outside_flows(tank_load), leak_area, following - time)
+            level = advance(level, valve_flows(voltage, loads) + outside_flows(loads), loads, following - time)
             time = following
             if time < end:
                 for pending, acting in outside:

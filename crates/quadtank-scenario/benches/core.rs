@@ -13,8 +13,7 @@ use quadtank::literature::campestrini::PublishedPlant;
 use quadtank::literature::junqueira::{PublishedExperiment, PublishedValves};
 use quadtank::plant::{OperatingPoint, QuadrupleTank};
 use quadtank::sim::{
-    Experiment, Measurement, SetPointStep, TwoLoops, loop_metrics, run_two_loops, simulate, simulate_linear,
-    simulate_model_free,
+    Experiment, SetPointStep, TwoLoops, loop_metrics, run_two_loops, simulate, simulate_linear, simulate_model_free,
 };
 use quadtank::study::model_free::ModelFreeSetup;
 use quadtank::tuning::{CriticalCurve, CriticalSearch, Design, TestTime, frequency_range, simultaneous_test};
@@ -43,14 +42,8 @@ impl Bench {
         let law =
             DecentralisedPi { pairing: Pairing::Diagonal, loops: [pi(3.0, 30.0), pi(2.7, 40.0)], sampling_time_s: 1.0 };
         let step = |level: usize, time_s| SetPointStep { level, time_s, size: 0.05 * op.levels[level] };
-        let experiment = Experiment {
-            duration_s: 3000.0,
-            set_point_steps: vec![step(0, 100.0), step(1, 1500.0)],
-            load_steps: vec![],
-            measurement: Measurement { noise_std: 0.0, seed: 1, quantised: false },
-            initial_levels: None,
-            pump_voltage_steps: Vec::new(),
-        };
+        let experiment =
+            Experiment { set_point_steps: vec![step(0, 100.0), step(1, 1500.0)], ..Experiment::at_rest(3000.0) };
         Self { rig, op, law, experiment }
     }
 

@@ -91,6 +91,10 @@ pub const SET_POINT_STEP: Limits = Limits::new(-LEVEL.max, LEVEL.max);
 pub const LOAD_FLOW: Limits = Limits::new(-0.01, 0.01);
 /// Constant flow that a tank receives from outside (m³/s).
 pub const INFLOW: Limits = Limits::new(0.0, 0.01);
+/// Change of a valve fraction, or of a pump or an outlet as a share of what it is.
+pub const LOAD_SHARE: Limits = Limits::new(-1.0, 1.0);
+/// Standard deviation of the noise on the flow of a pump (m³/s).
+pub const PUMP_FLOW_NOISE_STD: Limits = Limits::new(0.0, LOAD_FLOW.max);
 /// Area of a leak (m²).
 pub const LEAK_AREA: Limits = Limits::new(0.0, 0.01);
 /// Standard deviation of the measurement noise (m).
@@ -116,6 +120,10 @@ pub const OUTLET_SHARE: f64 = 0.1;
 pub const LOSS_COEFFICIENT: Limits = Limits::new(0.01, 1.0);
 /// Flow of a pump per volt (m³/(s V)).
 pub const PUMP_GAIN: Limits = Limits::new(1e-9, 1e-3);
+/// Flow of the straight line of a pump curve at 0 V (m³/s).
+pub const PUMP_OFFSET: Limits = Limits::new(-1.0, 1.0);
+/// Largest flow of a pump (m³/s): up to that of the largest gain at the highest voltage.
+pub const PUMP_FLOW_MAX: Limits = Limits::new(1e-9, 1.0);
 /// Gain of the power module.
 pub const POWER_GAIN: Limits = Limits::new(0.01, 100.0);
 /// Sensor gain (V/m).

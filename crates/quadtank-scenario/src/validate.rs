@@ -70,8 +70,17 @@ fn tank(tank: &Tank, at: &str) -> Checked {
     outlet.check(&format!("{at}.outlet.area"), tank.outlet.area)
 }
 
+/// There is a voltage within the limits from which on the flow follows the voltage.
 fn pump(pump: &Pump, at: &str) -> Checked {
-    Limits { min: pump.voltage_min, ..limits::PUMP_VOLTAGE }.check(&format!("{at}.voltage_max"), pump.voltage_max)
+    Limits { min: pump.voltage_min, ..limits::PUMP_VOLTAGE }.check(&format!("{at}.voltage_max"), pump.voltage_max)?;
+    let start = Limits { max: pump.voltage_max, ..limits::PUMP_VOLTAGE };
+    start.check(&format!("{at}.start_voltage"), pump.start_voltage)?;
+    let lifts = Limits { min: -pump.gain * pump.voltage_max, ..limits::PUMP_OFFSET };
+    lifts.check(&format!("{at}.offset"), pump.offset)?;
+    let Some(flow_max) = pump.flow_max else { return Ok(()) };
+    let unlimited = Pump { flow_max: None, ..*pump };
+    let least = limits::PUMP_FLOW_MAX.clamp(unlimited.flow(unlimited.acting_range().0));
+    Limits { min: least, ..limits::PUMP_FLOW_MAX }.check(&format!("{at}.flow_max"), flow_max)
 }
 
 /// A sensor is ideal, or its signal can be counted in steps.

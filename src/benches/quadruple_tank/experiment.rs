@@ -23,6 +23,8 @@ const FIRST_LOAD_AT: f64 = 0.8;
 const FIRST_LOAD_FLOW: f64 = 0.5e-6;
 /// Hole of a leak that the student adds (m²): about a fifth of an outlet of Johansson's rig.
 const FIRST_LEAK_AREA: f64 = 1.5e-6;
+/// Change of a pump, a valve or an outlet that the student adds, as a share.
+const FIRST_LOAD_SHARE: f64 = -0.2;
 /// Travel of the reference sliders as a share of the lowest wall.
 const REFERENCE_TRAVEL: f64 = 0.25;
 /// Travel of the noise slider (m).
@@ -57,24 +59,12 @@ const REFERENCE_TIME: ParamControl<Setup> = ParamControl {
 const LOAD: ParamControl<Setup> = ParamControl {
     ids: [("load-size", "load-size-number"); 2],
     name: |lab, _| tr!(lab, experiment.load_size),
-    path: |s, _| match first_load(&s.experiment) {
-        Some(Load::Leak { .. }) => "experiment.load_steps[].load.leak.area",
-        Some(Load::TankFlow { .. }) => "experiment.load_steps[].load.tank_flow.flow",
-        Some(Load::PumpFlow { .. }) | None => "experiment.load_steps[].load.pump_flow.flow",
-    },
-    read: |s, _| match first_load(&s.experiment) {
-        Some(Load::PumpFlow { flow, .. } | Load::TankFlow { flow, .. }) => flow,
-        Some(Load::Leak { area, .. }) => area,
-        None => 0.0,
-    },
-    write: |s, _, size| match s.experiment.load_steps.first_mut().map(|step| &mut step.load) {
-        Some(Load::PumpFlow { flow, .. } | Load::TankFlow { flow, .. }) => *flow = size,
-        Some(Load::Leak { area, .. }) => *area = size,
-        None => {}
-    },
-    travel: Some(|s| if is_leak(s) { (0.0, 10.0) } else { (-5.0, 5.0) }),
+    path: |s, _| LoadPlace::of(s).path(),
+    read: |s, _| first_load(&s.experiment).map_or(0.0, |mut load| *load.size_mut()),
+    write: |s, _, size| s.experiment.load_steps.iter_mut().take(1).for_each(|step| *step.load.size_mut() = size),
+    travel: Some(|s| LoadPlace::of(s).travel()),
     scale: Some(Scale::Linear(0.1)),
-    shown_unit: Some(|s| if is_leak(s) { ShownUnit::SMALL_AREA } else { ShownUnit::FLOW }),
+    shown_unit: Some(|s| LoadPlace::of(s).shown_unit()),
     class: [""; 2],
     ..OF_EXPERIMENT
 };
@@ -96,6 +86,18 @@ const NOISE: ParamControl<Setup> = ParamControl {
     travel: Some(|s| (0.0, to_shown(NOISE_TRAVEL, s.plant.display_unit()))),
     shown_unit: Some(|s| ShownUnit::length(s.plant.display_unit())),
     finer: Some(|s| finer_digits(s.plant.display_unit())),
+    ..OF_EXPERIMENT
+};
+const FLOW_NOISE: ParamControl<Setup> = ParamControl {
+    ids: [("flow-noise", "flow-noise-number"); 2],
+    label: |lab, _| tr!(lab, experiment.flow_noise),
+    name: |lab, _| tr!(lab, experiment.flow_noise_name),
+    path: |_, _| "experiment.pump_flow_noise_std",
+    read: |s, _| s.experiment.pump_flow_noise_std,
+    write: |s, _, noise| s.experiment.pump_flow_noise_std = noise,
+    travel: Some(|_| (0.0, 5.0)),
+    scale: Some(Scale::Linear(0.01)),
+    shown_unit: Some(|_| ShownUnit::FLOW),
     ..OF_EXPERIMENT
 };
 const DURATION: ParamControl<Setup> = ParamControl {
@@ -180,10 +182,6 @@ fn first_load(experiment: &Experiment) -> Option<Load> {
     experiment.load_steps.first().map(|step| step.load)
 }
 
-fn is_leak(setup: &Setup) -> bool {
-    matches!(first_load(&setup.experiment), Some(Load::Leak { .. }))
-}
-
 /// Steps beyond the first of each level and the first load: a file may hold them, the card does not show them.
 fn further_steps(experiment: &Experiment) -> usize {
     let shown_levels = (0..2).filter(|&level| experiment.set_point_steps.iter().any(|s| s.level == level)).count();
@@ -231,13 +229,15 @@ fn MoreControls() -> impl IntoView {
     let lab = session.lab;
     let is_used = session.document.with_untracked(|document| {
         let experiment = &document.setup.experiment;
-        experiment.initial_levels.is_some() || !experiment.pump_voltage_steps.is_empty()
+        let is_moved = experiment.initial_levels.is_some() || !experiment.pump_voltage_steps.is_empty();
+        is_moved || experiment.pump_flow_noise_std > 0.0
     });
     view! {
         <details class="more" data-testid="experiment-more" open=is_used>
             <summary>{say!(lab, experiment.more)}</summary>
             <StartControls />
             <PumpControls />
+            <ParamRow session control=&FLOW_NOISE />
             <AllSteps />
         </details>
     }
@@ -276,20 +276,52 @@ fn Timed(
     }
 }
 
-/// Where the first load acts: an index of a pump or a tank, or nowhere.
+/// What the first load acts on: an index of a pump, a valve or a tank, or nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum LoadPlace {
     Nowhere,
     Pump(usize),
     Tank(usize),
     Inflow(usize),
+    PumpGain(usize),
+    Valve(usize),
+    Outlet(usize),
 }
 
 impl LoadPlace {
     fn all() -> impl Iterator<Item = Self> {
-        let pumps = (0..2).map(Self::Pump);
-        let tanks = (0..4).map(Self::Tank);
-        std::iter::once(Self::Nowhere).chain(pumps).chain(tanks).chain((0..4).map(Self::Inflow))
+        let of_pumps = (0..2).map(Self::Pump).chain((0..2).map(Self::PumpGain)).chain((0..2).map(Self::Valve));
+        let of_tanks = (0..4).map(Self::Tank).chain((0..4).map(Self::Inflow)).chain((0..4).map(Self::Outlet));
+        std::iter::once(Self::Nowhere).chain(of_pumps).chain(of_tanks)
+    }
+
+    /// Row of the size of such a load in the table of parameters.
+    fn path(self) -> &'static str {
+        match self {
+            Self::Nowhere | Self::Pump(_) => "experiment.load_steps[].load.pump_flow.flow",
+            Self::Tank(_) => "experiment.load_steps[].load.leak.area",
+            Self::Inflow(_) => "experiment.load_steps[].load.tank_flow.flow",
+            Self::PumpGain(_) => "experiment.load_steps[].load.pump_gain.change",
+            Self::Valve(_) => "experiment.load_steps[].load.valve.change",
+            Self::Outlet(_) => "experiment.load_steps[].load.outlet.change",
+        }
+    }
+
+    fn shown_unit(self) -> ShownUnit {
+        match self {
+            Self::Nowhere | Self::Pump(_) | Self::Inflow(_) => ShownUnit::FLOW,
+            Self::Tank(_) => ShownUnit::SMALL_AREA,
+            Self::PumpGain(_) | Self::Valve(_) | Self::Outlet(_) => ShownUnit::PER_CENT,
+        }
+    }
+
+    /// Least and largest size of the slider, in the shown unit.
+    fn travel(self) -> (f64, f64) {
+        match self {
+            Self::Nowhere | Self::Pump(_) | Self::Inflow(_) => (-5.0, 5.0),
+            Self::Tank(_) => (0.0, 10.0),
+            Self::PumpGain(_) | Self::Valve(_) | Self::Outlet(_) => (-100.0, 100.0),
+        }
     }
 
     fn of(setup: &Setup) -> Self {
@@ -298,6 +330,9 @@ impl LoadPlace {
             Some(Load::PumpFlow { pump, .. }) => Self::Pump(pump),
             Some(Load::Leak { tank, .. }) => Self::Tank(tank),
             Some(Load::TankFlow { tank, .. }) => Self::Inflow(tank),
+            Some(Load::PumpGain { pump, .. }) => Self::PumpGain(pump),
+            Some(Load::Valve { valve, .. }) => Self::Valve(valve),
+            Some(Load::Outlet { tank, .. }) => Self::Outlet(tank),
         }
     }
 
@@ -308,6 +343,9 @@ impl LoadPlace {
             Self::Pump(pump) => Some(Load::PumpFlow { pump, flow: FIRST_LOAD_FLOW }),
             Self::Tank(tank) => Some(Load::Leak { tank, area: FIRST_LEAK_AREA }),
             Self::Inflow(tank) => Some(Load::TankFlow { tank, flow: FIRST_LOAD_FLOW }),
+            Self::PumpGain(pump) => Some(Load::PumpGain { pump, change: FIRST_LOAD_SHARE }),
+            Self::Valve(valve) => Some(Load::Valve { valve, change: FIRST_LOAD_SHARE }),
+            Self::Outlet(tank) => Some(Load::Outlet { tank, change: FIRST_LOAD_SHARE }),
         }
     }
 
@@ -317,6 +355,9 @@ impl LoadPlace {
             Self::Pump(k) => Choice::new(self, format!("pump{k}"), tr!(lab, experiment.load_pump, pump = k + 1)),
             Self::Tank(k) => Choice::new(self, format!("leak{k}"), tr!(lab, experiment.load_leak, tank = k + 1)),
             Self::Inflow(k) => Choice::new(self, format!("inflow{k}"), tr!(lab, experiment.load_inflow, tank = k + 1)),
+            Self::PumpGain(k) => Choice::new(self, format!("gain{k}"), tr!(lab, experiment.load_gain, pump = k + 1)),
+            Self::Valve(k) => Choice::new(self, format!("valve{k}"), tr!(lab, experiment.load_valve, valve = k + 1)),
+            Self::Outlet(k) => Choice::new(self, format!("outlet{k}"), tr!(lab, experiment.load_outlet, tank = k + 1)),
         }
     }
 }

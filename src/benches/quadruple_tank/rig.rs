@@ -174,7 +174,7 @@ const OUTSIDE_AT: f64 = 8.0;
 
 /// The water that runs: into each tank from its pump and from outside, and out of each tank.
 fn streams(plant: &QuadrupleTank, moment: &RigState) -> impl IntoView + use<> {
-    let most = plant.pumps.iter().map(|p| p.gain * p.voltage_max).fold(f64::MIN_POSITIVE, f64::max);
+    let most = plant.pumps.iter().map(|pump| pump.flow(pump.voltage_max)).fold(f64::MIN_POSITIVE, f64::max);
     let inflow = plant.valve_flows(&moment.pump_voltage, &Disturbance::default());
     let outside = plant.flows_from_outside(&Disturbance::default());
     let outflow = plant.outflows(&moment.levels);

@@ -78,7 +78,7 @@ const TANKS: [RigNumber; 6] = [
     },
 ];
 
-const PUMPS: [RigNumber; 3] = [
+const PUMPS: [RigNumber; 6] = [
     RigNumber {
         ids: &["rig-gain1", "rig-gain2"],
         label: |lab| tr!(lab, rig.gain),
@@ -102,6 +102,31 @@ const PUMPS: [RigNumber; 3] = [
         shown_per_unit: 1.0,
         get: |rig, k| rig.pumps[k].voltage_max,
         put: |rig, k, value| rig.pumps[k].voltage_max = value,
+    },
+    RigNumber {
+        ids: &["rig-offset1", "rig-offset2"],
+        label: |lab| tr!(lab, rig.offset),
+        path: "plant.parameters.rig.pumps[].offset",
+        shown_per_unit: 1e6,
+        get: |rig, k| rig.pumps[k].offset,
+        put: |rig, k, value| rig.pumps[k].offset = value,
+    },
+    RigNumber {
+        ids: &["rig-start1", "rig-start2"],
+        label: |lab| tr!(lab, rig.start),
+        path: "plant.parameters.rig.pumps[].start_voltage",
+        shown_per_unit: 1.0,
+        get: |rig, k| rig.pumps[k].start_voltage,
+        put: |rig, k, value| rig.pumps[k].start_voltage = value,
+    },
+    RigNumber {
+        ids: &["rig-most1", "rig-most2"],
+        label: |lab| tr!(lab, rig.most),
+        path: "plant.parameters.rig.pumps[].flow_max",
+        shown_per_unit: 1e6,
+        // Where nothing but the voltage limits the flow, what the curve gives at the highest voltage is the most there is.
+        get: |rig, k| rig.pumps[k].flow(rig.pumps[k].voltage_max),
+        put: |rig, k, value| rig.pumps[k] = rig.pumps[k].limited_to(value),
     },
 ];
 

@@ -49,11 +49,19 @@ fn tank() -> impl Strategy<Value = Tank> {
 }
 
 fn pump() -> impl Strategy<Value = Pump> {
-    (within(limits::PUMP_GAIN), pair(limits::PUMP_VOLTAGE)).prop_map(|(gain, [one, other])| Pump {
-        gain,
-        voltage_min: one.min(other),
-        voltage_max: one.max(other),
-    })
+    let curve = (0.0..1.0_f64, 0.0..1.0_f64, prop::option::of(0.0..1.0_f64));
+    (within(limits::PUMP_GAIN), pair(limits::PUMP_VOLTAGE), prop::option::of(curve)).prop_map(
+        |(gain, [one, other], curve)| {
+            let straight = Pump::proportional(gain, one.min(other), one.max(other));
+            let Some((start, lost, most)) = curve else { return straight };
+            let start_voltage = start * straight.voltage_max;
+            let offset = -lost * gain * start_voltage;
+            let [least, end] =
+                [start_voltage.max(straight.voltage_min), straight.voltage_max].map(|v| gain * v + offset);
+            let flow_max = |share: f64| limits::PUMP_FLOW_MAX.clamp(least + share * (end - least));
+            Pump { offset, start_voltage, flow_max: most.map(flow_max), ..straight }
+        },
+    )
 }
 
 fn rig() -> impl Strategy<Value = QuadrupleTank> {
@@ -118,23 +126,31 @@ fn experiment(steps: usize) -> impl Strategy<Value = Experiment> {
         (0..2_usize, within(limits::LOAD_FLOW)).prop_map(|(pump, flow)| Load::PumpFlow { pump, flow }),
         (0..4_usize, within(limits::LEAK_AREA)).prop_map(|(tank, area)| Load::Leak { tank, area }),
         (0..4_usize, within(limits::LOAD_FLOW)).prop_map(|(tank, flow)| Load::TankFlow { tank, flow }),
+        (0..2_usize, within(limits::LOAD_SHARE)).prop_map(|(pump, change)| Load::PumpGain { pump, change }),
+        (0..2_usize, within(limits::LOAD_SHARE)).prop_map(|(valve, change)| Load::Valve { valve, change }),
+        (0..4_usize, within(limits::LOAD_SHARE)).prop_map(|(tank, change)| Load::Outlet { tank, change }),
     ];
     let by_hand = (0..2_usize, within(limits::TIME_S), within(limits::PUMP_VOLTAGE))
         .prop_map(|(pump, time_s, voltage)| PumpVoltageStep { pump, time_s, voltage });
     // Every tank is that high.
     let level = Limits { max: limits::TANK_HEIGHT.min, ..limits::LEVEL };
-    let start = (prop::option::of(prop::array::uniform4(within(level))), vec(by_hand, 0..=steps));
+    let flow_noise = prop_oneof![Just(0.0), within(limits::PUMP_FLOW_NOISE_STD)];
+    let start = (prop::option::of(prop::array::uniform4(within(level))), vec(by_hand, 0..=steps), flow_noise);
     let load = (within(limits::TIME_S), load).prop_map(|(time_s, load)| LoadStep { time_s, load });
     let measurement = (within(limits::NOISE_STD), any::<u32>(), any::<bool>())
         .prop_map(|(noise_std, seed, quantised)| Measurement { noise_std, seed, quantised });
     (within(limits::DURATION_S), vec(set_point, 0..=steps), vec(load, 0..=steps), measurement, start).prop_map(
-        |(duration_s, set_point_steps, load_steps, measurement, (initial_levels, pump_voltage_steps))| Experiment {
-            duration_s,
-            set_point_steps,
-            load_steps,
-            measurement,
-            initial_levels,
-            pump_voltage_steps,
+        |(duration_s, set_point_steps, load_steps, measurement, start)| {
+            let (initial_levels, pump_voltage_steps, pump_flow_noise_std) = start;
+            Experiment {
+                duration_s,
+                set_point_steps,
+                load_steps,
+                measurement,
+                initial_levels,
+                pump_voltage_steps,
+                pump_flow_noise_std,
+            }
         },
     )
 }

@@ -18,7 +18,7 @@ fn departure(run: &Trajectory, start: &OperatingPoint) -> f64 {
 
 /// A setup in which nothing happens: both loops automatic, pumps within their limits, every wall well above its level.
 fn resting(mut setup: Setup, shares: [f64; 2], by_levels: bool) -> Setup {
-    setup.experiment.measurement.noise_std = 0.0;
+    setup.experiment = setup.experiment.without_noise();
     setup.experiment.measurement.quantised = false;
     setup.experiment.initial_levels = None;
     for settings in &mut setup.controller.loops {

@@ -96,7 +96,7 @@ fn rig(
                 outlet: Outlet { area: PI * OUTLET_RADIUS_MM[j].powi(2) * MM2, loss_coefficient: loss_coefficient[j] },
                 height: 395.0 * MM,
             }),
-            pumps: pump_gain_mm3.map(|k| Pump { gain: k * MM3, voltage_min: 0.0, voltage_max: 12.0 }),
+            pumps: pump_gain_mm3.map(|k| Pump::proportional(k * MM3, 0.0, 12.0)),
             valves: [gamma; 2],
             power_gain: POWER_GAIN,
             sensor: Sensor { gain: 1.0 / (30.0 * MM), range: 300.0 * MM, resolution: 10.0 / 2_f64.powi(11) },

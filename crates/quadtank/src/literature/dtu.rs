@@ -26,7 +26,7 @@ pub(super) fn preset() -> Preset {
         display_unit: DisplayUnit::Cm,
         plant: QuadrupleTank {
             tanks: [tank; 4],
-            pumps: [Pump { gain: CM3, voltage_min: 0.0, voltage_max: 500.0 }; 2],
+            pumps: [Pump::proportional(CM3, 0.0, 500.0); 2],
             valves: [0.6, 0.7],
             power_gain: 1.0,
             sensor: Sensor { gain: 1.0 / CM, range: HEIGHT, resolution: 0.0 },

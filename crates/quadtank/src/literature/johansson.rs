@@ -57,7 +57,7 @@ fn rig(
         display_unit: DisplayUnit::Cm,
         plant: QuadrupleTank {
             tanks: [odd, even, odd, even],
-            pumps: pump_gain_cm3.map(|k| Pump { gain: k * CM3, voltage_min: 0.0, voltage_max: 10.0 }),
+            pumps: pump_gain_cm3.map(|k| Pump::proportional(k * CM3, 0.0, 10.0)),
             valves,
             power_gain: 1.0,
             sensor: Sensor { gain: 0.50 / CM, range: height, resolution: 0.0 },

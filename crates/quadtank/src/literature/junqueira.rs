@@ -25,7 +25,7 @@ pub(super) fn case(id: PresetId, gamma: f64) -> Preset {
     let (lower, upper) = (tank(32.16991, 0.145_220_1), tank(28.27433, 0.080_424_8));
     let plant = QuadrupleTank {
         tanks: [lower, lower, upper, upper],
-        pumps: [3.33, 3.35].map(|k| Pump { gain: k * CM3, voltage_min: 0.0, voltage_max: 12.0 }),
+        pumps: [3.33, 3.35].map(|k| Pump::proportional(k * CM3, 0.0, 12.0)),
         valves: [gamma; 2],
         power_gain: 1.0,
         sensor: Sensor { gain: 1.0 / CM, range: HEIGHT, resolution: 0.0 },
@@ -115,16 +115,6 @@ impl PublishedExperiment {
             Self::S3 => (REST, 320.0, vec![step(0, 20.0, 0.02)]),
         };
         let measurement = Measurement { noise_std: 0.0, seed: 1, quantised: false };
-        (
-            start,
-            Experiment {
-                duration_s,
-                set_point_steps,
-                load_steps: Vec::new(),
-                measurement,
-                initial_levels: None,
-                pump_voltage_steps: Vec::new(),
-            },
-        )
+        (start, Experiment { set_point_steps, measurement, ..Experiment::at_rest(duration_s) })
     }
 }

@@ -25,7 +25,7 @@ pub(super) fn preset() -> Preset {
         display_unit: DisplayUnit::Cm,
         plant: QuadrupleTank {
             tanks: [tank; 4],
-            pumps: [4.35, 4.39].map(|k| Pump { gain: k * CM3, voltage_min: 0.0, voltage_max: 12.0 }),
+            pumps: [4.35, 4.39].map(|k| Pump::proportional(k * CM3, 0.0, 12.0)),
             valves: [0.36; 2],
             power_gain: 1.0,
             sensor: Sensor { gain: 1.0 / CM, range: HEIGHT, resolution: 0.0 },

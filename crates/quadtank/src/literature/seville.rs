@@ -29,7 +29,7 @@ pub(super) fn preset() -> Preset {
                 outlet: Outlet { area: OUTLETS_M2[j], loss_coefficient: 1.0 },
                 height: HEIGHTS[j],
             }),
-            pumps: [3.26, 4.0].map(|most| Pump { gain: 1.0 / HOUR, voltage_min: 0.0, voltage_max: most }),
+            pumps: [3.26, 4.0].map(|most| Pump::proportional(1.0 / HOUR, 0.0, most)),
             valves: [0.3, 0.4],
             power_gain: 1.0,
             sensor: Sensor { gain: 1.0, range: 1.36, resolution: 0.0 },

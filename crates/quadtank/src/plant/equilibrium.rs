@@ -70,7 +70,7 @@ impl QuadrupleTank {
             return found;
         }
         let flow = self.pumped_at_rest(levels);
-        let point = self.free_equilibrium([0, 1].map(|pump| flow[pump] / self.pumps[pump].gain));
+        let point = self.free_equilibrium([0, 1].map(|pump| self.pumps[pump].voltage_for(flow[pump])));
         let holds = (0..2).all(|i| (point.levels[i] - levels[i]).abs() <= SINGULAR_MARGIN * levels[i].abs());
         if holds { self.checked(point) } else { found }
     }
@@ -94,7 +94,9 @@ impl QuadrupleTank {
         // A step of iterative refinement: near the singular line Cramer's rule leaves more of the balance than rounding.
         let left = [flow[0] - gamma_1 * k1 * v1 - above_2 * k2 * v2, flow[1] - gamma_2 * k2 * v2 - above_1 * k1 * v1];
         let [more_1, more_2] = solve(left);
-        [v1 + more_1, v2 + more_2]
+        // What the curve of each pump gives at 0 V needs no voltage.
+        let [free_1, free_2] = self.pumps.map(|pump| pump.offset / pump.gain);
+        [v1 + more_1 - free_1, v2 + more_2 - free_2]
     }
 
     /// What the pumps have to bring each lower tank, by way of its upper one too, so that it rests at its level (m³/s).
@@ -115,8 +117,7 @@ impl QuadrupleTank {
     }
 
     fn voltage_violation(&self, pump: usize, value: f64) -> Option<PlantError> {
-        let limits = self.pumps.get(pump)?;
-        let (min, max) = (limits.voltage_min.max(0.0), limits.voltage_max);
+        let (min, max) = self.pumps.get(pump)?.acting_range();
         (!(min..=max).contains(&value)).then_some(PlantError::VoltageOutOfRange { pump, value, min, max })
     }
 

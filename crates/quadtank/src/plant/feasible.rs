@@ -8,8 +8,7 @@ impl QuadrupleTank {
     ///
     /// The map from voltages to flows is linear, and flows rise with levels, so edges bound what corners span.
     pub fn feasible_outline(&self, steps: u32) -> Vec<[f64; 2]> {
-        let [low_1, low_2] = self.pumps.map(|pump| pump.voltage_min.max(0.0));
-        let [high_1, high_2] = self.pumps.map(|pump| pump.voltage_max);
+        let [(low_1, high_1), (low_2, high_2)] = self.pumps.map(|pump| pump.acting_range());
         let corners = [[low_1, low_2], [high_1, low_2], [high_1, high_2], [low_1, high_2]];
         let edges = (0..4).map(|k| (corners[k], corners[(k + 1) % 4]));
         let along = |(from, to): ([f64; 2], [f64; 2])| {

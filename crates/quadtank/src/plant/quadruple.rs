@@ -3,21 +3,8 @@ use std::array::from_fn;
 
 use serde::{Deserialize, Serialize};
 
-use super::Tank;
 use super::tank::torricelli_speed;
-
-/// A pump with its voltage limits; its flow is `gain × voltage` (Cocota 2009, eq. 2.25).
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub struct Pump {
-    /// Flow per volt `k` (m³/(s V)).
-    pub gain: f64,
-    /// Lowest voltage (V).
-    pub voltage_min: f64,
-    /// Highest voltage (V).
-    pub voltage_max: f64,
-}
+use super::{Pump, Tank};
 
 /// The level sensors of the two lower tanks: `y = gain × level`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -88,6 +75,33 @@ pub struct Disturbance {
     pub leak_area: [f64; 4],
     /// Flow added to that which each tank receives from outside (m³/s); may be negative.
     pub tank_flow: [f64; 4],
+    /// Share by which the flow of each pump grows at any voltage; −1 stops it.
+    pub pump_gain_change: [f64; 2],
+    /// Change of each valve fraction; the sum stays within [0, 1].
+    pub valve_change: [f64; 2],
+    /// Share by which the outlet of each tank widens; −1 closes it.
+    pub outlet_change: [f64; 4],
+}
+
+impl Disturbance {
+    /// Valve fractions under the load, where they are `[γ1, γ2]` without it.
+    #[inline]
+    pub fn valves(&self, valves: [f64; 2]) -> [f64; 2] {
+        from_fn(|i| (valves[i] + self.valve_change[i]).clamp(0.0, 1.0))
+    }
+
+    /// What each outlet has of its area under the load, as a share.
+    #[inline]
+    pub fn outlet_share(&self) -> [f64; 4] {
+        self.outlet_change.map(|change| (1.0 + change).max(0.0))
+    }
+
+    /// Flow of a pump under the load (m³/s), where it is `flow` (m³/s) without it.
+    #[inline]
+    fn flow_of_pump(&self, pump: usize, flow: f64) -> f64 {
+        let share = (1.0 + self.pump_gain_change[pump]).max(0.0);
+        (share * flow + self.pump_flow[pump]).max(0.0)
+    }
 }
 
 impl QuadrupleTank {
@@ -118,7 +132,8 @@ impl QuadrupleTank {
     ) -> [f64; 4] {
         let inflow = self.feed_flows(pump_voltage, disturbance);
         let speed = levels.map(|level| torricelli_speed(level, self.gravity));
-        let outflow: [f64; 4] = from_fn(|j| self.tanks[j].outlet.effective_area() * speed[j]);
+        let share = disturbance.outlet_share();
+        let outflow: [f64; 4] = from_fn(|j| share[j] * self.tanks[j].outlet.effective_area() * speed[j]);
         let from_above = [outflow[2], outflow[3], 0.0, 0.0];
         from_fn(|j| inflow[j] + from_above[j] - outflow[j] - disturbance.leak_area[j] * speed[j])
     }
@@ -129,7 +144,7 @@ impl QuadrupleTank {
         self.feed_flows_at(self.valves, pump_voltage, disturbance)
     }
 
-    /// The same with the valves at `[γ1, γ2]`.
+    /// The same with the valves at `[γ1, γ2]` before any load.
     #[inline]
     pub fn feed_flows_at(&self, valves: [f64; 2], pump_voltage: &[f64; 2], disturbance: &Disturbance) -> [f64; 4] {
         let through_valves = self.valve_flows_at(valves, pump_voltage, disturbance);
@@ -149,11 +164,11 @@ impl QuadrupleTank {
         self.valve_flows_at(self.valves, pump_voltage, disturbance)
     }
 
-    /// The same with the valves at `[γ1, γ2]`.
+    /// The same with the valves at `[γ1, γ2]` before any load.
     #[inline]
     pub fn valve_flows_at(&self, valves: [f64; 2], pump_voltage: &[f64; 2], disturbance: &Disturbance) -> [f64; 4] {
-        let [q1, q2]: [f64; 2] =
-            from_fn(|i| (self.pumps[i].gain * pump_voltage[i] + disturbance.pump_flow[i]).max(0.0));
+        let [q1, q2]: [f64; 2] = from_fn(|i| disturbance.flow_of_pump(i, self.pumps[i].flow(pump_voltage[i])));
+        let valves = disturbance.valves(valves);
         let ([gamma_1, gamma_2], [above_1, above_2]) = (valves, complements(valves));
         [gamma_1 * q1, gamma_2 * q2, above_2 * q2, above_1 * q1]
     }

@@ -4,7 +4,7 @@ use crate::control::{DecentralisedPi, Pairing, RunningPi};
 use crate::plant::{Disturbance, OperatingPoint, QuadrupleTank};
 
 use super::experiment::{Experiment, Load, LoadStep, PumpVoltageStep, SetPointStep};
-use super::noise::Noise;
+use super::noise::{FlowNoise, Noise};
 use super::trajectory::{Event, EventKind, Trajectory};
 use super::walls::Watch;
 
@@ -167,7 +167,11 @@ impl<'a> Loads<'a> {
                 Load::PumpFlow { pump, flow } if pump < 2 => self.acting.pump_flow[pump] += flow,
                 Load::Leak { tank, area } if tank < 4 => self.acting.leak_area[tank] += area,
                 Load::TankFlow { tank, flow } if tank < 4 => self.acting.tank_flow[tank] += flow,
-                Load::PumpFlow { .. } | Load::Leak { .. } | Load::TankFlow { .. } => (),
+                Load::PumpGain { pump, change } if pump < 2 => self.acting.pump_gain_change[pump] += change,
+                Load::Valve { valve, change } if valve < 2 => self.acting.valve_change[valve] += change,
+                Load::Outlet { tank, change } if tank < 4 => self.acting.outlet_change[tank] += change,
+                // An index that the rig does not have; documents with one are refused.
+                _ => (),
             }
         }
         &self.acting
@@ -273,6 +277,7 @@ pub(super) fn run(
     let mut hand_moved = HandMoved::new(experiment, op);
     let mut loops = Loops::new(plant, pairing, law);
     let mut noise = Noise::new(&experiment.measurement);
+    let mut flow_noise = FlowNoise::new(experiment);
     let mut events = Events::default();
     let mut trajectory = Trajectory::with_rows(axis.rows);
     let (mut output, mut voltage) = ([0.0; 2], [0.0; 2]);
@@ -287,8 +292,9 @@ pub(super) fn run(
             let by_hand = hand_moved.at(time + slack);
             output = loops.step(Sample { time, reference, measured }, by_hand, &mut events);
             voltage = loops.pump_voltage(output);
+            flow_noise.draw();
         }
-        process.set_inputs(&voltage, &loads.acting);
+        process.set_inputs(&voltage, &flow_noise.on(&loads.acting));
         trajectory.set(row, time, process.levels(), references.value, output, voltage);
         if row + 1 == axis.rows {
             break;
@@ -302,7 +308,7 @@ pub(super) fn run(
         let mut now = time;
         while let Some(begin) = loads.next_before(end - slack) {
             process.advance(now, begin - now, &mut events);
-            process.set_inputs(&voltage, loads.at(begin));
+            process.set_inputs(&voltage, &flow_noise.on(loads.at(begin)));
             now = begin;
         }
         process.advance(now, end - now, &mut events);

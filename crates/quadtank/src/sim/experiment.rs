@@ -54,15 +54,48 @@ pub enum Load {
         /// Additional flow (m³/s).
         flow: f64,
     },
+    /// A pump whose flow at any voltage grows by a share of what it is on the rig, as when it wears out or clogs.
+    PumpGain {
+        /// Index of the pump, 0 or 1.
+        pump: usize,
+        /// Share by which the flow grows; −1 stops the pump, and less than that does too.
+        change: f64,
+    },
+    /// A valve that is turned by hand.
+    Valve {
+        /// Index of the valve, 0 or 1.
+        valve: usize,
+        /// Change of the valve fraction, which stays within 0 to 1.
+        change: f64,
+    },
+    /// An outlet that is throttled or widened.
+    Outlet {
+        /// Index of the tank, 0 to 3.
+        tank: usize,
+        /// Share by which the area of the outlet grows; −1 closes it, and less than that does too.
+        change: f64,
+    },
 }
 
 impl Load {
-    /// What the load acts on, as an index (0 and 1 for the pumps, 2 to 5 for leaks, 6 to 9 for the tanks), and the size of the change.
+    /// The size of the change: a flow (m³/s), an area (m²) or a share.
+    pub fn size_mut(&mut self) -> &mut f64 {
+        match self {
+            Self::PumpFlow { flow, .. } | Self::TankFlow { flow, .. } => flow,
+            Self::Leak { area, .. } => area,
+            Self::PumpGain { change, .. } | Self::Valve { change, .. } | Self::Outlet { change, .. } => change,
+        }
+    }
+
+    /// What the load acts on, as an index that no other kind of load has, and the size of the change.
     fn change(self) -> (usize, f64) {
         match self {
             Self::PumpFlow { pump, flow } => (pump, flow),
             Self::Leak { tank, area } => (2 + tank, area),
             Self::TankFlow { tank, flow } => (6 + tank, flow),
+            Self::PumpGain { pump, change } => (10 + pump, change),
+            Self::Valve { valve, change } => (12 + valve, change),
+            Self::Outlet { tank, change } => (14 + tank, change),
         }
     }
 }
@@ -124,9 +157,32 @@ pub struct Experiment {
     /// until its first step it keeps the voltage of the operating point.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub pump_voltage_steps: Vec<PumpVoltageStep>,
+    /// Process noise: standard deviation of the white Gaussian noise on the flow of each pump (m³/s), drawn anew at each sample
+    /// and held until the next, from the same seed as the noise of the sensors.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub pump_flow_noise_std: f64,
+}
+
+/// Whether a number is left out of a document.
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes references")]
+fn is_zero(number: &f64) -> bool {
+    *number == 0.0
 }
 
 impl Experiment {
+    /// An experiment of `duration_s` (s) in which nothing happens: ideal sensors, no steps, no loads.
+    pub const fn at_rest(duration_s: f64) -> Self {
+        Self {
+            duration_s,
+            set_point_steps: Vec::new(),
+            load_steps: Vec::new(),
+            measurement: Measurement { noise_std: 0.0, seed: 0, quantised: false },
+            initial_levels: None,
+            pump_voltage_steps: Vec::new(),
+            pump_flow_noise_std: 0.0,
+        }
+    }
+
     /// Reference of a level (m) right after `time_s` (s), where it rests at `rest` (m) before any step.
     pub fn reference_after(&self, level: usize, rest: f64, time_s: f64) -> f64 {
         let before = self.set_point_steps.iter().filter(|s| s.level == level && s.time_s <= time_s);
@@ -148,7 +204,7 @@ impl Experiment {
         !self.load_steps.is_empty()
             || self.initial_levels.is_some()
             || !self.pump_voltage_steps.is_empty()
-            || self.measurement.noise_std > 0.0
+            || self.is_noisy()
             || self.measurement.quantised
     }
 
@@ -173,10 +229,16 @@ impl Experiment {
         Some(if level == 0 { first } else { second })
     }
 
-    /// The same experiment measured without noise.
+    /// Whether sensors or pumps are noisy.
+    pub fn is_noisy(&self) -> bool {
+        self.measurement.noise_std > 0.0 || self.pump_flow_noise_std > 0.0
+    }
+
+    /// The same experiment without noise of sensors and pumps.
     #[must_use]
     pub fn without_noise(&self) -> Self {
-        Self { measurement: Measurement { noise_std: 0.0, ..self.measurement }, ..self.clone() }
+        let measurement = Measurement { noise_std: 0.0, ..self.measurement };
+        Self { measurement, pump_flow_noise_std: 0.0, ..self.clone() }
     }
 
     /// When the reference of a level (index) would first step at the end of the experiment or after it (s).
@@ -215,12 +277,8 @@ mod tests {
 
     fn with_steps(steps: &[(usize, f64, f64)]) -> Experiment {
         Experiment {
-            duration_s: 100.0,
             set_point_steps: steps.iter().map(|&(level, time_s, size)| SetPointStep { level, time_s, size }).collect(),
-            load_steps: vec![],
-            measurement: Measurement { noise_std: 0.0, seed: 1, quantised: false },
-            initial_levels: None,
-            pump_voltage_steps: Vec::new(),
+            ..Experiment::at_rest(100.0)
         }
     }
 

@@ -27,7 +27,9 @@ pub(super) struct Hydraulics {
     pub(super) full_volume: [f64; 4],
     /// √(2 g), the speed of a free fall per √level.
     root_gravity: f64,
-    /// Flow per √level through the outlets (m^2.5/s).
+    /// Flow per √level through the outlets as they are without loads (m^2.5/s).
+    own_outlet: [f64; 4],
+    /// Flow per √level through the outlets under the loads (m^2.5/s).
     pub(super) outlet: [f64; 4],
     /// Flow per √level through outlets and leaks (m^2.5/s).
     pub(super) drain: [f64; 4],
@@ -56,6 +58,7 @@ impl Hydraulics {
             root_height: height.map(f64::sqrt),
             full_volume: from_fn(|i| plant.tanks[i].section.volume(height[i])),
             root_gravity,
+            own_outlet: outlet,
             outlet,
             drain: outlet,
             pumped: [0.0; 4],
@@ -69,6 +72,8 @@ impl Hydraulics {
     /// Sets the inputs that hold from now on.
     pub(super) fn set_inputs(&mut self, plant: &QuadrupleTank, pump_voltage: &[f64; 2], disturbance: &Disturbance) {
         self.pumped = plant.feed_flows(pump_voltage, disturbance);
+        let share = disturbance.outlet_share();
+        self.outlet = from_fn(|i| share[i] * self.own_outlet[i]);
         self.drain = from_fn(|i| self.outlet[i] + disturbance.leak_area[i] * self.root_gravity);
     }
 

@@ -244,6 +244,9 @@ mod tests {
         pump_flow: [1e-6, -1e-6],
         leak_area: [1e-6, 0.0, 2e-6, 1e-7],
         tank_flow: [0.0, 0.0, 5e-7, -1e-6],
+        pump_gain_change: [-0.25, 0.125],
+        valve_change: [0.125, -0.25],
+        outlet_change: [-0.5, 0.0, 0.25, -1.0],
     };
 
     fn follows_the_equations(take: fn(&mut Hydraulics, f64)) {

@@ -1,9 +1,12 @@
 //! Runs of the linear model with the same sampled controllers.
 
-use nalgebra::Vector4;
+use std::array::from_fn;
+
+use nalgebra::{Vector2, Vector4};
 
 use crate::control::DecentralisedPi;
 use crate::linear::ZeroOrderHold;
+use crate::numeric::complements;
 use crate::plant::{Disturbance, Jacobian, OperatingPoint, QuadrupleTank};
 
 use super::course::{self, Events, Process};
@@ -19,8 +22,6 @@ struct LinearModel<'a> {
     op: &'a OperatingPoint,
     jacobian: &'a Jacobian,
     deviation: Vector4<f64>,
-    /// What a leak takes at the level of the operating point, for its area (1/(m s)): nothing from a dry tank.
-    leak_rate: [f64; 4],
     /// `B u` plus the loads (m/s).
     forcing: Vector4<f64>,
     hold: ZeroOrderHold,
@@ -37,16 +38,11 @@ impl<'a> LinearModel<'a> {
         levels: &[f64; 4],
         duration: f64,
     ) -> Self {
-        let leak_rate = std::array::from_fn(|tank| {
-            let level = op.levels[tank];
-            (2.0 * plant.gravity * level).sqrt() / plant.tanks[tank].section.area(level)
-        });
         Self {
             plant,
             op,
             jacobian,
             deviation: Vector4::from_fn(|tank, _| levels[tank] - op.levels[tank]),
-            leak_rate,
             forcing: Vector4::zeros(),
             hold: ZeroOrderHold::new(&jacobian.a, duration),
             hold_duration: duration,
@@ -54,9 +50,34 @@ impl<'a> LinearModel<'a> {
         }
     }
 
-    /// A load on the flow of a pump, as the voltage that makes the same flow (V).
-    fn voltage_of(&self, pump: usize, flow: f64) -> f64 {
-        if flow == 0.0 { 0.0 } else { flow / self.plant.pumps[pump].gain }
+    /// What the loads bring to each tank (m³/s), to first order around the operating point: a change of a flow that follows the
+    /// state or the voltage counts as at the operating point.
+    fn load_flows(&self, load: &Disturbance) -> [f64; 4] {
+        let (plant, op) = (self.plant, self.op);
+        let ([gamma_1, gamma_2], [above_1, above_2]) = (plant.valves, complements(plant.valves));
+        let pumped: [f64; 2] = from_fn(|i| plant.pumps[i].flow(op.pump_voltage[i]));
+        let more: [f64; 2] = from_fn(|i| load.pump_gain_change[i] * pumped[i] + load.pump_flow[i]);
+        let turned: [f64; 2] = from_fn(|i| (load.valves(plant.valves)[i] - plant.valves[i]) * pumped[i]);
+        let through_valves = [
+            gamma_1 * more[0] + turned[0],
+            gamma_2 * more[1] + turned[1],
+            above_2 * more[1] - turned[1],
+            above_1 * more[0] - turned[0],
+        ];
+        let drained: [f64; 4] =
+            from_fn(|j| (load.outlet_share()[j] - 1.0) * plant.tanks[j].outflow(op.levels[j], plant.gravity));
+        let from_above = [drained[2], drained[3], 0.0, 0.0];
+        let leaked: [f64; 4] = from_fn(|j| load.leak_area[j] * (2.0 * plant.gravity * op.levels[j]).sqrt());
+        from_fn(|j| through_valves[j] + from_above[j] - drained[j] - leaked[j] + load.tank_flow[j])
+    }
+
+    /// Slopes of the levels that these flows make (m/s). Water passes a dry upper tank at once; a dry lower tank stays dry.
+    fn slopes_by_flows(&self, flow: [f64; 4]) -> [f64; 4] {
+        let is_dry = self.jacobian.quasi_steady;
+        let passed = |lower: usize| if is_dry[lower + 2] { flow[lower + 2] } else { 0.0 };
+        let flow = [flow[0] + passed(0), flow[1] + passed(1), flow[2], flow[3]];
+        let area = |j: usize| self.plant.tanks[j].section.area(self.op.levels[j]);
+        from_fn(|j| if is_dry[j] { 0.0 } else { flow[j] / area(j) })
     }
 }
 
@@ -67,19 +88,9 @@ impl Process for LinearModel<'_> {
     }
 
     fn set_inputs(&mut self, pump_voltage: &[f64; 2], disturbance: &Disturbance) {
-        let u1 = pump_voltage[0] - self.op.pump_voltage[0] + self.voltage_of(0, disturbance.pump_flow[0]);
-        let u2 = pump_voltage[1] - self.op.pump_voltage[1] + self.voltage_of(1, disturbance.pump_flow[1]);
-        let load = |tank: usize| {
-            let rise = disturbance.tank_flow[tank] / self.plant.tanks[tank].section.area(self.op.levels[tank]);
-            rise - self.leak_rate[tank] * disturbance.leak_area[tank]
-        };
-        let b = &self.jacobian.b;
-        self.forcing = Vector4::new(
-            b.m11 * u1 + b.m12 * u2 + load(0),
-            b.m21 * u1 + b.m22 * u2 + load(1),
-            b.m31 * u1 + b.m32 * u2 + load(2),
-            b.m41 * u1 + b.m42 * u2 + load(3),
-        );
+        let input = Vector2::new(pump_voltage[0] - self.op.pump_voltage[0], pump_voltage[1] - self.op.pump_voltage[1]);
+        let loads = self.slopes_by_flows(self.load_flows(disturbance));
+        self.forcing = self.jacobian.b * input + Vector4::from(loads);
         self.push = self.hold.push(&self.forcing);
     }
 
@@ -100,8 +111,8 @@ impl Process for LinearModel<'_> {
 /// Runs an experiment on the linear model around `op` with the same sampled controllers and limits as
 /// [`simulate`](super::simulate), in absolute levels (m).
 ///
-/// Loads are inputs of the model: the flow of a pump or into a tank exactly, a leak with the outflow that it has at the operating
-/// point. The model knows no walls, so its levels may leave the tank; they stay finite because the plant itself is
+/// Loads are inputs of the model: the flow of a pump or into a tank exactly; leaks, valves, outlets and pumps that change with the
+/// flows that they have at the operating point. The model knows no walls, so its levels may leave the tank; they stay finite because the plant itself is
 /// stable and the limits of the pumps bound its inputs. A dry tank stays dry. There are no events.
 pub fn simulate_linear(
     plant: &QuadrupleTank,
@@ -124,7 +135,7 @@ mod tests {
     use super::*;
     use crate::control::{AntiWindup, LoopMode, Pairing, PiSettings};
     use crate::literature::PresetId;
-    use crate::sim::{Load, LoadStep, Measurement, simulate};
+    use crate::sim::{Load, LoadStep, simulate};
 
     /// Levels (m) that a load moves in the end, with both pumps by hand: nonlinear and linear.
     fn moved_by(load: Load) -> [[f64; 4]; 2] {
@@ -139,14 +150,8 @@ mod tests {
         };
         let controller =
             DecentralisedPi { pairing: Pairing::Diagonal, loops: [by_hand(0), by_hand(1)], sampling_time_s: 1.0 };
-        let experiment = Experiment {
-            duration_s: 2000.0,
-            set_point_steps: vec![],
-            load_steps: vec![LoadStep { time_s: 10.0, load }],
-            measurement: Measurement { noise_std: 0.0, seed: 1, quantised: false },
-            initial_levels: None,
-            pump_voltage_steps: Vec::new(),
-        };
+        let experiment =
+            Experiment { load_steps: vec![LoadStep { time_s: 10.0, load }], ..Experiment::at_rest(2000.0) };
         let jacobian = preset.plant.linearise(&op);
         let runs = [
             simulate(&preset.plant, &op, &controller, &experiment),
@@ -160,7 +165,10 @@ mod tests {
         let leaks = (0..4).map(|tank| Load::Leak { tank, area: 1e-9 });
         let flows = (0..2).map(|pump| Load::PumpFlow { pump, flow: 1e-9 });
         let from_outside = (0..4).map(|tank| Load::TankFlow { tank, flow: 1e-9 });
-        for load in leaks.chain(flows).chain(from_outside) {
+        let of_pumps = (0..2).map(|pump| Load::PumpGain { pump, change: -1e-4 });
+        let of_valves = (0..2).map(|valve| Load::Valve { valve, change: 1e-4 });
+        let of_outlets = (0..4).map(|tank| Load::Outlet { tank, change: -1e-4 });
+        for load in leaks.chain(flows).chain(from_outside).chain(of_pumps).chain(of_valves).chain(of_outlets) {
             let [nonlinear, linear] = moved_by(load);
             assert!(nonlinear.iter().any(|x| x.abs() > 1e-6), "{load:?} {nonlinear:?}");
             for i in 0..4 {

@@ -151,7 +151,7 @@ mod tests {
     use super::*;
     use crate::control::{AntiWindup, LoopMode, Pairing, PiSettings};
     use crate::literature::PresetId;
-    use crate::sim::{Load, LoadStep, Measurement, SetPointStep};
+    use crate::sim::{Load, LoadStep, SetPointStep};
 
     const STEP: f64 = 0.01;
 
@@ -168,12 +168,9 @@ mod tests {
 
     fn experiment(steps: &[(usize, f64)], load_steps: Vec<LoadStep>) -> Experiment {
         Experiment {
-            duration_s: 100.0,
             set_point_steps: steps.iter().map(|&(level, time_s)| SetPointStep { level, time_s, size: STEP }).collect(),
             load_steps,
-            measurement: Measurement { noise_std: 0.0, seed: 0, quantised: false },
-            initial_levels: None,
-            pump_voltage_steps: Vec::new(),
+            ..Experiment::at_rest(100.0)
         }
     }
 

@@ -58,12 +58,8 @@ impl Process for Rig<'_> {
 /// };
 /// let controller = DecentralisedPi { pairing: Pairing::Diagonal, loops: [pi; 2], sampling_time_s: 1.0 };
 /// let experiment = Experiment {
-///     duration_s: 600.0,
 ///     set_point_steps: vec![SetPointStep { level: 0, time_s: 100.0, size: 0.01 }],
-///     load_steps: vec![],
-///     measurement: Measurement { noise_std: 0.0, seed: 0, quantised: false },
-///     initial_levels: None,
-///     pump_voltage_steps: vec![],
+///     ..Experiment::at_rest(600.0)
 /// };
 /// let run = simulate(&rig.plant, &rest, &controller, &experiment);
 /// let [stepped, other] = loop_metrics(&run, &rig.plant, &controller, &experiment);

@@ -138,7 +138,7 @@ mod tests {
     use approx::assert_relative_eq;
 
     use super::*;
-    use crate::sim::{Load, LoadStep, Measurement, SetPointStep};
+    use crate::sim::{Load, LoadStep, SetPointStep};
 
     /// One row each second for 100 s, of levels that follow their references at once but for a lag of 1 s, and rest at 0.1 m.
     fn run(experiment: &Experiment) -> Trajectory {
@@ -154,12 +154,9 @@ mod tests {
 
     fn experiment(steps: &[(usize, f64, f64)], load_steps: Vec<LoadStep>) -> Experiment {
         Experiment {
-            duration_s: 100.0,
             set_point_steps: steps.iter().map(|&(level, time_s, size)| SetPointStep { level, time_s, size }).collect(),
             load_steps,
-            measurement: Measurement { noise_std: 0.0, seed: 0, quantised: false },
-            initial_levels: None,
-            pump_voltage_steps: Vec::new(),
+            ..Experiment::at_rest(100.0)
         }
     }
 

@@ -49,7 +49,8 @@ impl<'a> ZeroDynamics<'a> {
         let plant = self.plant;
         [0, 1].map(|i| {
             let from_above = plant.tanks[i + 2].outflow(upper[i].max(0.0), plant.gravity);
-            (self.outflow[i] - from_above - plant.inflow[i]) / (plant.valves[i] * plant.pumps[i].gain)
+            let pump = &plant.pumps[i];
+            (self.outflow[i] - from_above - plant.inflow[i]) / (plant.valves[i] * pump.gain) - pump.offset / pump.gain
         })
     }
 
@@ -84,8 +85,8 @@ impl<'a> ZeroDynamics<'a> {
     fn end_at(&self, upper: [f64; 2], after_s: f64) -> Option<ZeroDynamicsEnd> {
         let voltages = self.voltages(upper);
         let within = |pump: usize| {
-            let limits = &self.plant.pumps[pump];
-            (limits.voltage_min..=limits.voltage_max).contains(&voltages[pump])
+            let (least, most) = self.plant.pumps[pump].acting_range();
+            (least..=most).contains(&voltages[pump])
         };
         if let Some(pump) = (0..2).find(|&pump| !within(pump)) {
             return Some(ZeroDynamicsEnd::Pump { pump, after_s });

@@ -9,8 +9,8 @@ use open_loop::{BAR, OpenLoop, johansson, with_heights};
 use proptest::prelude::*;
 use quadtank::control::{AntiWindup, DecentralisedPi, LoopMode, Pairing, PiSettings};
 use quadtank::literature::PresetId;
-use quadtank::plant::ValveSchedule;
-use quadtank::sim::{EventKind, Experiment, HeldPlant, HeldTank, Measurement, SetPointStep, simulate};
+use quadtank::plant::{Pump, ValveSchedule};
+use quadtank::sim::{EventKind, Experiment, HeldPlant, HeldTank, Load, SetPointStep, simulate};
 use reference::{Reference, pumped};
 
 const SAMPLING_TIMES: [f64; 4] = [0.1, 1.0, 10.0, 60.0];
@@ -181,12 +181,8 @@ fn a_closed_loop_drives_a_tank_over_its_wall() {
     let law = DecentralisedPi { pairing: Pairing::Diagonal, loops: [pi; 2], sampling_time_s: 1.0 };
     let size = 0.05 * op.levels[0];
     let experiment = Experiment {
-        duration_s: 3000.0,
         set_point_steps: vec![SetPointStep { level: 0, time_s: 100.0, size }],
-        load_steps: vec![],
-        measurement: Measurement { noise_std: 0.0, seed: 1, quantised: false },
-        initial_levels: None,
-        pump_voltage_steps: Vec::new(),
+        ..Experiment::at_rest(3000.0)
     };
     let run = simulate(&preset.plant, &op, &law, &experiment);
     let mut reference = Reference::new(&preset.plant, op.levels);
@@ -289,6 +285,48 @@ fn a_plant_that_is_advanced_piece_by_piece_goes_where_one_long_step_leads() {
             // 1e-6 of a tank of 0.3 m.
             assert_abs_diff_eq!(at_once.levels()[i], reference.levels[i], epsilon = 3e-7);
             assert_abs_diff_eq!(in_pieces.levels()[i], reference.levels[i], epsilon = 3e-7);
+        }
+    }
+}
+
+#[test]
+fn pumps_valves_and_outlets_that_change_keep_the_bar() {
+    let plant = johansson([0.7, 0.6], [0.2, 0.2, 0.05, 0.05]);
+    let rest = plant.free_equilibrium([3.0, 3.0]);
+    let set = OpenLoop::new(&plant, rest.levels, rest.pump_voltage, 1500.0)
+        .load(100.0, Load::PumpGain { pump: 0, change: -0.3 })
+        .load(300.5, Load::Valve { valve: 1, change: -0.25 })
+        .load(500.0, Load::Outlet { tank: 3, change: -1.0 })
+        .load(800.25, Load::Outlet { tank: 1, change: 0.5 })
+        .load(1000.0, Load::PumpGain { pump: 1, change: -1.0 });
+    let end = set.check("changes", 1.0);
+    // Nothing leaves tank 4 any more: it runs over.
+    assert!(end.first_overflow[3].is_some_and(|(time_s, _)| time_s > 500.0));
+    let moved = set.load(1200.0, Load::Valve { valve: 0, change: 0.5 });
+    let swinging = ValveSchedule::Sine { mean: 0.6, amplitude: 0.2, frequency: 0.01, phase: 0.0 };
+    let schedules = [swinging, ValveSchedule::Constant { gamma: plant.valves[1] }];
+    moved.compare("changes beside moving valves", &schedules, &moved.run_with(&schedules, 1.0));
+}
+
+#[test]
+fn a_pump_follows_its_curve_in_a_run() {
+    let mut plant = johansson([0.7, 0.6], [0.2; 4]);
+    let straight = plant.pumps[0];
+    plant.pumps[0] = Pump { offset: -2e-6, start_voltage: 1.0, flow_max: Some(9e-6), ..straight };
+    // In its dead zone, on its line, and beyond its largest flow; the straight pump takes the voltage that gives the same flow.
+    for (voltage, flow) in [(0.9, 0.0), (3.0, 3.0 * straight.gain - 2e-6), (5.0, 9e-6)] {
+        let levels = plant.free_equilibrium([voltage, 3.0]).levels;
+        let other = johansson([0.7, 0.6], [0.2; 4]);
+        let expected = other.free_equilibrium([flow / straight.gain, 3.0]).levels;
+        let start = [0.1, 0.1, 0.01, 0.01];
+        let [found, same] = [(&plant, voltage), (&other, flow / straight.gain)]
+            .map(|(plant, voltage)| OpenLoop::new(plant, start, [voltage, 3.0], 3000.0).run(1.0));
+        for tank in 0..4 {
+            assert_abs_diff_eq!(levels[tank], expected[tank], epsilon = 1e-15);
+            assert_eq!(found.levels[tank].len(), same.levels[tank].len());
+            for (found, same) in found.levels[tank].iter().zip(&same.levels[tank]) {
+                assert_abs_diff_eq!(found, same, epsilon = 1e-12);
+            }
         }
     }
 }

@@ -18,7 +18,7 @@ fn tank() -> impl Strategy<Value = Tank> {
 }
 
 fn pump() -> impl Strategy<Value = Pump> {
-    (1e-6..6e-6).prop_map(|gain| Pump { gain, voltage_min: 0.0, voltage_max: 1e3 })
+    (1e-6..6e-6).prop_map(|gain| Pump::proportional(gain, 0.0, 1e3))
 }
 
 fn valve() -> impl Strategy<Value = f64> {

@@ -12,8 +12,6 @@ use quadtank::sim::{
 };
 use quadtank::study::quadruple_tank::setup_of;
 
-const NO_NOISE: Measurement = Measurement { noise_std: 0.0, seed: 0, quantised: false };
-
 #[derive(Clone, Debug)]
 struct Setup {
     plant: QuadrupleTank,
@@ -90,11 +88,12 @@ prop_compose! {
             op: plant.free_equilibrium(voltage),
             law: DecentralisedPi { pairing, loops, sampling_time_s },
             experiment: Experiment {
-                duration_s: 500.0,
                 set_point_steps: steps.into_iter()
                     .map(|(level, time_s, size)| SetPointStep { level, time_s, size }).collect(),
                 load_steps,
-                measurement: Measurement { noise_std, seed, quantised }, initial_levels: None, pump_voltage_steps: Vec::new() },
+                measurement: Measurement { noise_std, seed, quantised },
+                ..Experiment::at_rest(500.0)
+            },
         }
     }
 }
@@ -115,12 +114,8 @@ fn gentle(id: PresetId, relative_step: f64) -> Setup {
         op,
         law: DecentralisedPi { pairing: Pairing::Diagonal, loops: [pi; 2], sampling_time_s: 1.0 },
         experiment: Experiment {
-            duration_s: 3000.0,
             set_point_steps: vec![SetPointStep { level: 0, time_s: 10.0, size: relative_step * op.levels[0] }],
-            load_steps: vec![],
-            measurement: NO_NOISE,
-            initial_levels: None,
-            pump_voltage_steps: Vec::new(),
+            ..Experiment::at_rest(3000.0)
         },
     }
 }

@@ -6,13 +6,11 @@ use quadtank::linear::Stability;
 use quadtank::literature::PresetId;
 use quadtank::plant::{OperatingPoint, QuadrupleTank};
 use quadtank::sim::{
-    EventKind, Experiment, Load, LoadStep, LoopMetrics, Measurement, SetPointStep, Settling, Trajectory, loop_metrics,
-    simulate, simulate_linear,
+    EventKind, Experiment, Load, LoadStep, LoopMetrics, SetPointStep, Settling, Trajectory, loop_metrics, simulate,
+    simulate_linear,
 };
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
-
-const NO_NOISE: Measurement = Measurement { noise_std: 0.0, seed: 0, quantised: false };
 
 struct Rig {
     plant: QuadrupleTank,
@@ -65,14 +63,7 @@ fn non_minimum_phase_law() -> DecentralisedPi {
 }
 
 fn experiment(duration_s: f64, set_point_steps: Vec<SetPointStep>) -> Experiment {
-    Experiment {
-        duration_s,
-        set_point_steps,
-        load_steps: vec![],
-        measurement: NO_NOISE,
-        initial_levels: None,
-        pump_voltage_steps: Vec::new(),
-    }
+    Experiment { set_point_steps, ..Experiment::at_rest(duration_s) }
 }
 
 /// Both loops in manual mode at the operating point; +10 % of the flow of pump 1 at 250 s, then of pump 2. A load on the

@@ -9,7 +9,7 @@ use quadtank::linear::{Stability, StateSpace, transmission_zeros};
 use quadtank::literature::PresetId;
 use quadtank::plant::{OperatingPoint, QuadrupleTank, ValveSchedule};
 use quadtank::sim::{
-    EventKind, Experiment, Measurement, ModelFreeRun, SetPointStep, TrackingMetrics, ZeroDynamics, ZeroDynamicsEnd,
+    EventKind, Experiment, ModelFreeRun, SetPointStep, TrackingMetrics, ZeroDynamics, ZeroDynamicsEnd,
     simulate_model_free, tracking_metrics,
 };
 #[cfg(target_arch = "wasm32")]
@@ -32,15 +32,11 @@ fn plant() -> QuadrupleTank {
 
 fn experiment(duration_s: f64, steps: &[(usize, f64, f64)]) -> Experiment {
     Experiment {
-        duration_s,
         set_point_steps: steps
             .iter()
             .map(|&(level, time_s, cm)| SetPointStep { level, time_s, size: cm * CM })
             .collect(),
-        load_steps: Vec::new(),
-        measurement: Measurement { noise_std: 0.0, seed: 1, quantised: false },
-        initial_levels: None,
-        pump_voltage_steps: Vec::new(),
+        ..Experiment::at_rest(duration_s)
     }
 }
 

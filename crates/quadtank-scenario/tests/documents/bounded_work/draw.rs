@@ -83,7 +83,16 @@ impl Draw {
 
     fn pump(&mut self) -> Pump {
         let [one, other] = self.pair(limits::PUMP_VOLTAGE);
-        Pump { gain: self.number(limits::PUMP_GAIN), voltage_min: one.min(other), voltage_max: one.max(other) }
+        let straight = Pump::proportional(self.number(limits::PUMP_GAIN), one.min(other), one.max(other));
+        if !self.one_in(4) {
+            return straight;
+        }
+        let start_voltage = self.number(Limits { max: straight.voltage_max, ..limits::PUMP_VOLTAGE });
+        let most = straight.gain * straight.voltage_max;
+        let offset = -0.5 * self.share() * straight.gain * start_voltage;
+        // More than the pump gives where its dead zone ends.
+        let flow_max = self.one_in(2).then(|| limits::PUMP_FLOW_MAX.clamp(most));
+        Pump { offset, start_voltage, flow_max, ..straight }
     }
 
     fn plant(&mut self) -> PlantSpec {
@@ -149,10 +158,13 @@ impl Draw {
         };
         let load = |draw: &mut Self| LoadStep {
             time_s: draw.number(limits::TIME_S),
-            load: match draw.index(3) {
+            load: match draw.index(6) {
                 0 => Load::PumpFlow { pump: draw.index(2), flow: draw.number(limits::LOAD_FLOW) },
                 1 => Load::Leak { tank: draw.index(4), area: draw.number(limits::LEAK_AREA) },
-                _ => Load::TankFlow { tank: draw.index(4), flow: draw.number(limits::LOAD_FLOW) },
+                2 => Load::TankFlow { tank: draw.index(4), flow: draw.number(limits::LOAD_FLOW) },
+                3 => Load::PumpGain { pump: draw.index(2), change: draw.number(limits::LOAD_SHARE) },
+                4 => Load::Valve { valve: draw.index(2), change: draw.number(limits::LOAD_SHARE) },
+                _ => Load::Outlet { tank: draw.index(4), change: draw.number(limits::LOAD_SHARE) },
             },
         };
         let by_hand = |draw: &mut Self| PumpVoltageStep {
@@ -176,6 +188,7 @@ impl Draw {
             },
             initial_levels: self.one_in(4).then(|| std::array::from_fn(|_| self.number(level))),
             pump_voltage_steps: (0..steps_by_hand).map(|_| by_hand(self)).collect(),
+            pump_flow_noise_std: if self.one_in(4) { self.number(limits::PUMP_FLOW_NOISE_STD) } else { 0.0 },
         }
     }
 

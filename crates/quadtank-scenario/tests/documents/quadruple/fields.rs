@@ -2,6 +2,7 @@
 
 use quadtank::control::LoopMode;
 use quadtank::literature::PresetId;
+use quadtank::plant::Pump;
 use quadtank::sim::{Load, PumpVoltageStep};
 use quadtank::study::quadruple_tank::{OperatingPointSpec, PlantSpec, setup_of};
 use quadtank_scenario::{DOCUMENT_LIMIT, Scenario, ScenarioError, View, from_json, limits, to_json, to_link};
@@ -16,11 +17,16 @@ pub fn full() -> Value {
     setup.controller.loops[0].mode = LoopMode::Manual { output: 5.0, until_s: 60.0 };
     setup.experiment.load_steps[1].load = Load::Leak { tank: 3, area: 1e-6 };
     setup.experiment.load_steps[3].load = Load::TankFlow { tank: 2, flow: 1e-6 };
+    setup.experiment.load_steps[4].load = Load::PumpGain { pump: 0, change: -0.25 };
+    setup.experiment.load_steps[5].load = Load::Valve { valve: 1, change: 0.125 };
+    setup.experiment.load_steps[6].load = Load::Outlet { tank: 2, change: -0.5 };
+    setup.experiment.pump_flow_noise_std = 1e-7;
     setup.experiment.initial_levels = Some([0.02, 0.01, 0.08, 0.03]);
     setup.experiment.pump_voltage_steps =
         [0, 1].map(|pump| PumpVoltageStep { pump, time_s: 100.0, voltage: 3.0 }).to_vec();
     if let PlantSpec::Parameters { rig, .. } = &mut setup.plant {
         rig.inflow = [0.0, 0.0, 1e-6, 2e-6];
+        rig.pumps[0] = Pump { offset: -1e-6, start_voltage: 0.5, flow_max: Some(1e-3), ..rig.pumps[0] };
     }
     let mut pinned = setup_of(PresetId::JohanssonMinimumPhase);
     pinned.operating_point = OperatingPointSpec::Levels([0.1, 0.12]);
@@ -30,7 +36,7 @@ pub fn full() -> Value {
 }
 
 /// Fields (by the path that an error gives, and by JSON pointer) and a number that is out of their range.
-pub const LEAVES: [(&str, &str, f64); 48] = [
+pub const LEAVES: [(&str, &str, f64); 56] = [
     (
         "setup.plant.parameters.rig.tanks[2].section.area_at_empty",
         "/setup/plant/parameters/rig/tanks/2/section/area_at_empty",
@@ -52,6 +58,9 @@ pub const LEAVES: [(&str, &str, f64); 48] = [
     ("setup.plant.parameters.rig.pumps[0].gain", "/setup/plant/parameters/rig/pumps/0/gain", -4e-6),
     ("setup.plant.parameters.rig.pumps[0].voltage_min", "/setup/plant/parameters/rig/pumps/0/voltage_min", -1.0),
     ("setup.plant.parameters.rig.pumps[1].voltage_max", "/setup/plant/parameters/rig/pumps/1/voltage_max", -1.0),
+    ("setup.plant.parameters.rig.pumps[0].offset", "/setup/plant/parameters/rig/pumps/0/offset", 2.0),
+    ("setup.plant.parameters.rig.pumps[0].start_voltage", "/setup/plant/parameters/rig/pumps/0/start_voltage", 999.0),
+    ("setup.plant.parameters.rig.pumps[0].flow_max", "/setup/plant/parameters/rig/pumps/0/flow_max", 0.0),
     ("setup.plant.parameters.rig.valves[0]", "/setup/plant/parameters/rig/valves/0", 1.1),
     ("setup.plant.parameters.rig.power_gain", "/setup/plant/parameters/rig/power_gain", 0.0),
     ("setup.plant.parameters.rig.sensor.gain", "/setup/plant/parameters/rig/sensor/gain", 0.0),
@@ -83,6 +92,16 @@ pub const LEAVES: [(&str, &str, f64); 48] = [
     ("setup.experiment.load_steps[1].load.leak.area", "/setup/experiment/load_steps/1/load/leak/area", 1.0),
     ("setup.experiment.load_steps[2].load.pump_flow.flow", "/setup/experiment/load_steps/2/load/pump_flow/flow", 1.0),
     ("setup.experiment.load_steps[3].load.tank_flow.flow", "/setup/experiment/load_steps/3/load/tank_flow/flow", 1.0),
+    (
+        "setup.experiment.load_steps[4].load.pump_gain.change",
+        "/setup/experiment/load_steps/4/load/pump_gain/change",
+        -1.5,
+    ),
+    ("setup.experiment.load_steps[5].load.valve.change", "/setup/experiment/load_steps/5/load/valve/change", 1.5),
+    ("setup.experiment.load_steps[6].load.outlet.change", "/setup/experiment/load_steps/6/load/outlet/change", -1.5),
+    ("setup.experiment.pump_flow_noise_std", "/setup/experiment/pump_flow_noise_std", -1e-9),
+    // Less than the pump gives where its dead zone ends.
+    ("setup.plant.parameters.rig.pumps[0].flow_max", "/setup/plant/parameters/rig/pumps/0/flow_max", 1.1e-9),
     // No tank of the full document is that high.
     ("setup.experiment.initial_levels[3]", "/setup/experiment/initial_levels/3", 0.95),
     ("setup.experiment.initial_levels[0]", "/setup/experiment/initial_levels/0", -0.01),
@@ -135,6 +154,9 @@ fn an_index_beyond_its_list_names_itself() {
         ("setup.experiment.load_steps[0].load.pump_flow.pump", "/setup/experiment/load_steps/0/load/pump_flow/pump"),
         ("setup.experiment.load_steps[1].load.leak.tank", "/setup/experiment/load_steps/1/load/leak/tank"),
         ("setup.experiment.load_steps[3].load.tank_flow.tank", "/setup/experiment/load_steps/3/load/tank_flow/tank"),
+        ("setup.experiment.load_steps[4].load.pump_gain.pump", "/setup/experiment/load_steps/4/load/pump_gain/pump"),
+        ("setup.experiment.load_steps[5].load.valve.valve", "/setup/experiment/load_steps/5/load/valve/valve"),
+        ("setup.experiment.load_steps[6].load.outlet.tank", "/setup/experiment/load_steps/6/load/outlet/tank"),
         ("setup.experiment.pump_voltage_steps[1].pump", "/setup/experiment/pump_voltage_steps/1/pump"),
     ] {
         let mut document = full();

@@ -123,7 +123,7 @@ pub fn run_analysed(setup: &ModelFreeSetup, analysis: &ModelFreeAnalysis) -> Res
     let (run, figures) = law(experiment)?;
     let mut comparison = setup.compare.as_ref().map(|compare| pi(compare, experiment)).transpose()?;
     let predicted = predicted_loss(setup, &plant, &run.trajectory, analysis);
-    let is_noisy = experiment.measurement.noise_std > 0.0;
+    let is_noisy = experiment.is_noisy();
     let work = run.trajectory.work + comparison.as_ref().map_or(0, |(run, _)| run.work);
     let mut judged = figures;
     if is_noisy && work > MAX_JUDGED_WORK {

@@ -31,12 +31,9 @@ pub fn setup_of(id: PresetId) -> Setup {
             sampling_time_s: preset.pi.sampling_time_s,
         },
         experiment: Experiment {
-            duration_s: preset.pi.duration_s,
             set_point_steps: set_point_steps(preset.pi.references, [rest_1, rest_2]),
-            load_steps: Vec::new(),
             measurement: Measurement { noise_std: 0.0, seed: 1, quantised: false },
-            initial_levels: None,
-            pump_voltage_steps: Vec::new(),
+            ..Experiment::at_rest(preset.pi.duration_s)
         },
     }
 }

@@ -69,7 +69,7 @@ impl Run {
             (false, Some(Stability::Marginal)) => Some(NoResponse::MarginalLoop),
             (false, Some(Stability::Stable) | None) => None,
         };
-        let is_noisy = experiment.measurement.noise_std > 0.0;
+        let is_noisy = experiment.is_noisy();
         let is_too_long = is_noisy && nonlinear.work > MAX_JUDGED_WORK;
         let reason = reason.or(is_too_long.then_some(NoResponse::TooLongToJudge));
         // Without figures of a step there is nothing to judge.

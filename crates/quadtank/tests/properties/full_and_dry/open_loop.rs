@@ -4,7 +4,7 @@ use approx::assert_abs_diff_eq;
 use quadtank::control::{AntiWindup, DecentralisedPi, LoopMode, Pairing, PiSettings};
 use quadtank::literature::PresetId;
 use quadtank::plant::{OperatingPoint, QuadrupleTank, ValveSchedule};
-use quadtank::sim::{EventKind, Experiment, Load, LoadStep, Measurement, Trajectory, simulate, simulate_with_valves};
+use quadtank::sim::{EventKind, Experiment, Load, LoadStep, Trajectory, simulate, simulate_with_valves};
 
 use super::reference::{Reference, pumped};
 
@@ -43,15 +43,13 @@ impl OpenLoop {
         self
     }
 
+    pub fn load(mut self, time_s: f64, load: Load) -> Self {
+        self.loads.push(LoadStep { time_s, load });
+        self
+    }
+
     fn experiment(&self) -> Experiment {
-        Experiment {
-            duration_s: self.duration_s,
-            set_point_steps: vec![],
-            load_steps: self.loads.clone(),
-            measurement: Measurement { noise_std: 0.0, seed: 1, quantised: false },
-            initial_levels: None,
-            pump_voltage_steps: Vec::new(),
-        }
+        Experiment { load_steps: self.loads.clone(), ..Experiment::at_rest(self.duration_s) }
     }
 
     fn by_hand(&self, sampling_time_s: f64) -> DecentralisedPi {
@@ -84,8 +82,7 @@ impl OpenLoop {
 
     /// The reference at given times, over every load at its time and every break of the valves.
     pub fn reference(&self, valves: &[ValveSchedule; 2], times: &[f64]) -> (Vec<[f64; 4]>, Reference) {
-        let plant = self.plant.with_valves(valves.map(|valve| valve.at(0.0)));
-        let mut water = Reference::new(&plant, self.start.levels);
+        let mut water = Reference::new(&self.plant, self.start.levels);
         let mut rows = vec![];
         for &time in times {
             while water.time < time {
@@ -93,9 +90,12 @@ impl OpenLoop {
                 let begins = self.loads.iter().map(|load| load.time_s).chain(breaks);
                 let next = begins.filter(|&at| at > water.time).fold(time, f64::min);
                 let (flow, leaks, outside) = self.acting(water.time);
+                let (changed, turned) = self.changed(water.time);
+                water.set_plant(&changed);
                 let last = next.next_down();
                 let flows = |t: f64| {
-                    let plant = plant.with_valves(valves.map(|valve| valve.at(t.min(last))));
+                    let gamma = |i: usize| (valves[i].at(t.min(last)) + turned[i]).clamp(0.0, 1.0);
+                    let plant = changed.with_valves([gamma(0), gamma(1)]);
                     let pumped = pumped(&plant, self.start.pump_voltage, flow);
                     std::array::from_fn(|tank| pumped[tank] + outside[tank].max(0.0))
                 };
@@ -114,9 +114,25 @@ impl OpenLoop {
                 Load::PumpFlow { pump, flow: size } => flow[pump] += size,
                 Load::Leak { tank, area } => leaks[tank] += area,
                 Load::TankFlow { tank, flow } => outside[tank] += flow,
+                Load::PumpGain { .. } | Load::Valve { .. } | Load::Outlet { .. } => (),
             }
         }
         (flow, leaks, outside)
+    }
+
+    /// The plant with the pumps and outlets that it has from a time on, and by how much each valve is turned. Nothing here changes
+    /// twice.
+    fn changed(&self, time: f64) -> (QuadrupleTank, [f64; 2]) {
+        let (mut plant, mut turned) = (self.plant, [0.0; 2]);
+        for step in self.loads.iter().filter(|step| step.time_s <= time) {
+            match step.load {
+                Load::PumpGain { pump, change } => plant.pumps[pump].gain *= 1.0 + change,
+                Load::Valve { valve, change } => turned[valve] = change,
+                Load::Outlet { tank, change } => plant.tanks[tank].outlet.area *= 1.0 + change,
+                Load::PumpFlow { .. } | Load::Leak { .. } | Load::TankFlow { .. } => (),
+            }
+        }
+        (plant, turned)
     }
 
     pub fn standing_valves(&self) -> [ValveSchedule; 2] {

@@ -45,6 +45,11 @@ impl Reference {
         }
     }
 
+    /// Pumps, outlets and valves are those of another plant from now on.
+    pub fn set_plant(&mut self, plant: &QuadrupleTank) {
+        self.plant = *plant;
+    }
+
     /// Lets time pass until `end` (s) with the flows from the pumps (m³/s) as a function of time, which must be smooth.
     pub fn run_until(&mut self, end: f64, pumped: impl Fn(f64) -> [f64; 4], leak_area: &[f64; 4]) {
         while self.time < end {

@@ -24,7 +24,7 @@ impl Parameters {
                 outlet: Outlet { area: self.outlet_area[j], loss_coefficient: 1.0 },
                 height: f64::INFINITY,
             }),
-            pumps: self.pump_gain.map(|gain| Pump { gain, voltage_min: 0.0, voltage_max: f64::INFINITY }),
+            pumps: self.pump_gain.map(|gain| Pump::proportional(gain, 0.0, f64::INFINITY)),
             valves: self.gamma,
             power_gain: 1.0,
             sensor: Sensor { gain: self.sensor_gain, range: f64::INFINITY, resolution: 0.0 },

@@ -6,7 +6,7 @@
 
 use quadtank::control::{AntiWindup, DecentralisedPi, LoopMode, Pairing, PiSettings};
 use quadtank::plant::{OperatingPoint, QuadrupleTank};
-use quadtank::sim::{EventKind, Experiment, Measurement, SetPointStep, Trajectory, loop_metrics, simulate};
+use quadtank::sim::{EventKind, Experiment, SetPointStep, Trajectory, loop_metrics, simulate};
 use serde::Deserialize;
 
 use super::reference::Parameters;
@@ -102,12 +102,8 @@ impl Loop {
             size: step.relative * op.levels[step.output - 1],
         };
         Experiment {
-            duration_s: self.samples.last().unwrap().time,
             set_point_steps: self.steps.iter().map(step).collect(),
-            load_steps: vec![],
-            measurement: Measurement { noise_std: 0.0, seed: 0, quantised: false },
-            initial_levels: None,
-            pump_voltage_steps: Vec::new(),
+            ..Experiment::at_rest(self.samples.last().unwrap().time)
         }
     }
 }
