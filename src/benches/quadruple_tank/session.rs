@@ -53,8 +53,8 @@ pub struct Own {
     pub record: RwSignal<Option<OpenRecord>>,
     /// Where a replay of the run stands (s).
     pub playback: RwSignal<Option<f64>>,
-    /// Whether the levels at rest are held when valves are turned in Explore, instead of the pump voltages.
-    pub holds_levels: RwSignal<bool>,
+    /// Whether the levels at rest are held when valves are turned, instead of the pump voltages, where one has chosen.
+    pub holds_levels: RwSignal<Option<bool>>,
     /// What is held while valves are turned.
     pub held: StoredValue<Option<Held>>,
 }
@@ -102,7 +102,7 @@ impl Bench for QuadrupleTank {
             unit: Memo::new(move |_| document.with(|document| document.setup.plant.display_unit())),
             record: RwSignal::new(None),
             playback: RwSignal::new(None),
-            holds_levels: RwSignal::new(true),
+            holds_levels: RwSignal::new(None),
             held: StoredValue::new(None),
         }
     }
@@ -128,9 +128,15 @@ impl Bench for QuadrupleTank {
     }
 }
 
-/// Turns the valves. Explore holds the levels meanwhile, so that an overflow is not taken for the effect of the zero.
+/// Whether the levels at rest are held when valves are turned. Explore does unless told otherwise, so that an overflow is not taken
+/// for the effect of the zero; elsewhere the voltages stay, with which the rigs are published.
+pub fn holds_levels(session: Session) -> bool {
+    session.own.holds_levels.get().unwrap_or_else(|| session.lab.shown_depth() == Depth::Explore)
+}
+
+/// Turns the valves.
 pub fn turn_valves(session: Session, valves: [f64; 2]) {
-    let holds = untrack(|| session.lab.shown_depth()) == Depth::Explore && session.own.holds_levels.get_untracked();
+    let holds = untrack(|| holds_levels(session));
     if !holds {
         release_levels(session);
     }
@@ -148,7 +154,7 @@ pub fn turn_valves(session: Session, valves: [f64; 2]) {
     });
 }
 
-/// From now on the pump voltages stay that hold the levels now, if it was Explore that held these.
+/// From now on the pump voltages stay that hold the levels now, if turning the valves held these.
 pub fn release_levels(session: Session) {
     let is_held = |s: &Setup| session.own.held.get_value().is_some_and(|held| held.point == s.operating_point);
     let voltages = session.document.with_untracked(|document| {

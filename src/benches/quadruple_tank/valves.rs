@@ -4,7 +4,7 @@ use leptos::prelude::*;
 
 use super::flags::{locks, panels};
 use super::preset::{chosen, name_of};
-use super::session::{Session, turn_valves, use_session};
+use super::session::{Session, holds_levels, turn_valves, use_session};
 use super::{pictures, sentences};
 use crate::lab::Notice;
 use crate::texts::{say, terms, tr};
@@ -39,6 +39,7 @@ pub fn ValvePlaneCard() -> impl IntoView {
                 <ChartCanvas picture on_paper frames summary name="valve-plane" />
                 <Overlay frames />
             </div>
+            {(!lab.locks(locks::VALVES)).then(|| view! { <HoldSwitch /> })}
             <Sentence id="valves-sentence" text=Signal::derive(move || sentences::of_rightmost(session)) />
         </Card>
     }
@@ -72,14 +73,13 @@ pub fn ValveMapCard() -> impl IntoView {
 fn HoldSwitch() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
-    let holds = session.own.holds_levels;
     view! {
         <label class="check small">
             <input
                 type="checkbox"
                 data-testid="hold-levels"
-                prop:checked=move || holds.get()
-                on:change=move |event| holds.set(event_target_checked(&event))
+                prop:checked=move || holds_levels(session)
+                on:change=move |event| session.own.holds_levels.set(Some(event_target_checked(&event)))
             />
             {say!(lab, explore.hold)}
         </label>
