@@ -11,11 +11,24 @@ customElements.define(
   class extends HTMLElement {
     static observedAttributes = [...FLAGS, 'state'];
 
+    /** How large all in the frame is: 1.5 on a projector. What is scaled is laid out as in a smaller window, as by the zoom of a browser. */
+    get scale() {
+      return Math.min(Math.max(Number(this.getAttribute('scale')) || 1, 0.25), 4);
+    }
+
+    /** The height of the content (CSS px of the frame). */
+    resize(height) {
+      const { scale } = this;
+      const style = { width: `${100 / scale}%`, height: `${height}px`, transform: `scale(${scale})`, marginBottom: `${(scale - 1) * height}px` };
+      Object.assign(this.frame.style, style);
+    }
+
     connectedCallback() {
       this.frame = document.createElement('iframe');
       this.frame.title = this.getAttribute('title') ?? 'Quadtank';
       this.frame.allow = 'clipboard-write';
-      Object.assign(this.frame.style, { width: '100%', height: `${Number(this.getAttribute('height')) || 720}px`, border: '0' });
+      Object.assign(this.frame.style, { border: '0', transformOrigin: '0 0' });
+      this.resize(Number(this.getAttribute('height')) / this.scale || 720);
       this.listener = (event) => this.hear(event);
       addEventListener('message', this.listener);
       this.show();
@@ -40,7 +53,7 @@ customElements.define(
     hear(event) {
       if (event.source !== this.frame.contentWindow || event.origin !== HERE.origin || event.data?.quadtank === undefined) return;
       const { quadtank: kind, ...detail } = event.data;
-      if (kind === 'height' && !this.hasAttribute('height')) this.frame.style.height = `${detail.height}px`;
+      if (kind === 'height' && !this.hasAttribute('height')) this.resize(detail.height);
       this.dispatchEvent(new CustomEvent(`quadtank-${kind}`, { detail, bubbles: true }));
     }
 

@@ -220,6 +220,14 @@ test('the builder makes an embed and shows it as it will be', async ({ lab, page
   await lab.id('box-zeros').first().check();
   await expect(frame.locator('.zeros')).toBeVisible();
   await expect(frame.locator('.rga')).toHaveCount(0);
+  // On a projector all is larger: the frame is laid out as in a smaller window, and covers the place that it is given.
+  await lab.id('builder-scale').selectOption('150');
+  await expect(lab.id('builder-code')).toHaveValue(/height:480px;transform:scale\(1\.5\)/);
+  const { width, height } = await page.locator('iframe.preview').boundingBox();
+  const inside = await frame.locator('html').evaluate(() => innerWidth);
+  expect(height).toBeCloseTo(722, -1);
+  expect(width / inside).toBeCloseTo(1.5, 1);
+  await expect(frame.locator('.zeros')).toBeVisible();
   // What is done to a bench has no place here.
   for (const name of ['present', 'share', 'undo', 'view-lab']) await expect(lab.id(name)).toBeHidden();
 });

@@ -15,8 +15,59 @@ use crate::session::{Lock, Panel};
 use crate::texts::{Language, say, tr};
 use crate::widgets::{Choice, Select};
 
-/// Height of a frame to begin with (CSS px).
-pub const USUAL_HEIGHT: u32 = 720;
+/// Sizes of all in a frame that are offered (%): on a projector text has to be larger than on a desk.
+const SCALES: [u32; 4] = [100, 125, 150, 200];
+
+/// A frame in a page.
+#[derive(Clone, Copy, PartialEq)]
+pub struct FrameSize {
+    /// Height (CSS px of the page).
+    height_px: u32,
+    /// Size of all in it (%).
+    scale_percent: u32,
+}
+
+impl FrameSize {
+    /// As large as usual.
+    pub const USUAL: Self = Self { height_px: 720, scale_percent: 100 };
+
+    fn scale(self) -> f64 {
+        f64::from(self.scale_percent) / 100.0
+    }
+
+    fn width(self) -> String {
+        format!("{:.3}%", 100.0 / self.scale())
+    }
+
+    fn height(self) -> String {
+        format!("{}px", self.content_height_px())
+    }
+
+    /// Height of what is scaled (CSS px of the frame): it is laid out as in a smaller window, as by the zoom of a browser.
+    fn content_height_px(self) -> f64 {
+        (f64::from(self.height_px) / self.scale()).round()
+    }
+
+    fn transform(self) -> String {
+        format!("scale({})", self.scale())
+    }
+
+    /// The page keeps free what the frame covers beyond the place of its content.
+    fn margin_bottom(self) -> String {
+        format!("{}px", f64::from(self.height_px) - self.content_height_px())
+    }
+
+    fn style(self) -> String {
+        let (width, height) = (self.width(), self.height());
+        if self.scale_percent == 100 {
+            return format!("border:0;width:100%;height:{height}");
+        }
+        let (transform, margin) = (self.transform(), self.margin_bottom());
+        format!(
+            "border:0;width:{width};height:{height};transform:{transform};transform-origin:0 0;margin-bottom:{margin}"
+        )
+    }
+}
 
 /// What is embedded.
 #[derive(Clone, Copy, PartialEq)]
@@ -45,7 +96,10 @@ pub fn Builder(lessons: RwSignal<Vec<Option<Arc<Lesson>>>>) -> impl IntoView {
     let preset = RwSignal::new(None::<PresetId>);
     let panels = RwSignal::new(Vec::<Panel>::new());
     let locks = RwSignal::new(Vec::<Lock>::new());
-    let height = RwSignal::new(USUAL_HEIGHT.to_string());
+    let height = RwSignal::new(FrameSize::USUAL.height_px.to_string());
+    let scale = RwSignal::new(FrameSize::USUAL.scale_percent);
+    let size = Signal::derive(move || FrameSize { height_px: height_px(&height.get()), scale_percent: scale.get() });
+    let scales = Signal::derive(|| SCALES.map(|s| Choice::new(s, s.to_string(), format!("{s} %"))).to_vec());
     let is_previewed = RwSignal::new(false);
     let name = move |subject: Subject| match subject {
         Subject::Bench(bench) => (bench.title)(lab),
@@ -75,7 +129,7 @@ pub fn Builder(lessons: RwSignal<Vec<Option<Arc<Lesson>>>>) -> impl IntoView {
         }
         query
     });
-    let code = Memo::new(move |_| frame_of(&query.get(), &name(subject.get()), height_px(&height.get())));
+    let code = Memo::new(move |_| frame_of(&query.get(), &name(subject.get()), size.get()));
     let copied = RwSignal::new(false);
     let on_copy = move |_| copy(&code.get_untracked(), move |done| copied.set(done));
     let choices = move || match subject.get() {
@@ -83,10 +137,20 @@ pub fn Builder(lessons: RwSignal<Vec<Option<Arc<Lesson>>>>) -> impl IntoView {
         Subject::Bench(bench) => Some(view! { <BenchChoices bench preset panels locks /> }),
     };
     let preview = move || {
-        let height = height_px(&height.get());
         is_previewed.get().then(|| {
             let title = say!(lab, lesson.preview);
-            view! { <iframe class="preview" title=title style:height=format!("{height}px") src=query.get()></iframe> }
+            // Each by itself: the policy of the page allows no attribute with a style.
+            view! {
+                <iframe
+                    class="preview"
+                    title=title
+                    style:width=move || size.get().width()
+                    style:height=move || size.get().height()
+                    style:transform=move || size.get().transform()
+                    style:margin-bottom=move || size.get().margin_bottom()
+                    src=query.get()
+                ></iframe>
+            }
         })
     };
     view! {
@@ -109,6 +173,8 @@ pub fn Builder(lessons: RwSignal<Vec<Option<Arc<Lesson>>>>) -> impl IntoView {
                         prop:value=move || height.get() on:input=move |event| height.set(event_target_value(&event)) />
                     " px"
                 </label>
+                <Select id="builder-scale" name=say!(lab, lesson.scale) choices=scales chosen=scale
+                    on_choose=Callback::new(move |chosen| scale.set(chosen)) disabled=false />
             </div>
             {choices}
             <textarea readonly rows="3" class="code" data-testid="builder-code" aria-label=say!(lab, lesson.embed) prop:value=move || code.get()></textarea>
@@ -136,16 +202,15 @@ fn title_of(lab: Lab, lessons: &[Option<Arc<Lesson>>], id: &'static str) -> Stri
 }
 
 /// The HTML of a frame with the laboratory.
-pub fn frame_of(query: &str, title: &str, height: u32) -> String {
+pub fn frame_of(query: &str, title: &str, size: FrameSize) -> String {
     let (address, title) = (absolute(query).replace('&', "&amp;"), title.replace('&', "&amp;").replace('"', "&quot;"));
-    format!(
-        "<iframe src=\"{address}\" title=\"{title}\" width=\"100%\" height=\"{height}\" style=\"border:0\" allow=\"clipboard-write\"></iframe>"
-    )
+    let style = size.style();
+    format!("<iframe src=\"{address}\" title=\"{title}\" style=\"{style}\" allow=\"clipboard-write\"></iframe>")
 }
 
 /// The height that was typed, within limits (CSS px).
 fn height_px(typed: &str) -> u32 {
-    typed.parse().unwrap_or(USUAL_HEIGHT).clamp(200, 3000)
+    typed.parse().unwrap_or(FrameSize::USUAL.height_px).clamp(200, 3000)
 }
 
 /// A flag with a list; nothing for an empty one.

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use leptos::prelude::*;
 use quadtank_lesson::{Answer, LESSON_IDS, Lesson, NumberTask, Step, TaskKind, Tolerance};
 
-use builder::{Builder, USUAL_HEIGHT, frame_of};
+use builder::{Builder, FrameSize, frame_of};
 use codes::ReadCodes;
 pub use package::LessonFiles;
 
@@ -74,7 +74,7 @@ fn guide(lab: Lab, index: usize, lesson: Arc<Lesson>) -> impl IntoView {
     };
     let address = lesson_address(&lesson.id);
     let query = format!("{address}&embed=1&lang={}", lab.language.get().tag());
-    let embed = frame_of(&query, lesson.title.shown(language), USUAL_HEIGHT);
+    let embed = frame_of(&query, lesson.title.shown(language), FrameSize::USUAL);
     // The numbers are computed when they are asked for.
     let asked = RwSignal::new(false);
     let lesson = Arc::clone(&lesson);
