@@ -305,3 +305,35 @@ test('a rig of another laboratory is typed in, and what cannot be is explained',
   await lab.clean();
   await lab.axe();
 });
+
+test('a rig changes during a run, its pumps have a curve, and its levels can be held', async ({ lab }) => {
+  await lab.open('lang=en&view=full&preset=johansson-2000-minimum-phase');
+  // A closed outlet: tank 4 runs over.
+  await lab.id('load-kind').selectOption('outlet3');
+  await lab.type('load-size-number', '-100');
+  await lab.settle();
+  await expect(lab.id('responses-sentence')).toContainText('Tank 4 overflows');
+  await lab.id('load-kind').selectOption('valve0');
+  await lab.type('load-size-number', '10');
+  await lab.settle();
+  await expect(lab.id('responses-sentence')).not.toContainText('overflows');
+  // With the levels held, the pumps follow the valves.
+  await lab.id('hold-levels').check();
+  const level = await lab.text('rig-level-1');
+  await lab.id('valve-handle').focus();
+  await lab.page.keyboard.press('Shift+ArrowLeft');
+  await lab.settle();
+  expect(await lab.value('gamma1-number')).toBeCloseTo(0.65, 1);
+  expect(await lab.text('rig-level-1')).toBe(level);
+  await lab.page.locator('[data-testid=operating-point-fold] > summary').click();
+  expect(Math.abs((await lab.value('voltage1')) - 3)).toBeGreaterThan(0.02);
+  await lab.type('voltage1', '3');
+  // A dead zone in which the pump would rest is told.
+  await lab.id('rig-numbers').locator('summary').click();
+  await lab.type('rig-start1', '3.5');
+  await lab.settle();
+  await expect(lab.id('process')).toContainText(/3\.50? to 10/);
+  await lab.clean();
+  await lab.axe();
+});
+

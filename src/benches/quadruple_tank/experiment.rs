@@ -65,6 +65,7 @@ const LOAD: ParamControl<Setup> = ParamControl {
     travel: Some(|s| LoadPlace::of(s).travel()),
     scale: Some(Scale::Linear(0.1)),
     shown_unit: Some(|s| LoadPlace::of(s).shown_unit()),
+    digits: None,
     class: [""; 2],
     ..OF_EXPERIMENT
 };
@@ -90,7 +91,7 @@ const NOISE: ParamControl<Setup> = ParamControl {
 };
 const FLOW_NOISE: ParamControl<Setup> = ParamControl {
     ids: [("flow-noise", "flow-noise-number"); 2],
-    label: |lab, _| tr!(lab, experiment.flow_noise),
+    label: |_, _| "σ".to_owned(),
     name: |lab, _| tr!(lab, experiment.flow_noise_name),
     path: |_, _| "experiment.pump_flow_noise_std",
     read: |s, _| s.experiment.pump_flow_noise_std,
@@ -237,6 +238,7 @@ fn MoreControls() -> impl IntoView {
             <summary>{say!(lab, experiment.more)}</summary>
             <StartControls />
             <PumpControls />
+            <p class="remark">{say!(lab, experiment.flow_noise)}</p>
             <ParamRow session control=&FLOW_NOISE />
             <AllSteps />
         </details>
