@@ -23,6 +23,15 @@ pub enum TuningWarning {
         /// The polynomial with the coefficients turned round.
         reversed: String,
     },
+    /// A relay on an element with direct feedthrough that switches itself at once.
+    #[error("tuning.test.hysteresis[{}]: g{number}{number} passes its input straight on, so its output moves by {half_width} at once \
+             with the relay, which chatters with less hysteresis than that", number - 1)]
+    SwitchesItself {
+        /// Number of the loop, 1 or 2.
+        number: usize,
+        /// Half width of the hysteresis that it needs at least.
+        half_width: f64,
+    },
     /// A setting that changes nothing here.
     #[error("{field}: without effect here; it acts only {acts}")]
     NoEffect {
@@ -44,9 +53,27 @@ const SHORTEST_LAG: f64 = 2.0;
 pub fn warnings(setup: &TuningSetup) -> Vec<TuningWarning> {
     coefficient_order(setup)
         .into_iter()
+        .chain(relays_that_switch_themselves(setup))
         .chain(settings_without_effect(setup))
         .chain(design_without_effect(&setup.design))
         .collect()
+}
+
+/// Relays whose own output jumps beyond their hysteresis when they switch.
+fn relays_that_switch_themselves(setup: &TuningSetup) -> Vec<TuningWarning> {
+    let (TuningPlant::Elements(rows), test) = (&setup.plant, &setup.test) else { return Vec::new() };
+    let half_width = |index: usize| {
+        let element = rows[index][index].transfer_function().ok().filter(|of| of.dead_time() == 0.0);
+        test.amplitudes[index] * element.map_or(0.0, |of| of.feedthrough().abs())
+    };
+    let is_single = test.kind == TestKind::Single;
+    let has_relay = |index: usize| !is_single || (test.number == index + 1 && test.behind == SeriesElement::Nothing);
+    let of_loop = |index: usize| (has_relay(index), index, half_width(index));
+    let chattering = |(has_relay, index, half_width): (bool, usize, f64)| {
+        let is_one = has_relay && half_width > 0.0 && test.hysteresis[index] < half_width;
+        is_one.then_some(TuningWarning::SwitchesItself { number: index + 1, half_width })
+    };
+    [0, 1].map(of_loop).into_iter().filter_map(chattering).collect()
 }
 
 /// Settings with a value of their own that change nothing, because the session has no use for them.
@@ -161,10 +188,10 @@ fn coefficient_order(setup: &TuningSetup) -> Option<TuningWarning> {
     })
 }
 
-/// Whether the last coefficient that is not zero is 1, and the first one is not.
+/// Whether the last coefficient that is not zero is 1, and the first one is neither that nor 0, with which nobody writes a highest power.
 fn ends_with_one(element: &Element) -> bool {
     let last = element.denominator.iter().rev().find(|&&a| a != 0.0);
-    last == Some(&1.0) && element.denominator.first() != Some(&1.0)
+    last == Some(&1.0) && !matches!(element.denominator.first(), Some(&1.0 | &0.0))
 }
 
 /// The sum of the time constants, a1/a0.

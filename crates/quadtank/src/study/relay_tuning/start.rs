@@ -67,7 +67,7 @@ impl TuningSetup {
     }
 
     fn paced(plant: TuningPlant) -> Self {
-        let limit = PlantStudy::of(&plant).map(|study| study.search.limit(importance_direction(&study.dc_gain, 1.0)));
+        let limit = PlantStudy::of(&plant).map(|study| study.search.limit(importance_direction(&study.rest_gain, 1.0)));
         let period = match limit {
             Ok(GainLimit::Oscillation(point)) => TAU / point.frequency,
             _ => period_without_oscillation(&plant),
