@@ -5,7 +5,8 @@ use quadtank::literature::campestrini::PublishedPlant;
 
 use quadtank::control::Pairing;
 use quadtank::study::relay_tuning::{
-    CompareSpec, DecouplerSpec, DesignSpec, Element, GivenPid, SeriesElement, TestKind, TuningPlant, TuningSetup,
+    CompareSpec, DecouplerSpec, DesignSpec, Element, GivenPid, PidForm, SeriesElement, TestKind, TuningPlant,
+    TuningSetup,
 };
 
 /// What a session may not have been meant to say. Nothing is refused for it.
@@ -129,6 +130,14 @@ fn design_without_effect(design: &DesignSpec) -> Vec<TuningWarning> {
     ]);
     let [first, second] = controllers.each_ref().map(idle_parts);
     let of_controllers = no_effect([
+        (first[3], "tuning.design.controllers[0].integral_time", "in the ISA and the series form"),
+        (first[4], "tuning.design.controllers[0].derivative_time", "in the ISA and the series form"),
+        (first[5], "tuning.design.controllers[0].integral_gain", "in the parallel form"),
+        (first[6], "tuning.design.controllers[0].derivative_gain", "in the parallel form"),
+        (second[3], "tuning.design.controllers[1].integral_time", "in the ISA and the series form"),
+        (second[4], "tuning.design.controllers[1].derivative_time", "in the ISA and the series form"),
+        (second[5], "tuning.design.controllers[1].integral_gain", "in the parallel form"),
+        (second[6], "tuning.design.controllers[1].derivative_gain", "in the parallel form"),
         (first[0], "tuning.design.controllers[0].integral_time", "with a gain"),
         (first[1], "tuning.design.controllers[0].derivative_time", "with a gain"),
         (first[2], "tuning.design.controllers[0].filter_time", "with derivative action"),
@@ -139,12 +148,21 @@ fn design_without_effect(design: &DesignSpec) -> Vec<TuningWarning> {
     [of_placement, of_controllers].concat()
 }
 
-/// Whether integral time, derivative time and filter of a given controller are set without acting.
-fn idle_parts(pid: &GivenPid) -> [bool; 3] {
-    let &GivenPid { gain, integral_time, derivative_time, filter_time } = pid;
-    let is_open = gain == 0.0;
-    let is_pi = is_open || derivative_time == 0.0;
-    [is_open && integral_time.is_some(), is_open && derivative_time != 0.0, is_pi && filter_time.is_some()]
+/// Whether parts of a given controller are set without acting: integral time, derivative time and filter for want of a gain or of
+/// derivative action; times in the parallel form, and integral and derivative gain in the others.
+fn idle_parts(pid: &GivenPid) -> [bool; 7] {
+    let &GivenPid { form, integral_time, derivative_time, integral_gain, derivative_gain, filter_time, .. } = pid;
+    let is_parallel = form == PidForm::Parallel;
+    let is_open = pid.is_open() && !is_parallel;
+    [
+        is_open && integral_time.is_some(),
+        is_open && derivative_time != 0.0,
+        !pid.has_derivative() && filter_time.is_some(),
+        is_parallel && integral_time.is_some(),
+        is_parallel && derivative_time != 0.0,
+        !is_parallel && integral_gain != 0.0,
+        !is_parallel && derivative_gain != 0.0,
+    ]
 }
 
 fn no_effect<const N: usize>(settings: [(bool, &'static str, &'static str); N]) -> Vec<TuningWarning> {

@@ -131,7 +131,7 @@ impl TuningSetup {
             let GivenPid { gain, integral_time, derivative_time, .. } =
                 isa.map_or_else(GivenPid::default, GivenPid::from);
             let integral_time = integral_time.filter(|&time| time > 0.0);
-            GivenPid { gain, integral_time, derivative_time: derivative_time.max(0.0), filter_time: None }
+            GivenPid { gain, integral_time, derivative_time: derivative_time.max(0.0), ..GivenPid::default() }
         };
         self.design.controllers = Some(placed.unwrap_or_default().map(given));
     }
