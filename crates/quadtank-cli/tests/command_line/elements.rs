@@ -207,8 +207,7 @@ fn a_plant_is_taken_from_a_script() {
 #[test]
 fn a_script_without_a_plant_is_one_line_with_the_place() {
     let said = |script: &str| stderr(&pipe(&["elements", "-"], script.as_bytes()));
-    let expected =
-        "quadtank: standard input: line 2, column 9: `tau` is not known; the variable is s, functions are exp and tf\n";
+    let expected = "quadtank: standard input: line 2, column 9: `tau` is not known; the variable is s, functions are exp, tf and zpk\n";
     assert_eq!(said("a = 1;\nG = 1/(1tau*s + 1)\n"), expected);
     let improper = "G = [s^2/(s + 1), 0; 0, 1/s]";
     assert!(said(improper).contains("an improper element"), "{}", said(improper));
