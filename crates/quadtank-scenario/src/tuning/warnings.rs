@@ -194,7 +194,12 @@ fn coefficient_order(setup: &TuningSetup) -> Option<TuningWarning> {
         let (read, reversed) = (longest(lag_of), longest(reversed_lag_of));
         let far_apart = (reversed / read).ln().abs() >= FAR_APART.ln();
         let is_turned = far_apart && !plausible(read) && plausible(reversed);
-        let like_lags = elements().all(|(_, of)| of.denominator.last() == Some(&1.0));
+        // Integrating and biproper elements are none of the lags that are told apart here.
+        let is_lag = |of: &Element| {
+            let element = of.transfer_function();
+            element.is_ok_and(|element| element.integrators() == 0 && element.feedthrough() == 0.0)
+        };
+        let like_lags = elements().all(|(_, of)| of.denominator.last() == Some(&1.0) && is_lag(of));
         elements().find(|(_, of)| ends_with_one(of)).filter(|_| like_lags && is_turned)
     };
     let ((row, column), element) = integrator.or_else(turned)?;

@@ -107,7 +107,7 @@ impl LoopStability {
 }
 
 /// Least real part of the eigenvalues of a real matrix.
-fn least_real_part(matrix: &Matrix2<f64>) -> f64 {
+pub(crate) fn least_real_part(matrix: &Matrix2<f64>) -> f64 {
     let half_difference = 0.5 * (matrix[(0, 0)] - matrix[(1, 1)]);
     let square = half_difference * half_difference + matrix[(0, 1)] * matrix[(1, 0)];
     0.5 * matrix.trace() - square.max(0.0).sqrt()

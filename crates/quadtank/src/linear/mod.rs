@@ -34,6 +34,7 @@ pub use closed_loop::ClosedLoop;
 pub use delayed::{DelayedPlant, SignalPath};
 pub use discrete::DiscreteStateSpace;
 pub use encirclements::LoopStability;
+pub(crate) use encirclements::least_real_part;
 pub use error::LinearError;
 pub use lag_chain::MAX_ORDER;
 pub use loci::{Closure, Crossing, Loci, locus_values};

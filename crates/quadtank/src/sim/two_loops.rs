@@ -5,7 +5,7 @@ use std::cell::Cell;
 use nalgebra::{Matrix2, Vector2};
 
 use crate::control::{PidMatrix, Relay};
-use crate::linear::DelayedPlant;
+use crate::linear::{DelayedPlant, least_real_part};
 use crate::numeric::root;
 
 /// A plant whose inputs are held between changes, in deviations from its rest.
@@ -249,7 +249,7 @@ impl<'a> Run<'a> {
 
     /// The errors that a sample finds. Behind direct feedthrough they depend on what the controllers make of them at once, as they do
     /// in a loop without sampling: `e = r − y₀ − D (u₀ + K e)`, with the output y₀ that the plant has without inputs. `None` where no
-    /// error fulfils it.
+    /// error fulfils it, or none that any lag would not lead away from: an eigenvalue of D K is −1 or beyond.
     fn errors_with_feedthrough(&self, outputs: [f64; 2]) -> Option<[f64; 2]> {
         let errors = self.errors(outputs);
         if self.instant == Matrix2::zeros() {
@@ -258,7 +258,8 @@ impl<'a> Run<'a> {
         let (offset, gain) = self.controllers.at_once();
         let relays = [0, 1].map(|i| self.loops.relays[i].map_or(0.0, |relay| relay.output(self.positive[i])));
         let change = Vector2::from(offset) + Vector2::from(relays) - Vector2::from(self.inputs);
-        let solved = (Matrix2::identity() + self.instant * gain).try_inverse()?;
+        let through = self.instant * gain;
+        let solved = (Matrix2::identity() + through).try_inverse().filter(|_| least_real_part(&through) > -1.0)?;
         let errors = solved * (Vector2::from(errors) - self.instant * change);
         Some([errors[0], errors[1]])
     }

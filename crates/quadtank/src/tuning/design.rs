@@ -105,7 +105,7 @@ mod tests {
     use super::*;
     use crate::control::ParallelPid;
     use crate::linear::{DelayedPlant, LoopStability, MatrixPolesAndZeros, TransferFunction};
-    use crate::sim::{TwoLoops, run_two_loops};
+    use crate::sim::{Halt, TwoLoops, run_two_loops};
 
     fn element(numerator: &[f64], denominator: &[f64], dead_time: f64) -> TransferFunction {
         TransferFunction::new(numerator.to_vec(), denominator.to_vec(), dead_time).unwrap()
@@ -233,6 +233,10 @@ mod tests {
         for (t, y) in trace.time.iter().zip(&trace.outputs[0]) {
             assert_relative_eq!(*y, 1.0 / 6.0 + (-3.0 * t).exp() / 3.0, epsilon = 2e-3);
         }
+        // What is no loop has no motion.
+        let none = TwoLoops { controllers: PidMatrix::decentralised([pi(-2.0, 0.0), pi(0.1, 0.0)]), ..loops };
+        let trace = run_two_loops(&mut DelayedPlant::new(&plant.paths()).unwrap(), &none);
+        assert_eq!(trace.halt, Some(Halt::Diverged { time: 0.0 }));
     }
 
     #[test]
