@@ -78,9 +78,7 @@ fn of_law(lab: Lab, field: &str, error: EstimatorError) -> String {
 pub fn of_fault(lab: Lab, fault: ElementFault) -> String {
     match fault {
         ElementFault::NoDenominator => tr!(lab, refused.no_denominator),
-        ElementFault::Biproper { .. } => tr!(lab, refused.biproper),
         ElementFault::Improper { .. } => tr!(lab, refused.improper),
-        ElementFault::Integrating => tr!(lab, refused.integrating),
         ElementFault::Unstable { real_part } => {
             tr!(lab, refused.unstable, real = lab.number_style().significant(real_part, 3))
         }

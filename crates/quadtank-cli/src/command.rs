@@ -160,9 +160,9 @@ enum Command {
     },
     /// Print a relay-tuning session (version 2) on the plant that lines of MATLAB or python-control define
     ///
-    /// Understood are assignments, `s = tf('s')` and formulas in s, `tf(numerator, denominator)` with falling powers of s, matrices
-    /// `[g11, g12; g21, g22]`, and the options and properties `InputDelay`, `OutputDelay` and `IODelay`. The last plant with two inputs and
-    /// two outputs counts.
+    /// Understood are assignments, `s = tf('s')` and formulas in s, `tf(numerator, denominator)` with falling powers of s,
+    /// `zpk(zeros, poles, gain)`, matrices `[g11, g12; g21, g22]`, lines `G(1,2) = …`, and the options and properties `InputDelay`,
+    /// `OutputDelay` and `IODelay`. The last plant with two inputs and two outputs counts.
     Elements {
         /// Script, or - for standard input
         file: PathBuf,

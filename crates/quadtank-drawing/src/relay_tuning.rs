@@ -67,7 +67,7 @@ fn curve<T>(found: &Tuning, draw: impl Fn(&CurveChart) -> T) -> T {
     let normal = |gains: [f64; 2]| found.study.normalised(gains);
     let point = |limit: &GainLimit| match limit {
         GainLimit::Oscillation(point) => normal(point.gains),
-        GainLimit::RealPole { gains, .. } => normal(*gains),
+        GainLimit::RealPole { gains, .. } | GainLimit::AlgebraicLoop { gains, .. } => normal(*gains),
         GainLimit::None => (f64::NAN, f64::NAN),
     };
     let (x, y): (Vec<f64>, Vec<f64>) = found.study.curve.points.iter().map(|at| point(&at.limit)).unzip();

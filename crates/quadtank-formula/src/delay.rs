@@ -53,6 +53,25 @@ pub fn delayed(value: &Value, property: &str, delay: &Value) -> Result<Value, Fo
     Ok(Value::square([[path(0, 0)?, path(0, 1)?], [path(1, 0)?, path(1, 1)?]]))
 }
 
+/// Elements from zeros, poles and gains, `k Π (s − z)/Π (s − p)`.
+pub fn zeros_poles_gain(zeros: &Value, poles: &Value, gain: &Value) -> Result<Value, FormulaFault> {
+    let element = |z: &Value, p: &Value, k: &Value| {
+        let numerator = z.roots()?.times(&Quotient::number(k.number()?))?;
+        numerator.over(&p.roots()?)
+    };
+    let entries = [zeros, poles, gain].map(Value::entries_of_square);
+    match entries {
+        [Some([[z11, z12], [z21, z22]]), Some([[p11, p12], [p21, p22]]), Some([[k11, k12], [k21, k22]])] => {
+            Ok(Value::square([
+                [element(z11, p11, k11)?, element(z12, p12, k12)?],
+                [element(z21, p21, k21)?, element(z22, p22, k22)?],
+            ]))
+        }
+        [None, None, None] => element(zeros, poles, gain).map(Value::Quotient),
+        _ => Err(FormulaFault::Shape),
+    }
+}
+
 /// Elements from the coefficients of numerators and denominators, highest power first.
 pub fn transfer_function(numerator: &Value, denominator: &Value) -> Result<Value, FormulaFault> {
     let element = |b: &Value, a: &Value| Quotient::new(b.polynomial()?, a.polynomial()?, 0.0);

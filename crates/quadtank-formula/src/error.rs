@@ -33,9 +33,25 @@ pub enum FormulaFault {
         found: String,
     },
     /// A name that nothing was assigned to.
-    #[error("`{name}` is not known; the variable is s, functions are exp and tf")]
+    #[error("`{name}` is not known; the variable is s, functions are exp, tf and zpk")]
     UnknownName {
         /// The name.
+        name: String,
+    },
+    /// An approximation of a dead time, which is exact here.
+    #[error("`pade` approximates a dead time, and dead times are exact here: write exp(-θ s)")]
+    PadeApproximation,
+    /// A state-space model.
+    #[error(
+        "`ss` is a state-space model, and a plant consists of transfer functions here: write tf(…) or zpk(…), such as tf(G) prints them"
+    )]
+    StateSpaceModel,
+    /// The imaginary unit, in a zero or pole that is not real.
+    #[error(
+        "`{name}` is an imaginary unit, and zeros and poles of zpk have to be real here: write a pair of complex ones as a polynomial in s"
+    )]
+    ImaginaryUnit {
+        /// i or j.
         name: String,
     },
     /// A quotation that does not end in its line.
@@ -90,13 +106,13 @@ pub enum FormulaFault {
     /// A number that is not finite.
     #[error("the number is too large")]
     NotFinite,
-    /// An option of `tf` that is not known.
-    #[error("`{name}` is not known; options of tf are InputDelay, OutputDelay and IODelay")]
+    /// An option of `tf` or `zpk` that is not known.
+    #[error("`{name}` is not known; options of tf and zpk are InputDelay, OutputDelay and IODelay")]
     UnknownOption {
         /// Its name.
         name: String,
     },
-    /// Lists or delays that are not of the shape of the plant.
+    /// Lists, delays or places that are not of the shape of the plant.
     #[error("the shape has to be that of a plant with two inputs and two outputs")]
     Shape,
     /// A script that defines no plant with two inputs and two outputs.

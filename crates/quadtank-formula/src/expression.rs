@@ -1,10 +1,10 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
-use crate::delay::{delayed, transfer_function};
+use crate::delay::{delayed, transfer_function, zeros_poles_gain};
 use crate::quotient::{MAX_EXPONENT, Quotient};
 use crate::token::{Token, TokenKind};
-use crate::value::Value;
+use crate::value::{Square, Value};
 use crate::{FormulaError, FormulaFault};
 
 /// Most brackets in one another.
@@ -28,6 +28,8 @@ pub struct Reader<'a> {
     end: usize,
     /// What names stand for.
     pub variables: HashMap<String, Value>,
+    /// Elements that were assigned one by one, `G(1,2) = …`, by the name of their plant.
+    pub placed: HashMap<String, Square<Option<Quotient>>>,
 }
 
 /// Whether blanks separate entries, as they do directly within the brackets of a list.
@@ -40,7 +42,7 @@ pub enum Blanks {
 impl<'a> Reader<'a> {
     pub fn new(tokens: &'a [Token], end: usize) -> Self {
         let variables = HashMap::from([("s".to_owned(), Value::Quotient(Quotient::s()))]);
-        Self { tokens, at: 0, depth: 0, end, variables }
+        Self { tokens, at: 0, depth: 0, end, variables, placed: HashMap::new() }
     }
 
     pub fn peek(&self) -> Option<&'a Token> {
@@ -50,6 +52,11 @@ impl<'a> Reader<'a> {
     /// The token after the next one.
     pub fn second(&self) -> Option<&'a Token> {
         self.tokens.get(self.at + 1)
+    }
+
+    /// The next tokens.
+    pub fn rest(&self) -> &'a [Token] {
+        self.tokens.get(self.at..).unwrap_or_default()
     }
 
     pub fn advance(&mut self) {
@@ -229,13 +236,29 @@ impl<'a> Reader<'a> {
                     value.quotient()?.exponential().map(Value::Quotient)
                 })
             }
-            "exp" | "tf" | "TransferFunction" | "array" | "matrix" | "combine_tf" if self.is_at('(') => {
+            "exp" | "tf" | "zpk" | "TransferFunction" | "array" | "matrix" | "combine_tf" if self.is_at('(') => {
                 let (arguments, end) = self.arguments()?;
                 let whole = span.start..end;
                 call(own, &arguments, whole)
             }
+            "i" | "j" => Err(FormulaError::new(FormulaFault::ImaginaryUnit { name: own.to_owned() }, span.clone())),
             _ => Err(unknown()),
         }
+    }
+
+    /// What is written further on but is no transfer function: a call of a name that says so.
+    pub fn check_calls(&self) -> Result<(), FormulaError> {
+        let calls = self.tokens.windows(2).filter(|pair| pair[1].kind == TokenKind::Symbol('('));
+        let fault = |token: &Token| match &token.kind {
+            TokenKind::Name(name) => match name.rsplit('.').next() {
+                Some("pade") => Some(FormulaFault::PadeApproximation),
+                Some("ss" | "StateSpace") => Some(FormulaFault::StateSpaceModel),
+                _ => None,
+            },
+            _ => None,
+        };
+        let mut refused = calls.filter_map(|pair| Some(FormulaError::new(fault(&pair[0])?, pair[0].span.clone())));
+        refused.next().map_or(Ok(()), Err)
     }
 
     /// Arguments in parentheses, and where these end.
@@ -314,27 +337,39 @@ fn apply(argument: &Written, span: Range<usize>, of: impl FnOnce(&Value) -> Resu
     }
 }
 
+/// An element or a plant with the delays that follow as names and values.
+fn with_options(mut value: Value, options: &[Written], span: Range<usize>) -> Read {
+    for option in options.chunks(2) {
+        // Another number would be a sampling time.
+        let [Written { value: Value::Text(property), span: name }, delay] = option else {
+            let found = "…".to_owned();
+            return Err(FormulaError::new(FormulaFault::Unexpected { found }, option[0].span.clone()));
+        };
+        let place = name.start..delay.span.end;
+        value = delayed(&value, property, &delay.value).map_err(|fault| FormulaError::new(fault, place))?;
+    }
+    Ok(Written { value, span })
+}
+
 fn call(name: &str, arguments: &[Written], span: Range<usize>) -> Read {
     let at = |fault: FormulaFault| FormulaError::new(fault, span.clone());
     match (name, arguments) {
         ("exp", [argument]) => apply(argument, span, |value| value.quotient()?.exponential().map(Value::Quotient)),
         ("array" | "matrix" | "combine_tf", [argument]) => Ok(Written { value: argument.value.clone(), span }),
+        ("zpk", [Written { value: Value::Text(text), .. }]) if text == "s" => {
+            Ok(Written { value: Value::Quotient(Quotient::s()), span })
+        }
+        ("zpk", [zeros, poles, gain, options @ ..]) => {
+            let value = zeros_poles_gain(&zeros.value, &poles.value, &gain.value).map_err(at)?;
+            with_options(value, options, span)
+        }
         ("tf" | "TransferFunction", [argument]) => apply(argument, span, |value| match value {
             Value::Text(text) if text == "s" => Ok(Value::Quotient(Quotient::s())),
             other => Ok(Value::Quotient(other.quotient()?.clone())),
         }),
         ("tf" | "TransferFunction", [numerator, denominator, options @ ..]) => {
-            let mut value = transfer_function(&numerator.value, &denominator.value).map_err(at)?;
-            for option in options.chunks(2) {
-                // A third number would be a sampling time.
-                let [Written { value: Value::Text(property), span: name }, delay] = option else {
-                    let found = "…".to_owned();
-                    return Err(FormulaError::new(FormulaFault::Unexpected { found }, option[0].span.clone()));
-                };
-                let place = name.start..delay.span.end;
-                value = delayed(&value, property, &delay.value).map_err(|fault| FormulaError::new(fault, place))?;
-            }
-            Ok(Written { value, span })
+            let value = transfer_function(&numerator.value, &denominator.value).map_err(at)?;
+            with_options(value, options, span)
         }
         _ => Err(at(FormulaFault::Unexpected { found: format!("{name}(…)") })),
     }

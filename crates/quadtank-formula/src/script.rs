@@ -23,6 +23,7 @@ pub fn element_from_formula(text: &str) -> Result<Element, FormulaError> {
     check_length(text)?;
     let tokens = tokens(text, DecimalComma::OutsideLists)?;
     let mut reader = Reader::new(&tokens, text.len());
+    reader.check_calls()?;
     reader.skip_newlines();
     let Written { value, span } = reader.sum(Blanks::MeanNothing)?;
     reader.skip_newlines();
@@ -52,6 +53,7 @@ pub fn elements_from_script(text: &str) -> Result<[[Element; 2]; 2], FormulaErro
     check_length(text)?;
     let tokens = tokens(text, DecimalComma::Nowhere)?;
     let mut reader = Reader::new(&tokens, text.len());
+    reader.check_calls()?;
     let mut plant = None;
     while let Some(token) = reader.peek() {
         if matches!(token.kind, TokenKind::Newline | TokenKind::Symbol(';' | ',')) {
@@ -97,8 +99,51 @@ impl Reader<'_> {
                 let name = name.clone();
                 self.assignment(&name)
             }
-            _ => Ok(self.sum(Blanks::MeanNothing)?.value),
+            _ => match self.place()? {
+                Some((name, place)) => self.element(&name, place),
+                None => Ok(self.sum(Blanks::MeanNothing)?.value),
+            },
         }
+    }
+
+    /// The plant and the place of an element in `G(1,2) = …`, row and column from 0; `None` for another statement.
+    fn place(&mut self) -> Result<Option<(String, [usize; 2])>, FormulaError> {
+        let [name, open, row, comma, column, close, equals, ..] = self.rest() else { return Ok(None) };
+        let (TokenKind::Name(of), TokenKind::Number(i), TokenKind::Number(j)) = (&name.kind, &row.kind, &column.kind)
+        else {
+            return Ok(None);
+        };
+        let symbols = [(open, '('), (comma, ','), (close, ')'), (equals, '=')];
+        if !symbols.iter().all(|(token, symbol)| token.kind == TokenKind::Symbol(*symbol)) {
+            return Ok(None);
+        }
+        let index = |number: f64| [1.0, 2.0].iter().position(|&known| known == number);
+        let (Some(row), Some(column)) = (index(*i), index(*j)) else {
+            return Err(FormulaError::new(FormulaFault::Shape, row.span.start..column.span.end));
+        };
+        Ok(Some((of.clone(), [row, column])))
+    }
+
+    /// Assigns an element of a plant. As in MATLAB, elements that nothing is assigned to are zero, and a plant has two rows and columns
+    /// as soon as something stands in its second ones.
+    fn element(&mut self, name: &str, [row, column]: [usize; 2]) -> Result<Value, FormulaError> {
+        // The name, two numbers and four signs.
+        (0..7).for_each(|_| self.advance());
+        let Written { value, span } = self.sum(Blanks::MeanNothing)?;
+        let quotient = value.quotient().map_err(|fault| FormulaError::new(fault, span))?.clone();
+        let known = self.variables.get(name).and_then(Value::as_plant).map(|rows| rows.map(|row| row.map(Some)));
+        let mut elements = known.or_else(|| self.placed.get(name).cloned()).unwrap_or_default();
+        elements[row][column] = Some(quotient);
+        self.placed.insert(name.to_owned(), elements.clone());
+        let has_second_row = elements[1].iter().any(Option::is_some);
+        let has_second_column = elements.iter().any(|row| row[1].is_some());
+        if !(has_second_row && has_second_column) {
+            return Ok(value);
+        }
+        let zero = || crate::quotient::Quotient::number(0.0);
+        let plant = Value::square(elements.map(|row| row.map(|element| element.unwrap_or_else(zero))));
+        self.variables.insert(name.to_owned(), plant.clone());
+        Ok(plant)
     }
 
     /// `G = …`, or `G.InputDelay = …` with the plant that G is.

@@ -80,6 +80,15 @@ impl Value {
         }
     }
 
+    /// The polynomial with these roots, highest coefficient 1; 1 for an empty list.
+    pub fn roots(&self) -> Result<Quotient, FormulaFault> {
+        let is_empty = matches!(self, Self::List(rows) if rows.is_empty());
+        let roots = if is_empty { Vec::new() } else { self.numbers()? };
+        roots.into_iter().try_fold(Quotient::number(1.0), |product, root| {
+            product.times(&Quotient::s().plus(&Quotient::number(-root))?)
+        })
+    }
+
     /// A polynomial whose coefficients are written from the highest power down, by rising powers.
     pub fn polynomial(&self) -> Result<Vec<f64>, FormulaFault> {
         self.numbers().map(|mut coefficients| {

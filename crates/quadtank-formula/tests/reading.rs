@@ -166,3 +166,42 @@ mod properties {
         }
     }
 }
+
+#[test]
+fn zeros_poles_and_gains_are_an_element() {
+    let meant = element(&[6.0, 9.0, 3.0], &[0.0, 20.0, 9.0, 1.0], 0.0);
+    for text in ["zpk([-1 -2], [0 -4 -5], 3)", "ct.zpk([-1, -2], [0, -4, -5], 3)", "zpk([-1; -2], [0; -4; -5], 3)"] {
+        assert_eq!(element_from_formula(text), Ok(meant.clone()), "{text}");
+    }
+    assert_eq!(element_from_formula("zpk([], -0.5, 2)").unwrap(), element(&[2.0], &[0.5, 1.0], 0.0));
+    let late = element_from_formula("zpk([], [-0.5], 2, 'InputDelay', 1.5)").unwrap();
+    assert_eq!(late, element(&[2.0], &[0.5, 1.0], 1.5));
+    let plant = elements_from_script("G = zpk({[], -1; [], 0}, {-2, -3; [-4 -5], -6}, [1 2; 3 4])").unwrap();
+    assert_eq!(plant[0][1], element(&[2.0, 2.0], &[3.0, 1.0], 0.0));
+    assert_eq!(plant[1][0], element(&[3.0], &[20.0, 9.0, 1.0], 0.0));
+    let refused = element_from_formula("zpk([-1+2i, -1-2i], [-1 -2], 1)").unwrap_err();
+    assert_eq!(refused.fault, FormulaFault::ImaginaryUnit { name: "i".to_owned() });
+    assert_eq!(element_from_formula("zpk([1], {1, 2; 3, 4}, 1)").unwrap_err().fault, FormulaFault::Shape);
+}
+
+#[test]
+fn a_plant_is_filled_element_by_element() {
+    let script = "s = tf('s');\nG(1,1) = 1/(5*s + 1);\nG(1,2) = zpk([], -2, 4);\nG(2,2) = 2/s;\nG(1,2) = G(1,2);";
+    assert!(elements_from_script(script).is_err(), "an element is not read by its place");
+    let script = "s = tf('s');\nG(1,1) = 1/(5*s + 1);\nG(1,2) = zpk([], -2, 4);\nG(2,2) = 2/s;\nG.InputDelay = [1; 2];";
+    let plant = elements_from_script(script).unwrap();
+    assert_eq!(plant[0], [element(&[1.0], &[1.0, 5.0], 1.0), element(&[4.0], &[2.0, 1.0], 2.0)]);
+    assert_eq!((&plant[1][0].numerator, &plant[1][1].denominator), (&vec![0.0], &vec![0.0, 1.0]));
+    // A row alone is no plant; a third row none with two outputs.
+    let fault = |script: &str| elements_from_script(script).unwrap_err().fault;
+    assert_eq!(fault("G(1,1) = 1;\nG(1,2) = 2;"), FormulaFault::NoPlant);
+    assert_eq!(fault("G(3,1) = 1;"), FormulaFault::Shape);
+}
+
+#[test]
+fn what_is_no_transfer_function_is_refused_by_name() {
+    let error = elements_from_script("[num, den] = pade(1, 2);\nG = tf(num, den);").unwrap_err();
+    assert_eq!((error.fault, error.span), (FormulaFault::PadeApproximation, 13..17));
+    assert_eq!(elements_from_script("sys = ct.ss(A, B, C, D)").unwrap_err().fault, FormulaFault::StateSpaceModel);
+    assert_eq!(element_from_formula("pade(exp(-s), 3)/(s + 1)").unwrap_err().fault, FormulaFault::PadeApproximation);
+}

@@ -117,7 +117,7 @@ fn sign(stability: LoopStability) -> &'static str {
     match stability {
         LoopStability::Stable => "✓",
         LoopStability::NotComputed { .. } => "?",
-        LoopStability::Unstable { .. } | LoopStability::Marginal { .. } => "✗",
+        LoopStability::Unstable { .. } | LoopStability::Marginal { .. } | LoopStability::AlgebraicLoop { .. } => "✗",
     }
 }
 
@@ -141,6 +141,7 @@ fn refusal(lab: Lab, error: &PairRuleError) -> String {
     match error {
         PairRuleError::NoUltimatePoint { number } => tr!(lab, relay.no_ultimate_point, number = number),
         PairRuleError::NotReducible { number } => tr!(lab, relay.not_reducible, number = number),
+        PairRuleError::Integrating { number } => tr!(lab, relay.rule_needs_gain, number = number),
         PairRuleError::NoDeadTime { number } => tr!(lab, relay.no_dead_time, number = number),
         PairRuleError::NotDetuned { target_db, largest_factor } => {
             tr!(lab, relay.not_detuned, target = target_db, factor = largest_factor)

@@ -146,6 +146,7 @@ fn sentence(session: Session) -> (bool, String) {
             (true, tr!(lab, relay.ultimate, period = style.significant(point.period(), 4), unit = unit))
         }
         GainLimit::RealPole { .. } => (false, tr!(lab, relay.real_pole)),
+        GainLimit::AlgebraicLoop { .. } => (false, tr!(lab, relay.limit_at_infinity)),
         GainLimit::None => (false, tr!(lab, relay.no_ultimate)),
     };
     let study = session.throttled.study.get();

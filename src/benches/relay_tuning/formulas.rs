@@ -190,6 +190,9 @@ fn of_formula(lab: Lab, fault: &FormulaFault) -> String {
         FormulaFault::UnexpectedEnd => tr!(lab, formula.end),
         FormulaFault::Unexpected { found } => tr!(lab, formula.unexpected, found = found),
         FormulaFault::UnknownName { name } => tr!(lab, formula.unknown_name, name = name),
+        FormulaFault::PadeApproximation => tr!(lab, formula.pade),
+        FormulaFault::StateSpaceModel => tr!(lab, formula.state_space),
+        FormulaFault::ImaginaryUnit { name } => tr!(lab, formula.imaginary, name = name),
         FormulaFault::OpenQuotation => tr!(lab, formula.quotation),
         FormulaFault::TooDeep { max } => tr!(lab, formula.deep, max = max),
         FormulaFault::NoElement => tr!(lab, formula.no_element),
@@ -277,8 +280,8 @@ mod tests {
     #[test]
     fn a_plant_that_no_document_holds_is_refused() {
         let refused = |text: &str| with_element(&TuningSetup::default(), 0, 0, element_from_formula(text).unwrap());
-        assert!(matches!(refused("(s + 1)/(2 s + 1)"), Err(ScenarioError::Element { .. })));
-        assert!(matches!(refused("1/s"), Err(ScenarioError::Element { .. })));
+        assert!(matches!(refused("(s^2 + 1)/(2 s + 1)"), Err(ScenarioError::Element { .. })));
+        assert!(matches!(refused("1/(s - 1)"), Err(ScenarioError::Element { .. })));
         assert!(matches!(refused("1/(s + 1)^12"), Err(ScenarioError::TooMany { .. })));
     }
 }

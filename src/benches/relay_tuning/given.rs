@@ -8,12 +8,39 @@ use crate::controls::{ParamControl, ParamRow, Switch};
 use crate::lab::Lab;
 use crate::shown::ShownUnit;
 use crate::texts::{say, tr};
-use crate::widgets::{Choice, Select};
+use crate::widgets::{Choice, Segmented, Select};
 use quadtank::control::Pairing;
 use quadtank::literature::campestrini::PublishedPlant;
 use quadtank::literature::wood_berry::PublishedControllers;
-use quadtank::study::relay_tuning::{GivenPid, TuningPlant, TuningSetup};
+use quadtank::study::relay_tuning::{FormFault, GivenPid, PidForm, TuningPlant, TuningSetup};
 use quadtank_scenario::limits::{TUNING_NOT_NEGATIVE, TUNING_POSITIVE, TUNING_VALUE};
+
+const PROPORTIONAL: ParamControl<TuningSetup> = ParamControl {
+    ids: [("", "given-kp1"), ("", "given-kp2")],
+    label: |_, k| ["kp₁", "kp₂"][k].to_owned(),
+    name: |lab, k| tr!(lab, relay.given_proportional, number = k + 1),
+    ..GAIN
+};
+
+const INTEGRAL_GAIN: ParamControl<TuningSetup> = ParamControl {
+    ids: [("", "given-ki1"), ("", "given-ki2")],
+    label: |_, k| ["ki₁", "ki₂"][k].to_owned(),
+    name: |lab, k| tr!(lab, relay.given_integral_gain, number = k + 1),
+    read: |s, k| given(s, k).integral_gain,
+    write: |s, k, gain| change(s, k, |pid| pid.integral_gain = gain),
+    path: |_, _| "design.controllers[].integral_gain",
+    ..OF_LOOP
+};
+
+const DERIVATIVE_GAIN: ParamControl<TuningSetup> = ParamControl {
+    ids: [("", "given-kd1"), ("", "given-kd2")],
+    label: |_, k| ["kd₁", "kd₂"][k].to_owned(),
+    name: |lab, k| tr!(lab, relay.given_derivative_gain, number = k + 1),
+    read: |s, k| given(s, k).derivative_gain,
+    write: |s, k, gain| change(s, k, |pid| set_derivative(pid, |pid| pid.derivative_gain = gain)),
+    path: |_, _| "design.controllers[].derivative_gain",
+    ..OF_LOOP
+};
 
 const GAIN: ParamControl<TuningSetup> = ParamControl {
     ids: [("", "given-gain1"), ("", "given-gain2")],
@@ -39,7 +66,7 @@ const DERIVATIVE_TIME: ParamControl<TuningSetup> = ParamControl {
     label: |_, k| ["Td₁", "Td₂"][k].to_owned(),
     name: |lab, k| tr!(lab, relay.given_derivative_time, number = k + 1),
     read: |s, k| given(s, k).derivative_time,
-    write: |s, k, time| change(s, k, |pid| set_derivative_time(pid, time)),
+    write: |s, k, time| change(s, k, |pid| set_derivative(pid, |pid| pid.derivative_time = time)),
     path: |_, _| "design.controllers[].derivative_time",
     ..OF_LOOP
 };
@@ -69,17 +96,21 @@ fn change(setup: &mut TuningSetup, index: usize, change: impl FnOnce(&mut GivenP
 }
 
 /// Without derivative action there is nothing to filter.
-fn set_derivative_time(pid: &mut GivenPid, time: f64) {
-    pid.derivative_time = time;
-    if time == 0.0 {
+fn set_derivative(pid: &mut GivenPid, set: impl FnOnce(&mut GivenPid)) {
+    set(pid);
+    if [pid.derivative_time, pid.derivative_gain] == [0.0; 2] {
         pid.filter_time = None;
     }
 }
 
-/// Whether a controller has derivative action, and so something to filter.
-fn has_derivative(setup: &TuningSetup, index: usize) -> bool {
-    let GivenPid { gain, derivative_time, .. } = given(setup, index);
-    gain != 0.0 && derivative_time != 0.0
+/// The form that both controllers have, as the page gives them; that of the first where a document mixes them.
+fn form_of(setup: &TuningSetup) -> PidForm {
+    given(setup, 0).form
+}
+
+/// Whether a controller is in parallel form.
+fn is_parallel(setup: &TuningSetup, index: usize) -> bool {
+    given(setup, index).form == PidForm::Parallel
 }
 
 /// Whether the controllers of a session are given.
@@ -126,7 +157,7 @@ pub fn within_limits(pid: GivenPid) -> GivenPid {
         gain: TUNING_VALUE.clamp(pid.gain),
         integral_time: pid.integral_time.map(|time| TUNING_POSITIVE.clamp(time)),
         derivative_time: TUNING_NOT_NEGATIVE.clamp(pid.derivative_time),
-        filter_time: pid.filter_time,
+        ..pid
     }
 }
 
@@ -136,15 +167,10 @@ pub fn GivenControllers() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
     view! {
+        <FormChoice />
         <div class="pairs">
-            <ParamRow session control=&GAIN index=0 />
-            <ParamRow session control=&GAIN index=1 />
-            <ParamRow session control=&INTEGRAL_TIME index=0 />
-            <ParamRow session control=&INTEGRAL_TIME index=1 />
-            <ParamRow session control=&DERIVATIVE_TIME index=0 />
-            <ParamRow session control=&DERIVATIVE_TIME index=1 />
-            <div hidden=session.throttled_part(|s| !has_derivative(s, 0))><ParamRow session control=&FILTER_TIME index=0 /></div>
-            <div hidden=session.throttled_part(|s| !has_derivative(s, 1))><ParamRow session control=&FILTER_TIME index=1 /></div>
+            <div class="controller"><ControllerFields index=0 /></div>
+            <div class="controller"><ControllerFields index=1 /></div>
         </div>
         <Switch
             session
@@ -158,6 +184,94 @@ pub fn GivenControllers() -> impl IntoView {
             lock=locks::TARGET
         />
         <div hidden=session.throttled_part(|s| !has_published(s))><PublishedSelect /></div>
+    }
+}
+
+/// The fields of a controller in its form.
+#[component]
+fn ControllerFields(index: usize) -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let shown_in = move |control: &'static ParamControl<TuningSetup>, parallel: bool| {
+        let is_hidden = lab.throttled(session.part(move |s| is_parallel(s, index) != parallel));
+        view! { <div hidden=is_hidden><ParamRow session control index /></div> }
+    };
+    let no_filter = lab.throttled(session.part(move |s| !given(s, index).has_derivative()));
+    view! {
+        {shown_in(&GAIN, false)}
+        {shown_in(&PROPORTIONAL, true)}
+        {shown_in(&INTEGRAL_TIME, false)}
+        {shown_in(&INTEGRAL_GAIN, true)}
+        {shown_in(&DERIVATIVE_TIME, false)}
+        {shown_in(&DERIVATIVE_GAIN, true)}
+        <div hidden=no_filter><ParamRow session control=&FILTER_TIME index /></div>
+    }
+}
+
+/// The form of both controllers, which stay what they are in another one, and the formula of the form.
+#[component]
+fn FormChoice() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    // A refusal holds for the controllers that it is of.
+    let refused = RwSignal::new(None::<([GivenPid; 2], FormFault)>);
+    let choose = move |form: PidForm| {
+        let controllers = session.document.with_untracked(|s| s.tuning.design.controllers).unwrap_or_default();
+        match in_form(controllers, form) {
+            Ok(changed) => {
+                refused.set(None);
+                session.edit(|s| s.design.controllers = Some(changed));
+            }
+            Err(fault) => refused.set(Some((controllers, fault))),
+        }
+    };
+    let formula = session.throttled_part(|s| match form_of(s) {
+        PidForm::Isa => "K (1 + 1/(Ti s) + Td s/(Tf s + 1))",
+        PidForm::Series => "K′ (1 + 1/(Ti′ s)) (1 + Td′ s)",
+        PidForm::Parallel => "kp + ki/s + kd s/(Tf s + 1)",
+    });
+    let is_filtered = session.throttled_part(|s| form_of(s) == PidForm::Series && given(s, 0).has_derivative());
+    let problem = move || {
+        let controllers = session.document.with(|s| s.tuning.design.controllers);
+        let (of, fault) = refused.get()?;
+        (controllers == Some(of)).then(|| {
+            view! { <p class="problem" role="alert" data-testid="form-problem">{of_fault(lab, fault)}</p> }
+        })
+    };
+    view! {
+        <Segmented
+            label=say!(lab, relay.given_form)
+            choices=vec![
+                (PidForm::Isa, "form-isa", say!(lab, relay.form_isa)),
+                (PidForm::Series, "form-series", say!(lab, relay.form_series)),
+                (PidForm::Parallel, "form-parallel", say!(lab, relay.form_parallel)),
+            ]
+            value=lab.throttled(session.part(form_of))
+            on_choose=choose
+            disabled=lab.locks(locks::TARGET)
+        />
+        <p class="remark" data-testid="form-formula">
+            {formula}
+            {move || is_filtered.get().then(|| tr!(lab, relay.form_filtered))}
+        </p>
+        {problem}
+    }
+}
+
+/// Both controllers in another form, within what a document holds.
+fn in_form([first, second]: [GivenPid; 2], form: PidForm) -> Result<[GivenPid; 2], FormFault> {
+    Ok([first.in_form(form)?, second.in_form(form)?].map(within_limits))
+}
+
+/// Why a controller has not the form that was chosen.
+fn of_fault(lab: Lab, fault: FormFault) -> String {
+    let number = |value: f64| lab.number_style().significant(value, 4);
+    match fault {
+        FormFault::ComplexZeros { integral_time, derivative_time } => {
+            tr!(lab, relay.form_complex, ti = number(integral_time), four_td = number(4.0 * derivative_time))
+        }
+        FormFault::NoProportionalPart => tr!(lab, relay.form_no_gain),
+        FormFault::NegativeTime { time } => tr!(lab, relay.form_negative, time = number(time)),
     }
 }
 
@@ -232,7 +346,7 @@ mod tests {
     fn without_derivative_action_there_is_no_filter() {
         let mut setup = TuningSetup::with_published(PublishedControllers::BoydHastAstrom);
         assert_eq!(given(&setup, 1).filter_time, Some(0.3));
-        change(&mut setup, 1, |pid| set_derivative_time(pid, 0.0));
+        change(&mut setup, 1, |pid| set_derivative(pid, |pid| pid.derivative_time = 0.0));
         assert_eq!((given(&setup, 1).filter_time, given(&setup, 0).filter_time), (None, Some(0.3)));
     }
 }

@@ -127,7 +127,7 @@ pub fn curve(session: Session, chosen: Signal<Option<(f64, f64)>>) -> Picture {
         let Ok(study) = study.as_ref() else { return };
         let place = |limit: &GainLimit| match limit {
             GainLimit::Oscillation(point) => study.normalised(point.gains),
-            GainLimit::RealPole { gains, .. } => study.normalised(*gains),
+            GainLimit::RealPole { gains, .. } | GainLimit::AlgebraicLoop { gains, .. } => study.normalised(*gains),
             GainLimit::None => (f64::NAN, f64::NAN),
         };
         let (x, y): (Vec<f64>, Vec<f64>) = study.curve.points.iter().map(|point| place(&point.limit)).unzip();

@@ -219,6 +219,9 @@ fn sentence(session: Session) -> (bool, String) {
         LoopStability::Unstable { poles } => tr!(lab, relay.unstable, poles = poles),
         LoopStability::Marginal { .. } => tr!(lab, relay.marginal),
         LoopStability::NotComputed { .. } => tr!(lab, relay.not_computed),
+        LoopStability::AlgebraicLoop { eigenvalue } => {
+            tr!(lab, relay.algebraic_loop, eigenvalue = style.significant(eigenvalue, 3))
+        }
     };
     if chosen.closure == Closure::Joint {
         text = text + " " + &tr!(lab, relay.joint);
@@ -291,7 +294,7 @@ fn rows_of_root(lab: Lab, number: Option<usize>, root: &DesignRoot, chosen: bool
     let verdict = match root.stability {
         LoopStability::Stable => "✓",
         LoopStability::NotComputed { .. } => "?",
-        LoopStability::Unstable { .. } | LoopStability::Marginal { .. } => "✗",
+        LoopStability::Unstable { .. } | LoopStability::Marginal { .. } | LoopStability::AlgebraicLoop { .. } => "✗",
     };
     [0, 1].map(|k| {
         let pid = &root.controllers[k];

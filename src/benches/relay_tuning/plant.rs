@@ -295,6 +295,14 @@ fn remark(session: Session) -> String {
     if gain.is_some_and(|gain| gain < 0.0) {
         text = text + " " + &tr!(lab, relay.negative_pairing);
     }
+    if let Ok(study) = study.as_ref() {
+        if study.plant.is_integrating() {
+            text = text + " " + &tr!(lab, relay.integrating_remark);
+        }
+        if study.plant.has_feedthrough() {
+            text = text + " " + &tr!(lab, relay.feedthrough_remark);
+        }
+    }
     if session.throttled.setup.with(|s| rig(s).is_some_and(|(_, nonlinear)| nonlinear)) {
         text = text + " " + &tr!(lab, relay.nonlinear_remark);
     }

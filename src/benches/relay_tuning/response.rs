@@ -215,7 +215,9 @@ fn sentence(session: Session) -> (bool, String) {
         let sentence = match comparison.stability {
             LoopStability::Stable => tr!(lab, relay.comparison_stable),
             LoopStability::NotComputed { .. } => tr!(lab, relay.comparison_not_computed),
-            LoopStability::Unstable { .. } | LoopStability::Marginal { .. } => tr!(lab, relay.comparison_unstable),
+            LoopStability::Unstable { .. } | LoopStability::Marginal { .. } | LoopStability::AlgebraicLoop { .. } => {
+                tr!(lab, relay.comparison_unstable)
+            }
         };
         text = text + " " + &sentence;
     }

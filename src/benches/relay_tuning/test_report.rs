@@ -49,7 +49,10 @@ pub fn sentence(session: Session) -> (bool, String) {
                 (false, tr!(lab, relay.multimodal, period = period, unit = unit, one = one, two = two))
             }
             RelayVerdict::NotPeriodic => (false, tr!(lab, relay.not_periodic)),
-            RelayVerdict::Chattering { relay } => (false, tr!(lab, relay.chattering, number = relay + 1)),
+            RelayVerdict::Chattering { relay } => {
+                let why = jump(session, reading.verdict, relay).map_or_else(String::new, |why| " ".to_owned() + &why);
+                (false, tr!(lab, relay.chattering, number = relay + 1) + &why)
+            }
             RelayVerdict::NoOscillation => (false, tr!(lab, relay.no_oscillation)),
             RelayVerdict::Diverged => (false, tr!(lab, relay.diverged)),
             RelayVerdict::Unfinished { time } => {
@@ -82,6 +85,15 @@ pub fn sentence(session: Session) -> (bool, String) {
             };
         (good, text)
     })
+}
+
+/// Why a relay on an element with direct feedthrough switches at once.
+fn jump(session: Session, verdict: RelayVerdict, relay: usize) -> Option<String> {
+    let lab = session.lab;
+    let study = session.throttled.study.get();
+    let jump = session.throttled.setup.with(|setup| study.as_ref().as_ref().ok()?.jump_with_relay(setup, verdict))?;
+    let place = ["₁₁", "₂₂"][relay];
+    Some(tr!(lab, relay.switches_itself, place = place, jump = lab.number_style().significant(jump, 3)))
 }
 
 /// Amplitudes and gains of every experiment, how far they are from the curve, and the settings that follow.

@@ -58,23 +58,76 @@ fn coefficients_in_the_other_order_are_told_beside_the_answer() {
 
 #[test]
 fn an_element_that_is_not_supported_is_named() {
-    // (s + 1)/(s + 5), 1; (s + 1)/(s + 2), 1.
-    let biproper = json!([
-        [element(&[1.0], &[5.0, 1.0], 0.0), element(&[1.0], &[1.0], 0.0)],
-        [element(&[1.0, 1.0], &[2.0, 1.0], 0.0), element(&[1.0], &[1.0], 0.0)],
+    let improper = json!([
+        [element(&[1.0], &[5.0, 1.0], 0.0), element(&[1.0, 0.0, 2.0], &[1.0, 1.0], 0.0)],
+        [element(&[1.0], &[2.0, 1.0], 0.0), element(&[1.0], &[1.0], 0.0)],
     ]);
-    let integrating = json!([
-        [element(&[1.0], &[5.0, 1.0], 0.0), element(&[1.0], &[0.0, 1.0], 0.0)],
-        [element(&[1.0], &[2.0, 1.0], 0.0), element(&[1.0], &[1.0, 1.0], 0.0)],
-    ]);
-    for (elements, reason) in [(biproper, "a biproper element"), (integrating, "an integrating element")] {
-        for command in ["analyse", "tune", "simulate"] {
-            let output = pipe(&[command, "-"], session(&elements).to_string().as_bytes());
-            assert_eq!(output.status.code(), Some(2));
-            let expected = format!("quadtank: standard input: tuning.plant.elements[0][1]: {reason}");
-            assert!(stderr(&output).starts_with(&expected), "{}", stderr(&output));
-        }
+    for command in ["analyse", "tune", "simulate"] {
+        let output = pipe(&[command, "-"], session(&improper).to_string().as_bytes());
+        assert_eq!(output.status.code(), Some(2));
+        let expected = "quadtank: standard input: tuning.plant.elements[0][1]: an improper element";
+        assert!(stderr(&output).starts_with(expected), "{}", stderr(&output));
     }
+}
+
+#[test]
+fn biproper_elements_answer_and_say_what_cannot_work() {
+    // (s + 1)/(s + 5), 1; (s + 1)/(s + 2), 1: λ11 = 0.2/(0.2 − 0.5) at rest.
+    let one = element(&[1.0], &[1.0], 0.0);
+    let leading = |pole: f64| element(&[1.0, 1.0], &[pole, 1.0], 0.0);
+    let mut session = session(&json!([[leading(5.0), one], [leading(2.0), one]]));
+    let found = report("analyse", &session);
+    assert_eq!(found["feedthrough"], json!([[1.0, 1.0], [1.0, 1.0]]));
+    assert_relative_eq!(found["rga_11"].as_f64().unwrap(), -2.0 / 3.0, max_relative = 1e-12);
+    let real = |name: &str, k: usize| found[name][k]["re"].as_f64().unwrap();
+    assert_relative_eq!(real("zeros", 0), -1.0, max_relative = 1e-9);
+    assert_relative_eq!(real("poles", 0), -5.0, max_relative = 1e-9);
+    assert_relative_eq!(real("poles", 1), -2.0, max_relative = 1e-9);
+    let warning = json!({ "warning": "switches-itself", "number": 1, "half_width": 1.0 });
+    assert_eq!(found["warnings"][0], warning);
+    // Relays switch at once, and the loop through the feedthrough has an eigenvalue of 2 K = −2.
+    session["tuning"]["design"] = json!({ "controllers": [{ "gain": -1.0 }, { "gain": -1.0 }] });
+    let found = report("tune", &session);
+    assert_eq!(found["test"]["reading"]["verdict"], json!("chattering"));
+    let stability = &found["design"]["roots"][0]["stability"];
+    assert_eq!(*stability, json!({ "stable": false, "eigenvalue_at_infinity": -2.0 }));
+    assert_eq!(found["design"]["roots"][0]["gain_margin"], Value::Null);
+    session["tuning"]["design"] = json!({ "controllers": [{ "gain": 0.5 }, { "gain": 0.5, "integral_time": 2.0 }] });
+    let found = report("tune", &session);
+    assert_eq!(found["design"]["roots"][0]["stability"], json!({ "stable": true }));
+}
+
+#[test]
+fn integrating_elements_answer_with_what_they_are_in_the_limit() {
+    let rising = |rate: f64, dead_time: f64| element(&[rate], &[0.0, 1.0], dead_time);
+    let elements =
+        json!([[rising(1.0, 0.5), rising(0.5, 1.0)], [element(&[1.0], &[1.0, 2.0], 0.0), rising(-2.0, 0.4)]]);
+    let mut session = session(&elements);
+    for (name, value) in [("duration", 40.0), ("step", 0.01)] {
+        session["tuning"]["test"][name] = json!(value);
+        session["tuning"]["response"][name] = json!(value);
+    }
+    session["tuning"]["design"]["controllers"] =
+        json!([{ "gain": 0.8, "integral_time": 6.0 }, { "gain": -0.4, "integral_time": 6.0 }]);
+    let found = report("analyse", &session);
+    assert_eq!(found["dc_gain"], json!([[null, null], [1.0, null]]));
+    assert_eq!(found["integrators"], json!([[1, 1], [0, 1]]));
+    // g12 g21 is infinitely smaller than g11 g22 for s → 0.
+    assert_eq!((&found["rga_11"], &found["niederlinski_diagonal"]), (&json!(1.0), &json!(1.0)));
+    assert_eq!(found["critical_curve"].as_array().unwrap().len(), 200);
+    let found = report("tune", &session);
+    let root = &found["design"]["roots"][0];
+    assert_eq!(root["stability"], json!({ "stable": true }));
+    assert!(root["phase_margin_rad"].as_f64().unwrap() > 0.3 && root["sensitivity_peak"].as_f64().unwrap() < 4.0);
+    assert!(
+        found["design"]["figures"][0]["settling_time_2_percent"].as_f64().is_some(),
+        "{}",
+        found["design"]["figures"]
+    );
+    assert!(found["test"]["reading"]["oscillation"].is_object(), "{}", found["test"]);
+    let simc = found["rules"].as_array().unwrap().iter().find(|rule| rule["rule"] == "simc").unwrap();
+    // 1/(2 k′ θ) and 8 θ.
+    assert_eq!(simc["controllers"][0], json!({ "gain": 1.0, "integral_time": 4.0, "derivative_time": 0.0 }));
 }
 
 #[test]
@@ -154,10 +207,11 @@ fn a_plant_is_taken_from_a_script() {
 #[test]
 fn a_script_without_a_plant_is_one_line_with_the_place() {
     let said = |script: &str| stderr(&pipe(&["elements", "-"], script.as_bytes()));
-    let expected =
-        "quadtank: standard input: line 2, column 9: `tau` is not known; the variable is s, functions are exp and tf\n";
+    let expected = "quadtank: standard input: line 2, column 9: `tau` is not known; the variable is s, functions are exp, tf and zpk\n";
     assert_eq!(said("a = 1;\nG = 1/(1tau*s + 1)\n"), expected);
-    assert!(said("G = [1/s, 0; 0, 1/s]").contains("an integrating element"), "{}", said("G = [1/s, 0; 0, 1/s]"));
+    let improper = "G = [s^2/(s + 1), 0; 0, 1/s]";
+    assert!(said(improper).contains("an improper element"), "{}", said(improper));
+    assert_eq!(said("G = [1/s, 0; 0, (s + 1)/(s + 5)]"), "");
     assert!(said("% nothing\n").contains("no plant with two inputs and two outputs is defined"));
     assert_eq!(said(&" ".repeat(30_000)).lines().count(), 1);
     let bytes = stderr(&pipe(&["elements", "-"], b"\xff\xfe\x00"));

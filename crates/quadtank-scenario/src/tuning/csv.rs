@@ -61,7 +61,7 @@ pub fn curve_to_csv(curve: &CriticalCurve) -> String {
     for point in &curve.points {
         let (gains, period) = match point.limit {
             GainLimit::Oscillation(at) => (at.gains.map(Some), Some(at.period())),
-            GainLimit::RealPole { gains, .. } => (gains.map(Some), None),
+            GainLimit::RealPole { gains, .. } | GainLimit::AlgebraicLoop { gains, .. } => (gains.map(Some), None),
             GainLimit::None => ([None; 2], None),
         };
         line(&mut text, &[Some(point.angle), gains[0], gains[1], period]);

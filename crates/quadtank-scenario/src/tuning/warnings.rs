@@ -5,7 +5,8 @@ use quadtank::literature::campestrini::PublishedPlant;
 
 use quadtank::control::Pairing;
 use quadtank::study::relay_tuning::{
-    CompareSpec, DecouplerSpec, DesignSpec, Element, GivenPid, SeriesElement, TestKind, TuningPlant, TuningSetup,
+    CompareSpec, DecouplerSpec, DesignSpec, Element, GivenPid, PidForm, SeriesElement, TestKind, TuningPlant,
+    TuningSetup,
 };
 
 /// What a session may not have been meant to say. Nothing is refused for it.
@@ -22,6 +23,15 @@ pub enum TuningWarning {
         read_as: String,
         /// The polynomial with the coefficients turned round.
         reversed: String,
+    },
+    /// A relay on an element with direct feedthrough that switches itself at once.
+    #[error("tuning.test.hysteresis[{}]: g{number}{number} passes its input straight on, so its output moves by {half_width} at once \
+             with the relay, which chatters with less hysteresis than that", number - 1)]
+    SwitchesItself {
+        /// Number of the loop, 1 or 2.
+        number: usize,
+        /// Half width of the hysteresis that it needs at least.
+        half_width: f64,
     },
     /// A setting that changes nothing here.
     #[error("{field}: without effect here; it acts only {acts}")]
@@ -44,9 +54,27 @@ const SHORTEST_LAG: f64 = 2.0;
 pub fn warnings(setup: &TuningSetup) -> Vec<TuningWarning> {
     coefficient_order(setup)
         .into_iter()
+        .chain(relays_that_switch_themselves(setup))
         .chain(settings_without_effect(setup))
         .chain(design_without_effect(&setup.design))
         .collect()
+}
+
+/// Relays whose own output jumps beyond their hysteresis when they switch.
+fn relays_that_switch_themselves(setup: &TuningSetup) -> Vec<TuningWarning> {
+    let (TuningPlant::Elements(rows), test) = (&setup.plant, &setup.test) else { return Vec::new() };
+    let half_width = |index: usize| {
+        let element = rows[index][index].transfer_function().ok().filter(|of| of.dead_time() == 0.0);
+        test.amplitudes[index] * element.map_or(0.0, |of| of.feedthrough().abs())
+    };
+    let is_single = test.kind == TestKind::Single;
+    let has_relay = |index: usize| !is_single || (test.number == index + 1 && test.behind == SeriesElement::Nothing);
+    let of_loop = |index: usize| (has_relay(index), index, half_width(index));
+    let chattering = |(has_relay, index, half_width): (bool, usize, f64)| {
+        let is_one = has_relay && half_width > 0.0 && test.hysteresis[index] < half_width;
+        is_one.then_some(TuningWarning::SwitchesItself { number: index + 1, half_width })
+    };
+    [0, 1].map(of_loop).into_iter().filter_map(chattering).collect()
 }
 
 /// Settings with a value of their own that change nothing, because the session has no use for them.
@@ -102,6 +130,14 @@ fn design_without_effect(design: &DesignSpec) -> Vec<TuningWarning> {
     ]);
     let [first, second] = controllers.each_ref().map(idle_parts);
     let of_controllers = no_effect([
+        (first[3], "tuning.design.controllers[0].integral_time", "in the ISA and the series form"),
+        (first[4], "tuning.design.controllers[0].derivative_time", "in the ISA and the series form"),
+        (first[5], "tuning.design.controllers[0].integral_gain", "in the parallel form"),
+        (first[6], "tuning.design.controllers[0].derivative_gain", "in the parallel form"),
+        (second[3], "tuning.design.controllers[1].integral_time", "in the ISA and the series form"),
+        (second[4], "tuning.design.controllers[1].derivative_time", "in the ISA and the series form"),
+        (second[5], "tuning.design.controllers[1].integral_gain", "in the parallel form"),
+        (second[6], "tuning.design.controllers[1].derivative_gain", "in the parallel form"),
         (first[0], "tuning.design.controllers[0].integral_time", "with a gain"),
         (first[1], "tuning.design.controllers[0].derivative_time", "with a gain"),
         (first[2], "tuning.design.controllers[0].filter_time", "with derivative action"),
@@ -112,12 +148,21 @@ fn design_without_effect(design: &DesignSpec) -> Vec<TuningWarning> {
     [of_placement, of_controllers].concat()
 }
 
-/// Whether integral time, derivative time and filter of a given controller are set without acting.
-fn idle_parts(pid: &GivenPid) -> [bool; 3] {
-    let &GivenPid { gain, integral_time, derivative_time, filter_time } = pid;
-    let is_open = gain == 0.0;
-    let is_pi = is_open || derivative_time == 0.0;
-    [is_open && integral_time.is_some(), is_open && derivative_time != 0.0, is_pi && filter_time.is_some()]
+/// Whether parts of a given controller are set without acting: integral time, derivative time and filter for want of a gain or of
+/// derivative action; times in the parallel form, and integral and derivative gain in the others.
+fn idle_parts(pid: &GivenPid) -> [bool; 7] {
+    let &GivenPid { form, integral_time, derivative_time, integral_gain, derivative_gain, filter_time, .. } = pid;
+    let is_parallel = form == PidForm::Parallel;
+    let is_open = pid.is_open() && !is_parallel;
+    [
+        is_open && integral_time.is_some(),
+        is_open && derivative_time != 0.0,
+        !pid.has_derivative() && filter_time.is_some(),
+        is_parallel && integral_time.is_some(),
+        is_parallel && derivative_time != 0.0,
+        !is_parallel && integral_gain != 0.0,
+        !is_parallel && derivative_gain != 0.0,
+    ]
 }
 
 fn no_effect<const N: usize>(settings: [(bool, &'static str, &'static str); N]) -> Vec<TuningWarning> {
@@ -149,7 +194,12 @@ fn coefficient_order(setup: &TuningSetup) -> Option<TuningWarning> {
         let (read, reversed) = (longest(lag_of), longest(reversed_lag_of));
         let far_apart = (reversed / read).ln().abs() >= FAR_APART.ln();
         let is_turned = far_apart && !plausible(read) && plausible(reversed);
-        let like_lags = elements().all(|(_, of)| of.denominator.last() == Some(&1.0));
+        // Integrating and biproper elements are none of the lags that are told apart here.
+        let is_lag = |of: &Element| {
+            let element = of.transfer_function();
+            element.is_ok_and(|element| element.integrators() == 0 && element.feedthrough() == 0.0)
+        };
+        let like_lags = elements().all(|(_, of)| of.denominator.last() == Some(&1.0) && is_lag(of));
         elements().find(|(_, of)| ends_with_one(of)).filter(|_| like_lags && is_turned)
     };
     let ((row, column), element) = integrator.or_else(turned)?;
@@ -161,10 +211,10 @@ fn coefficient_order(setup: &TuningSetup) -> Option<TuningWarning> {
     })
 }
 
-/// Whether the last coefficient that is not zero is 1, and the first one is not.
+/// Whether the last coefficient that is not zero is 1, and the first one is neither that nor 0, with which nobody writes a highest power.
 fn ends_with_one(element: &Element) -> bool {
     let last = element.denominator.iter().rev().find(|&&a| a != 0.0);
-    last == Some(&1.0) && element.denominator.first() != Some(&1.0)
+    last == Some(&1.0) && !matches!(element.denominator.first(), Some(&1.0 | &0.0))
 }
 
 /// The sum of the time constants, a1/a0.

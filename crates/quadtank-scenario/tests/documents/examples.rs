@@ -84,9 +84,18 @@ fn with_given_controllers() -> Value {
     document
 }
 
+fn with_other_forms() -> Value {
+    let mut document = with_given_controllers();
+    document["tuning"]["design"]["controllers"] = json!([
+        { "form": "series", "gain": 0.35, "integral_time": 8.29, "derivative_time": 0.5, "filter_time": 0.1 },
+        { "form": "parallel", "gain": -0.075, "integral_gain": -0.003, "derivative_gain": -0.1, "filter_time": 0.3 },
+    ]);
+    document
+}
+
 /// Sessions of version 2.
-pub fn sessions() -> [Value; 4] {
-    [on_a_rig(), on_elements(), on_the_column(), with_given_controllers()]
+pub fn sessions() -> [Value; 5] {
+    [on_a_rig(), on_elements(), on_the_column(), with_given_controllers(), with_other_forms()]
 }
 
 /// A run with a pump that is moved by hand.

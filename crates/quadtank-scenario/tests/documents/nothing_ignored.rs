@@ -24,7 +24,10 @@ const EXCEPTIONS: [(&str, &str); 6] = [
 ];
 
 /// Names of choices without content. A name that a field does not know is refused.
-const NAMES: [&str; 59] = [
+const NAMES: [&str; 62] = [
+    "isa",
+    "series",
+    "parallel",
     "automatic",
     "off",
     "conditional",

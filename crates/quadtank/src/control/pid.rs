@@ -254,6 +254,14 @@ impl RunningPid {
 pub struct RunningPidMatrix([[RunningPid; 2]; 2]);
 
 impl RunningPidMatrix {
+    /// What the next sample makes of the errors e that it finds, `u₀ + K e`: u₀ and K.
+    pub fn at_once(&self) -> ([f64; 2], Matrix2<f64>) {
+        let of = |errors: [f64; 2]| Self::step(&mut self.clone(), errors);
+        let (offset, first, second) = (of([0.0; 2]), of([1.0, 0.0]), of([0.0, 1.0]));
+        let change = |row: usize, column: usize| if column == 0 { first[row] } else { second[row] } - offset[row];
+        (offset, Matrix2::from_fn(change))
+    }
+
     /// One sample: from both errors to both inputs.
     pub fn step(&mut self, errors: [f64; 2]) -> [f64; 2] {
         self.0.each_mut().map(|[first, second]| first.step(errors[0]) + second.step(errors[1]))

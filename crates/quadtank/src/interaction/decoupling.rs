@@ -1,5 +1,7 @@
 //! Simplified decoupling of two loops: `u1 = v1 + g_I1 v2`, `u2 = v2 + g_I2 v1` (Campestrini 2006, eq. 72).
 
+use std::cmp::Ordering;
+
 use crate::linear::{LinearError, SignalPath, TransferFunction, TransferMatrix};
 
 /// Which cross paths a dynamic decoupler removes.
@@ -13,17 +15,27 @@ pub enum Decoupling {
     SecondOutput,
 }
 
-/// Gains of the static decoupler, `K_I1 = −K12/K11` and `K_I2 = −K21/K22` with K = G(0) (Campestrini 2006, eqs. 79, 80).
+/// Gains of the static decoupler, `K_I1 = −K12/K11` and `K_I2 = −K21/K22` with K = G(0) (Campestrini 2006, eqs. 79, 80); in the limit
+/// s → 0 for integrating elements.
 ///
 /// # Errors
 /// [`LinearError::SingularGain`] when a diagonal gain is zero or not finite.
 pub fn static_decoupler(plant: &TransferMatrix) -> Result<[f64; 2], LinearError> {
-    let k = plant.dc_gain();
-    let gains = [-k[(0, 1)] / k[(0, 0)], -k[(1, 0)] / k[(1, 1)]];
+    let [[g11, g12], [g21, g22]] = &plant.0;
+    let gains = [-ratio_at_rest(g12, g11), -ratio_at_rest(g21, g22)];
     if gains.iter().all(|g| g.is_finite()) {
         Ok(gains)
     } else {
         Err(LinearError::SingularGain { reciprocal_condition: 0.0 })
+    }
+}
+
+/// `lim g(s)/h(s)` for s → 0.
+fn ratio_at_rest(g: &TransferFunction, h: &TransferFunction) -> f64 {
+    match g.integrators().cmp(&h.integrators()) {
+        Ordering::Less => 0.0,
+        Ordering::Equal => g.rest_gain() / h.rest_gain(),
+        Ordering::Greater => f64::INFINITY,
     }
 }
 

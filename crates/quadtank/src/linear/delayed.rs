@@ -1,5 +1,7 @@
 //! Exact simulation of transfer functions with dead time, for inputs that are constant between switches.
 
+use nalgebra::Matrix2;
+
 use super::lag_chain::{Leap, MAX_ORDER, Motion, State};
 use super::{LinearError, TransferFunction, TransferMatrix};
 
@@ -61,7 +63,7 @@ impl DelayedPlant {
     /// At rest, with both inputs zero.
     ///
     /// # Errors
-    /// [`LinearError::OutOfRange`] for a path that is not strictly proper or of an order above [`MAX_ORDER`].
+    /// [`LinearError::OutOfRange`] for a path that is not proper or of an order above [`MAX_ORDER`].
     ///
     /// # Panics
     /// Never for indices of inputs and outputs of 0 and 1.
@@ -95,7 +97,7 @@ impl DelayedPlant {
 
     /// Both outputs now.
     pub fn outputs(&self) -> [f64; 2] {
-        self.sum(|path| path.motion.output(&path.state))
+        self.sum(|path| path.motion.output(&path.state, path.acting))
     }
 
     /// Both outputs `duration` from now, which must be no longer than [`quiet`](Self::quiet).
@@ -104,11 +106,24 @@ impl DelayedPlant {
             Some(leaps) => {
                 let mut leaps = leaps.iter();
                 self.sum(|path| {
-                    leaps.next().map_or(0.0, |leap| path.motion.output(&leap.after(&path.state, path.acting)))
+                    leaps
+                        .next()
+                        .map_or(0.0, |leap| path.motion.output(&leap.after(&path.state, path.acting), path.acting))
                 })
             }
-            None => self.sum(|path| path.motion.output(&path.motion.after(&path.state, path.acting, duration))),
+            None => {
+                self.sum(|path| path.motion.output(&path.motion.after(&path.state, path.acting, duration), path.acting))
+            }
         }
+    }
+
+    /// What each output does at once when an input jumps, row by output.
+    pub fn instant_gain(&self) -> Matrix2<f64> {
+        let mut gain = Matrix2::zeros();
+        for path in self.paths.iter().filter(|path| path.dead_time == 0.0) {
+            gain[(path.output, path.input)] += path.motion.through();
+        }
+        gain
     }
 
     /// How long nothing arrives: until the next change of an input has passed a dead time. Infinite when none is on its way.

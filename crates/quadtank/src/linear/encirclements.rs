@@ -28,6 +28,12 @@ pub enum LoopStability {
         /// Frequency up to which the loop has to be followed; infinite where it never becomes small.
         frequency: f64,
     },
+    /// The loop closes through the direct feedthrough of a biproper element, and an eigenvalue of L(∞) is −1 or beyond: the equation
+    /// for its signals has no solution, or one that any lag, however short, turns into a motion away from it.
+    AlgebraicLoop {
+        /// Real part of that eigenvalue.
+        eigenvalue: f64,
+    },
 }
 
 /// Most cells of frequency that the count looks at. Of 1,000 random loops half take 210, and one 940.
@@ -46,7 +52,8 @@ impl LoopStability {
     ///
     /// Loci that together encircle −1 are the same as det(I + L) = (1 + λ1)(1 + λ2) that encircles 0. Followed from 0 to ∞
     /// its argument grows by Δ, and passing the pole of order n at the origin on its right side costs n π, so
-    /// `Z = n/2 − Δ/π` poles of the closed loop are in the right half-plane (Campestrini 2006, Theorem 1, with P = 0).
+    /// `Z = n/2 − Δ/π` poles of the closed loop are in the right half-plane (Campestrini 2006, Theorem 1, with P = 0). With direct
+    /// feedthrough it ends at det(I + L(∞)), which is positive where the loop is well-posed.
     ///
     /// Cells of frequency are halved until each has an enclosure of det(I + L) that excludes zero, which makes the count
     /// exact; the number of cells is bounded.
@@ -56,8 +63,17 @@ impl LoopStability {
 
     /// The verdict and the number of cells that it took.
     fn counted(ratio: &ReturnRatio) -> (Self, u32) {
+        let eigenvalue = least_real_part(ratio.at_infinity());
+        if eigenvalue <= -1.0 {
+            return (Self::AlgebraicLoop { eigenvalue }, 0);
+        }
+        if ratio.hides_an_integrator() {
+            return (Self::Marginal { frequency: 0.0 }, 0);
+        }
+        // det(I + L) = det(I + L(∞)) det(I + E) with E = (I + L(∞))⁻¹ (L − L(∞)).
+        let inverse = (Matrix2::identity() + ratio.at_infinity()).try_inverse().unwrap_or_default().map(f64::abs);
         let low = ratio.low_end(SETTLED);
-        let Some(high) = ratio.high_end(low, is_small) else {
+        let Some(high) = ratio.high_end(low, |largest| is_small(&(inverse * largest))) else {
             return (Self::NotComputed { frequency: f64::INFINITY }, 0);
         };
         // Below all else det(I + L) is R/(jω)^n with a real R.
@@ -83,11 +99,18 @@ impl LoopStability {
                 None => cells.extend(cell.halves()),
             }
         }
-        // From the high end on det(I + L) stays within 1 of 1.
+        // From the high end on det(I + L) stays within |det(I + L(∞))| of it.
         turned -= return_difference(ratio, high).arg();
         let poles = (f64::from(integrators) / 2.0 - turned / PI).round();
         (if poles <= 0.0 { Self::Stable } else { Self::Unstable { poles: whole(poles) } }, count)
     }
+}
+
+/// Least real part of the eigenvalues of a real matrix.
+pub(crate) fn least_real_part(matrix: &Matrix2<f64>) -> f64 {
+    let half_difference = 0.5 * (matrix[(0, 0)] - matrix[(1, 1)]);
+    let square = half_difference * half_difference + matrix[(0, 1)] * matrix[(1, 0)];
+    0.5 * matrix.trace() - square.max(0.0).sqrt()
 }
 
 /// Whether no loop with such absolute values of the elements of L has a det(I + L) that is 1 or more away from 1.

@@ -12,8 +12,8 @@ const NEGLIGIBLE: f64 = 1e-18;
 /// Doublings of the longest step of one Taylor series that are kept: as many as a count of steps has binary digits.
 const DOUBLINGS: usize = u64::BITS as usize;
 
-/// State space of a strictly proper transfer function in controllable form, in a unit of time that makes its coefficients
-/// alike: `dx_i/dτ = x_{i+1}`, `dx_n/dτ = u − Σ α_k x_k`, `y = Σ β_k x_k`.
+/// State space of a proper transfer function in controllable form, in a unit of time that makes its coefficients alike:
+/// `dx_i/dτ = x_{i+1}`, `dx_n/dτ = u − Σ α_k x_k`, `y = Σ β_k x_k + δ u`.
 ///
 /// A quick pole beside a slow one makes the steps of the Taylor series short. Any duration is therefore a sum of doublings of
 /// the longest step, each passed at once, and a remainder: the work grows with the logarithm of the duration.
@@ -22,6 +22,8 @@ pub(super) struct Motion {
     order: usize,
     alpha: State,
     beta: State,
+    /// Direct feedthrough δ.
+    through: f64,
     /// The unit of time, in units of the plant.
     unit: f64,
     /// Longest step of one Taylor series, in `unit`.
@@ -77,15 +79,15 @@ impl Leap {
 
 impl Motion {
     /// # Errors
-    /// [`LinearError::OutOfRange`] with the relative degree when the element is not strictly proper, with the order when it
-    /// is beyond [`MAX_ORDER`].
+    /// [`LinearError::OutOfRange`] with the relative degree when the element is not proper, with the order when it is beyond
+    /// [`MAX_ORDER`].
     pub(super) fn new(element: &TransferFunction) -> Result<Self, LinearError> {
         let (numerator, denominator) = (trimmed(element.numerator()), trimmed(element.denominator()));
         // A product of tiny coefficients may have vanished.
         let Some(order) = denominator.len().checked_sub(1) else {
             return Err(LinearError::OutOfRange { field: "denominator", value: 0.0 });
         };
-        if !numerator.is_empty() && numerator.len() > order {
+        if numerator.len() > order + 1 {
             let value = order as f64 - (numerator.len() as f64 - 1.0);
             return Err(LinearError::OutOfRange { field: "relative_degree", value });
         }
@@ -99,14 +101,16 @@ impl Motion {
             .position(|&a| a != 0.0)
             .filter(|&lowest| lowest < order)
             .map_or(1.0_f64, |lowest| (leading / denominator[lowest]).abs().powf(1.0 / (order - lowest) as f64));
+        let through = element.feedthrough();
         let (mut alpha, mut beta) = ([0.0; MAX_ORDER], [0.0; MAX_ORDER]);
         for k in 0..order {
             let scale = unit.powi(i32::try_from(order - k).unwrap_or(0)) / leading;
             alpha[k] = denominator[k] * scale;
-            beta[k] = numerator.get(k).copied().unwrap_or(0.0) * scale;
+            beta[k] = (numerator.get(k).copied().unwrap_or(0.0) - through * denominator[k]) * scale;
         }
         let norm = alpha.iter().map(|a| a.abs()).sum::<f64>().max(1.0);
-        let mut motion = Self { order, alpha, beta, unit, step: 1.0 / norm, leaps: Vec::with_capacity(DOUBLINGS) };
+        let mut motion =
+            Self { order, alpha, beta, through, unit, step: 1.0 / norm, leaps: Vec::with_capacity(DOUBLINGS) };
         let mut leap = motion.short_leap(motion.step);
         for _ in 0..DOUBLINGS {
             motion.leaps.push(leap);
@@ -158,9 +162,14 @@ impl Motion {
         steps.log2() * order * (order + 1.0) + 2.0 * TERMS as f64 * order
     }
 
-    /// Output y of a state.
-    pub(super) fn output(&self, state: &State) -> f64 {
-        (0..self.order).map(|k| self.beta[k] * state[k]).sum()
+    /// Output y of a state under an input.
+    pub(super) fn output(&self, state: &State, input: f64) -> f64 {
+        (0..self.order).map(|k| self.beta[k] * state[k]).sum::<f64>() + self.through * input
+    }
+
+    /// Direct feedthrough.
+    pub(super) fn through(&self) -> f64 {
+        self.through
     }
 
     /// The state after `duration` with the input held.
@@ -212,7 +221,7 @@ mod tests {
     fn response(numerator: &[f64], denominator: &[f64], input: f64, duration: f64) -> f64 {
         let element = TransferFunction::new(numerator.to_vec(), denominator.to_vec(), 0.0).unwrap();
         let motion = Motion::new(&element).unwrap();
-        motion.output(&motion.after(&[0.0; MAX_ORDER], input, duration))
+        motion.output(&motion.after(&[0.0; MAX_ORDER], input, duration), input)
     }
 
     #[test]
@@ -266,9 +275,15 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_strictly_proper_has_no_motion() {
-        let element = TransferFunction::new(vec![1.0, 2.0], vec![1.0, 3.0, 0.0], 0.0).unwrap();
-        let refused = LinearError::OutOfRange { field: "relative_degree", value: 0.0 };
+    fn a_biproper_element_jumps_with_its_input_and_an_improper_one_has_no_motion() {
+        // (s + 1)/(s + 5) = 1 − 4/(s + 5).
+        for t in [0.0_f64, 0.3, 5.0] {
+            let expected = 3.0 * (0.2 + 0.8 * (-5.0 * t).exp());
+            assert_relative_eq!(response(&[1.0, 1.0], &[5.0, 1.0], 3.0, t), expected, max_relative = 1e-13);
+        }
+        assert_eq!(response(&[3.0], &[2.0], 4.0, 1.0), 6.0);
+        let element = TransferFunction::new(vec![1.0, 2.0, 1.0], vec![1.0, 3.0, 0.0], 0.0).unwrap();
+        let refused = LinearError::OutOfRange { field: "relative_degree", value: -1.0 };
         assert_eq!(Motion::new(&element).err(), Some(refused));
     }
 }

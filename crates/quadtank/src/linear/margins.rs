@@ -17,7 +17,7 @@ use crate::numeric::{golden_section, root};
 pub struct Margins {
     /// Shortest distance of a locus from −1.
     pub distance: f64,
-    /// Frequency of that; infinite where the distance is the 1 that every locus has in the end.
+    /// Frequency of that; infinite where the distance is that which the loci have in the end, 1 without direct feedthrough.
     pub distance_frequency: f64,
     /// Smallest factor above 1 on all gains at which a locus reaches −1; `None` where there is none up to 10⁶.
     pub gain_up: Option<f64>,
@@ -39,6 +39,8 @@ const NARROWEST: f64 = 1e-10;
 const ON_LINE: f64 = 1e-6;
 /// Relative deviation of the elements from powers of s at the lowest frequency.
 const SETTLED: f64 = 1e-7;
+/// Largest deviation of L from L(∞), relative to it, at the end of the search with direct feedthrough.
+const ARRIVED: f64 = 1e-5;
 /// Bound on the loci beyond the first part of the search.
 const HALF: f64 = 0.5;
 
@@ -96,6 +98,9 @@ impl<'a> Search<'a> {
 
     fn run(&mut self) -> Option<Margins> {
         let low = self.ratio.low_end(SETTLED);
+        if *self.ratio.at_infinity() != Matrix2::zeros() {
+            return self.run_to_infinity(low);
+        }
         let mut end = self.ratio.high_end(2.0 * low, |largest| spectral_bound(largest) <= HALF)?;
         self.limit_at_rest(low);
         self.examine(Cell { low, high: end })?;
@@ -107,6 +112,20 @@ impl<'a> Search<'a> {
             self.examine(Cell { low: end, high: 2.0 * end })?;
             end *= 2.0;
         }
+    }
+
+    /// With direct feedthrough the loci end at those of L(∞).
+    fn run_to_infinity(&mut self, low: f64) -> Option<Margins> {
+        let at_infinity = self.ratio.at_infinity();
+        let end = self.ratio.high_end(2.0 * low, |largest| largest.norm() <= ARRIVED * at_infinity.norm())?;
+        self.limit_at_rest(low);
+        let ends = locus_values(&at_infinity.map(Complex::from));
+        self.distance = ends.iter().map(|value| size_of(value + 1.0)).fold(f64::INFINITY, f64::min);
+        for value in ends.into_iter().filter(|value| value.im == 0.0 && value.re != 0.0) {
+            self.meet_real_axis(value);
+        }
+        self.examine(Cell { low, high: end })?;
+        Some(self.margins())
     }
 
     fn count(&self) {

@@ -35,7 +35,7 @@ impl MatrixPolesAndZeros {
         let mut poles = Vec::new();
         for element in [a, b, c, d] {
             let mut zeros = roots(element.numerator())?;
-            let own = if zeros.is_none() { Vec::new() } else { element.poles()? };
+            let own = if zeros.is_none() { Vec::new() } else { poles_of(element)? };
             join(&mut poles, &without_common(own, zeros.get_or_insert_default()));
         }
         let numerator = difference(
@@ -45,7 +45,7 @@ impl MatrixPolesAndZeros {
         let Some(mut zeros) = roots(&numerator)? else {
             return Ok(Some(Self { poles: sorted(poles), zeros: None }));
         };
-        let of_determinant = [a.poles()?, b.poles()?, c.poles()?, d.poles()?].concat();
+        let of_determinant = [poles_of(a)?, poles_of(b)?, poles_of(c)?, poles_of(d)?].concat();
         let of_determinant = without_common(of_determinant, &mut zeros);
         join(&mut poles, &of_determinant);
         // Over all poles the numerator of the determinant has those too that it lacks.
@@ -58,12 +58,16 @@ impl MatrixPolesAndZeros {
     }
 }
 
-/// Roots of a polynomial by rising powers; `None` where it is zero.
+/// Roots of a polynomial by rising powers, those at the origin exactly; `None` where it is zero.
 fn roots(coefficients: &[f64]) -> Result<Option<Vec<Complex>>, LinearError> {
-    if coefficients.iter().all(|&coefficient| coefficient == 0.0) {
-        return Ok(None);
-    }
-    TransferFunction::new(vec![1.0], coefficients.to_vec(), 0.0)?.poles().map(Some)
+    let Some(at_origin) = coefficients.iter().position(|&coefficient| coefficient != 0.0) else { return Ok(None) };
+    let mut roots = TransferFunction::new(vec![1.0], coefficients[at_origin..].to_vec(), 0.0)?.poles()?;
+    roots.resize(roots.len() + at_origin, Complex::ZERO);
+    Ok(Some(roots))
+}
+
+fn poles_of(element: &TransferFunction) -> Result<Vec<Complex>, LinearError> {
+    Ok(roots(element.denominator())?.unwrap_or_default())
 }
 
 /// `one − other` without what rounding leaves where they are the same.
@@ -172,6 +176,25 @@ mod tests {
         let found = MatrixPolesAndZeros::of(&equal).unwrap().unwrap();
         assert_roots(&found.poles, &[-1.0], 1e-9);
         assert_eq!(found.zeros, None);
+    }
+
+    #[test]
+    fn biproper_and_integrating_elements_have_their_poles_and_zeros() {
+        let one = element(&[1.0], &[1.0], 0.0);
+        let biproper = |pole: f64| element(&[1.0, 1.0], &[pole, 1.0], 0.0);
+        let g = TransferMatrix([[biproper(5.0), one.clone()], [biproper(2.0), one]]);
+        let found = MatrixPolesAndZeros::of(&g).unwrap().unwrap();
+        assert_roots(&found.poles, &[-5.0, -2.0], 1e-9);
+        assert_roots(&found.zeros.unwrap(), &[-1.0], 1e-9);
+        // 1/s, 1/(s (s + 2)); 0.5/s, 1/s: det G = (s + 1.5)/(s² (s + 2)).
+        let integrator = |rate: f64| element(&[rate], &[0.0, 1.0], 0.0);
+        let g = TransferMatrix([
+            [integrator(1.0), element(&[1.0], &[0.0, 2.0, 1.0], 0.0)],
+            [integrator(0.5), integrator(1.0)],
+        ]);
+        let found = MatrixPolesAndZeros::of(&g).unwrap().unwrap();
+        assert_roots(&found.poles, &[-2.0, 0.0, 0.0], 1e-9);
+        assert_roots(&found.zeros.unwrap(), &[-1.5], 1e-9);
     }
 
     #[test]

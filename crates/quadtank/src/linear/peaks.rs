@@ -70,24 +70,23 @@ const SETTLED: f64 = 1e-7;
 
 /// A function of the loop, with what bounds it.
 struct Measure {
-    /// What it comes to where the loop vanishes.
-    without_loop: f64,
     /// Its value for a return ratio.
     at: fn(&Matrix2<Complex>) -> f64,
-    /// A bound for elements of the return ratio of at most such absolute values; infinite where they say nothing. Smaller ones have a
-    /// smaller bound.
-    within: fn(&Matrix2<f64>) -> f64,
+    /// A bound for a return ratio whose elements are at most so far from those of another, L(∞); infinite where they say nothing. Smaller
+    /// distances have a smaller bound.
+    within: fn(&Matrix2<f64>, &Matrix2<f64>) -> f64,
     /// A bound over a cell.
     over: fn(&RatioOver) -> f64,
 }
 
 const LOG_MODULUS: Measure = Measure {
-    without_loop: 0.0,
     at: |ratio| (Complex::ONE - (Matrix2::identity() + ratio).determinant().inv()).norm(),
-    within: |largest| {
-        let [a, b, c, d] = [(0, 0), (0, 1), (1, 0), (1, 1)].map(|at| largest[at]);
-        let difference = a + d + a * d + b * c;
-        if difference < 1.0 { difference / (1.0 - difference) } else { f64::INFINITY }
+    within: |distance, at_infinity| {
+        let difference = Matrix2::identity() + at_infinity;
+        let [a, b, c, d] = elements(&(inverse_sizes(&difference) * distance));
+        let (change, least) = (a + d + a * d + b * c, difference.determinant().abs());
+        let at_end = (1.0 - difference.determinant().recip()).abs();
+        if change < 1.0 { at_end + change / (1.0 - change) / least } else { f64::INFINITY }
     },
     over: |ratio| {
         let modulus = TaylorModel::ONE + -TaylorModel::ONE.over(return_difference(ratio));
@@ -96,11 +95,12 @@ const LOG_MODULUS: Measure = Measure {
 };
 
 const SENSITIVITY: Measure = Measure {
-    without_loop: 1.0,
     at: |ratio| largest_singular_value_of_inverse(&(Matrix2::identity() + ratio)),
-    within: |largest| {
-        let size = largest.norm();
-        if size < 1.0 { (1.0 - size).recip() } else { f64::INFINITY }
+    within: |distance, at_infinity| {
+        let difference = Matrix2::identity() + at_infinity;
+        let size = (inverse_sizes(&difference) * distance).norm();
+        let at_end = (SENSITIVITY.at)(&at_infinity.map(Complex::from));
+        if size < 1.0 { at_end / (1.0 - size) } else { f64::INFINITY }
     },
     over: |ratio| {
         let [[a, b], [c, d]] = ratio.elements;
@@ -119,6 +119,15 @@ const SENSITIVITY: Measure = Measure {
     },
 };
 
+fn elements(matrix: &Matrix2<f64>) -> [f64; 4] {
+    [(0, 0), (0, 1), (1, 0), (1, 1)].map(|at| matrix[at])
+}
+
+/// Absolute values of the elements of the inverse.
+fn inverse_sizes(matrix: &Matrix2<f64>) -> Matrix2<f64> {
+    matrix.try_inverse().map_or_else(|| Matrix2::repeat(f64::INFINITY), |inverse| inverse.map(f64::abs))
+}
+
 /// det(I + L) = 1 + tr L + det L over a cell.
 fn return_difference(ratio: &RatioOver) -> TaylorModel {
     let [[a, _], [_, d]] = ratio.elements;
@@ -128,7 +137,7 @@ fn return_difference(ratio: &RatioOver) -> TaylorModel {
 /// Cells of frequency are halved, widest first, until bounds over them say that none holds a value that is higher than the highest
 /// found, to one part in ten thousand. The search ends where the loop is too small for any.
 fn peak(ratio: &ReturnRatio, measure: &Measure) -> Option<LoopPeak> {
-    let mut search = Search { ratio, measure, cells: 0, value: measure.without_loop, highest: None };
+    let mut search = Search::new(ratio, measure);
     search.run().map(|()| search.polished())
 }
 
@@ -142,14 +151,21 @@ struct Search<'a> {
     highest: Option<Cell>,
 }
 
-impl Search<'_> {
+impl<'a> Search<'a> {
+    /// From the value that the loop has in the end.
+    fn new(ratio: &'a ReturnRatio, measure: &'a Measure) -> Self {
+        let value = (measure.at)(&ratio.at_infinity().map(Complex::from));
+        Self { ratio, measure, cells: 0, value, highest: None }
+    }
+
     fn run(&mut self) -> Option<()> {
         let &mut Self { ratio, measure, .. } = self;
+        let at_infinity = ratio.at_infinity();
         let low = ratio.low_end(SETTLED);
         self.meet((measure.at)(&ratio.at(low)), Cell { low, high: low });
-        let mut end = ratio.high_end(2.0 * low, |largest| (measure.within)(largest).is_finite())?;
+        let mut end = ratio.high_end(2.0 * low, |distance| (measure.within)(distance, at_infinity).is_finite())?;
         self.examine(Cell { low, high: end })?;
-        while ratio.high_end(end, |largest| (measure.within)(largest) <= self.reach())? != end {
+        while ratio.high_end(end, |distance| (measure.within)(distance, at_infinity) <= self.reach())? != end {
             self.examine(Cell { low: end, high: 2.0 * end })?;
             end *= 2.0;
         }
@@ -178,7 +194,7 @@ impl Search<'_> {
             let over = self.ratio.over(cell);
             let middle = Matrix2::from_fn(|row, column| over.elements[row][column].value);
             self.meet((self.measure.at)(&middle), cell);
-            let is_settled = (self.measure.within)(&over.largest) <= self.reach()
+            let is_settled = (self.measure.within)(&over.largest, &Matrix2::zeros()) <= self.reach()
                 || (self.measure.over)(&over) <= self.reach()
                 || cell.half_width() <= NARROWEST * cell.low;
             if !is_settled {
@@ -272,8 +288,7 @@ mod tests {
             let controllers = PidMatrix::decentralised(published.gains());
             let ratio = ReturnRatio::new(&plant, controllers.transfer_matrix().unwrap(), controllers.integrators());
             for measure in [&LOG_MODULUS, &SENSITIVITY] {
-                let mut search =
-                    Search { ratio: &ratio, measure, cells: 0, value: measure.without_loop, highest: None };
+                let mut search = Search::new(&ratio, measure);
                 search.run().unwrap();
                 println!("{published:?}: {} cells", search.cells);
                 assert!(search.cells < MOST_CELLS / 10, "{published:?}: {} cells", search.cells);

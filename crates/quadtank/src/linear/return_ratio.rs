@@ -3,7 +3,7 @@
 use nalgebra::Matrix2;
 
 use super::taylor_model::{Cell, TaylorModel, size_of};
-use super::{Complex, TransferFunction, TransferMatrix};
+use super::{Complex, TransferFunction, TransferMatrix, series};
 
 /// The return ratio `L(s) = G(s) K(s)` of a plant and its controllers, both with two inputs and two outputs.
 #[derive(Clone, Debug)]
@@ -11,15 +11,48 @@ pub struct ReturnRatio<'a> {
     plant: &'a TransferMatrix,
     controllers: TransferMatrix,
     integrators: u32,
+    /// Factor and order of the pole of det(I + L) at the origin, for an integrating plant.
+    at_origin: Option<(f64, u32)>,
+    at_infinity: Matrix2<f64>,
 }
+
+/// Share by which det(I + L) of an integrating plant differs from its pole at the origin at the lowest frequency, where no smaller
+/// one is asked for: rounding does not allow for less.
+const LEAST_DEVIATION: f64 = 1e-9;
+/// Decades that the lowest frequency is lowered by at most to get there.
+const DECADES: usize = 60;
 
 /// Frequency at which the search for the high end of the band gives up.
 const BEYOND_ALL: f64 = 1e100;
 
 impl<'a> ReturnRatio<'a> {
     /// From a plant and controllers without dead time. `integrators` is the order of the pole of det(I + L) at the origin.
+    /// Poles of the plant at the origin are among these.
     pub fn new(plant: &'a TransferMatrix, controllers: TransferMatrix, integrators: u32) -> Self {
-        Self { plant, controllers, integrators }
+        let at_origin = plant.is_integrating().then(|| {
+            let difference = series::return_difference(&series::elements(plant), &series::elements(&controllers));
+            let (factor, _) = difference.leading().unwrap_or_default();
+            (factor, difference.pole_order())
+        });
+        let at_infinity = at_infinity(plant, &controllers).unwrap_or_else(Matrix2::zeros);
+        Self { plant, controllers, integrators, at_origin, at_infinity }
+    }
+
+    /// L(∞), the direct feedthrough of the loop; zero also where L has no limit, as behind a dead time.
+    pub fn at_infinity(&self) -> &Matrix2<f64> {
+        &self.at_infinity
+    }
+
+    /// Whether a pole of plant or controllers at the origin stays there in the closed loop, whatever its gains are: a part that
+    /// integrates without being controlled. Only an integrating plant is asked.
+    pub fn hides_an_integrator(&self) -> bool {
+        self.at_origin.is_some_and(|(_, order)| order < self.integrators)
+    }
+
+    /// `L(s)` at a point of the real axis.
+    pub(crate) fn at_real(&self, s: f64) -> Matrix2<f64> {
+        let s = Complex::from(s);
+        (self.plant.at(s) * self.controllers.at(s)).map(|value| value.re)
     }
 
     /// Order of the pole of det(I + L) at the origin.
@@ -33,7 +66,8 @@ impl<'a> ReturnRatio<'a> {
         self.plant.at(s) * self.controllers.at(s)
     }
 
-    /// A frequency below which every element of G and K is one power of s, to a relative deviation.
+    /// A frequency below which every element of G and K is one power of s, to a relative deviation; of an integrating plant det(I + L)
+    /// too.
     pub(super) fn low_end(&self, deviation: f64) -> f64 {
         let mut low = f64::INFINITY;
         for g in self.plant.0.as_flattened().iter().chain(self.controllers.0.as_flattened()) {
@@ -43,22 +77,46 @@ impl<'a> ReturnRatio<'a> {
             low = low.min(settles(g.numerator(), deviation)).min(settles(g.denominator(), deviation));
         }
         // A loop of gains alone is the same at all frequencies.
-        if low.is_finite() { low } else { 1.0 }
+        let low = if low.is_finite() { low } else { 1.0 };
+        let Some((factor, order)) = self.at_origin else { return low };
+        let deviation = deviation.max(LEAST_DEVIATION);
+        let is_pole = |w: &f64| {
+            let difference = (Matrix2::identity() + self.at(*w)).determinant();
+            (difference * Complex::new(0.0, *w).powu(order) / factor - 1.0).norm() <= deviation
+        };
+        let lowered = std::iter::successors(Some(low), |w| Some(0.1 * w)).take(DECADES);
+        lowered.clone().find(is_pole).or(lowered.last()).unwrap_or(low)
     }
 
-    /// A frequency from which on the absolute values of the elements of L stay so small that `is_small` holds of them; `None`
+    /// A frequency from which on the absolute values of the elements of L − L(∞) stay so small that `is_small` holds of them; `None`
     /// where there is none. `is_small` must hold of all smaller values too.
     pub(super) fn high_end(&self, from: f64, is_small: impl Fn(&Matrix2<f64>) -> bool) -> Option<f64> {
         let doubled = std::iter::successors(Some(from), |w| Some(2.0 * w));
         doubled.take_while(|&w| w < BEYOND_ALL).find(|&w| is_small(&self.largest_beyond(w)))
     }
 
-    /// Largest absolute values of the elements of L from a frequency on; infinite where no bound is known.
+    /// Largest absolute values of the elements of L − L(∞) from a frequency on; infinite where no bound is known.
     fn largest_beyond(&self, frequency: f64) -> Matrix2<f64> {
-        let of =
+        let tails =
             |matrix: &TransferMatrix| matrix.0.each_ref().map(|row| row.each_ref().map(|g| Tail::of(g, frequency)));
-        let (g, k) = (of(self.plant), of(&self.controllers));
-        Matrix2::from_fn(|row, column| (0..2).map(|i| g[row][i].times(k[i][column]).largest_beyond(frequency)).sum())
+        let sum = |[g, k]: [[[Tail; 2]; 2]; 2]| {
+            Matrix2::from_fn(|row, column| {
+                (0..2).map(|i| g[row][i].times(k[i][column]).largest_beyond(frequency)).sum()
+            })
+        };
+        if self.at_infinity == Matrix2::zeros() {
+            return sum([tails(self.plant), tails(&self.controllers)]);
+        }
+        // With G = D + R and K = K(∞) + Q the difference is R K + D Q.
+        let rest = |of: &TransferMatrix, is_rest: bool| {
+            TransferMatrix(of.0.each_ref().map(|row| {
+                row.each_ref().map(|g| if is_rest && g.dead_time() == 0.0 { g.strictly_proper() } else { g.clone() })
+            }))
+        };
+        let through = self.plant.instant_gain().map(f64::abs);
+        let of_controllers = tails(&rest(&self.controllers, true));
+        let of_rest = Matrix2::from_fn(|row, column| of_controllers[row][column].largest_beyond(frequency));
+        sum([tails(&rest(self.plant, true)), tails(&self.controllers)]) + through * of_rest
     }
 
     /// The elements and the determinant of L over a cell.
@@ -191,6 +249,13 @@ impl Invariants {
             f64::INFINITY
         }
     }
+}
+
+/// L(∞) of a loop whose direct feedthrough has no dead time and whose controllers are proper.
+fn at_infinity(plant: &TransferMatrix, controllers: &TransferMatrix) -> Option<Matrix2<f64>> {
+    let (through, instant) = (plant.feedthrough(), plant.instant_gain());
+    let at_infinity = instant * controllers.feedthrough();
+    (through == instant && at_infinity.iter().all(|value| value.is_finite())).then_some(at_infinity)
 }
 
 fn over(matrix: &TransferMatrix, cell: Cell) -> [[TaylorModel; 2]; 2] {

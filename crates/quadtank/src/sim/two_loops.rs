@@ -2,8 +2,10 @@
 
 use std::cell::Cell;
 
+use nalgebra::{Matrix2, Vector2};
+
 use crate::control::{PidMatrix, Relay};
-use crate::linear::DelayedPlant;
+use crate::linear::{DelayedPlant, least_real_part};
 use crate::numeric::root;
 
 /// A plant whose inputs are held between changes, in deviations from its rest.
@@ -12,6 +14,10 @@ pub trait HeldPlant {
     fn outputs(&self) -> [f64; 2];
     /// Both inputs from now on. Gives back what the plant takes of them: pumps have limits.
     fn set_inputs(&mut self, inputs: [f64; 2]) -> [f64; 2];
+    /// What each output does at once when an input jumps, row by output; zero for a plant without direct feedthrough.
+    fn instant_gain(&self) -> Matrix2<f64> {
+        Matrix2::zeros()
+    }
     /// How long the outputs are smooth if no input changes.
     fn quiet(&self) -> f64;
     /// Both outputs `duration` from now, at most [`quiet`](Self::quiet).
@@ -33,6 +39,10 @@ impl HeldPlant for DelayedPlant {
     fn set_inputs(&mut self, inputs: [f64; 2]) -> [f64; 2] {
         self.set_inputs(inputs);
         inputs
+    }
+
+    fn instant_gain(&self) -> Matrix2<f64> {
+        self.instant_gain()
     }
 
     fn quiet(&self) -> f64 {
@@ -160,6 +170,7 @@ struct Run<'a> {
     plant: &'a mut dyn HeldPlant,
     loops: &'a TwoLoops,
     controllers: crate::control::RunningPidMatrix,
+    instant: Matrix2<f64>,
     /// Output of the controllers, held between samples.
     held: [f64; 2],
     /// What each relay takes the sign of its error to be.
@@ -179,10 +190,12 @@ impl<'a> Run<'a> {
         let outputs = plant.outputs();
         let positive = [0, 1].map(|i| loops.references[i] - outputs[i] >= 0.0);
         let controllers = loops.controllers.start(loops.step);
+        let instant = plant.instant_gain();
         Self {
             plant,
             loops,
             controllers,
+            instant,
             held: [0.0; 2],
             positive,
             inputs: [0.0; 2],
@@ -225,9 +238,30 @@ impl<'a> Run<'a> {
             self.trace.halt = Some(Halt::Diverged { time: self.time });
             return;
         }
-        self.held = self.controllers.step(self.errors(outputs));
+        let Some(errors) = self.errors_with_feedthrough(outputs) else {
+            self.trace.halt = Some(Halt::Diverged { time: self.time });
+            return;
+        };
+        self.held = self.controllers.step(errors);
         self.act();
         self.row();
+    }
+
+    /// The errors that a sample finds. Behind direct feedthrough they depend on what the controllers make of them at once, as they do
+    /// in a loop without sampling: `e = r − y₀ − D (u₀ + K e)`, with the output y₀ that the plant has without inputs. `None` where no
+    /// error fulfils it, or none that any lag would not lead away from: an eigenvalue of D K is −1 or beyond.
+    fn errors_with_feedthrough(&self, outputs: [f64; 2]) -> Option<[f64; 2]> {
+        let errors = self.errors(outputs);
+        if self.instant == Matrix2::zeros() {
+            return Some(errors);
+        }
+        let (offset, gain) = self.controllers.at_once();
+        let relays = [0, 1].map(|i| self.loops.relays[i].map_or(0.0, |relay| relay.output(self.positive[i])));
+        let change = Vector2::from(offset) + Vector2::from(relays) - Vector2::from(self.inputs);
+        let through = self.instant * gain;
+        let solved = (Matrix2::identity() + through).try_inverse().filter(|_| least_real_part(&through) > -1.0)?;
+        let errors = solved * (Vector2::from(errors) - self.instant * change);
+        Some([errors[0], errors[1]])
     }
 
     /// Sends what controllers and relays want to the plant.

@@ -2,7 +2,8 @@ use std::f64::consts::{LN_10, TAU};
 
 use nalgebra::Matrix2;
 
-use crate::linear::{Complex, LinearError, TransferMatrix};
+use super::experiment::poles_off_the_origin;
+use crate::linear::{Complex, LinearError, Series, TransferMatrix, determinant_of_series, elements_as_series};
 use crate::numeric::{golden_section, root, square_root};
 
 /// Cells of the frequency grid for each decade, and most cells of all: a wide range has fewer for each decade.
@@ -43,6 +44,14 @@ pub enum GainLimit {
         /// By how much the direction was multiplied to get there.
         factor: f64,
     },
+    /// A loop through the direct feedthrough of the plant: with these gains an eigenvalue of L(∞) is −1, see
+    /// [`LoopStability::AlgebraicLoop`](crate::linear::LoopStability::AlgebraicLoop).
+    AlgebraicLoop {
+        /// Gains k1, k2 there.
+        gains: [f64; 2],
+        /// By how much the direction was multiplied to get there.
+        factor: f64,
+    },
     /// Nothing: every gain is stable.
     None,
 }
@@ -55,14 +64,14 @@ pub enum GainLimit {
 pub fn frequency_range(plant: &TransferMatrix) -> Result<(f64, f64), LinearError> {
     let (mut slowest, mut quickest) = (f64::INFINITY, 0.0_f64);
     for element in plant.0.as_flattened() {
-        let rates = element.poles()?.into_iter().map(Complex::norm);
+        let rates = poles_off_the_origin(element)?.into_iter().map(Complex::norm);
         let delay = (element.dead_time() > 0.0).then(|| element.dead_time().recip());
         for rate in rates.chain(delay).filter(|&rate| rate > 0.0) {
             slowest = slowest.min(rate);
             quickest = quickest.max(rate);
         }
     }
-    // A plant of gains alone has no time of its own.
+    // A plant of gains and integrators alone has no time of its own.
     Ok(if quickest > 0.0 { (slowest * 0.01, quickest * 100.0) } else { (0.01, 100.0) })
 }
 
@@ -87,8 +96,45 @@ pub fn importance(dc_gain: &Matrix2<f64>, gains: [f64; 2]) -> f64 {
 #[derive(Clone, Debug)]
 pub struct CriticalSearch {
     plant: TransferMatrix,
-    at_rest: Sample,
+    at_rest: AtRest,
+    /// What the plant does at once when an input jumps.
+    instant: Matrix2<f64>,
     grid: Vec<Sample>,
+}
+
+/// The plant near s = 0: g11, g22 and det G.
+#[derive(Clone, Debug)]
+struct AtRest {
+    diagonal: [Series; 2],
+    determinant: Series,
+}
+
+impl AtRest {
+    fn of(plant: &TransferMatrix) -> Self {
+        let g = elements_as_series(plant);
+        Self { diagonal: [g[(0, 0)], g[(1, 1)]], determinant: determinant_of_series(&g) }
+    }
+
+    /// Coefficients of `1 + a T + a² D` at the lowest power of s that occurs in it: that of s⁰ for a plant without integrators.
+    fn coefficients(&self, [c1, c2]: [f64; 2]) -> [f64; 3] {
+        let trace = self.diagonal[0].scaled(c1).plus(&self.diagonal[1].scaled(c2));
+        let determinant = self.determinant.scaled(c1 * c2);
+        let lowest = |series: &Series| series.leading().map_or(0, |(_, power)| power);
+        let power = lowest(&trace).min(lowest(&determinant)).min(0);
+        [if power == 0 { 1.0 } else { 0.0 }, trace.coefficient(power), determinant.coefficient(power)]
+    }
+}
+
+/// The smallest positive a with `u + a t + a² d = 0`, for u ≥ 0.
+fn smallest_factor([u, t, d]: [f64; 3]) -> Option<f64> {
+    // In x = 1/a: u x² + t x + d = 0, whose largest root is the nearest factor.
+    if u == 0.0 {
+        let x = -d / t;
+        return (x > 0.0 && x.is_finite()).then(|| x.recip());
+    }
+    let discriminant = t * t - 4.0 * d;
+    let largest = f64::midpoint(-t, discriminant.sqrt());
+    (discriminant >= 0.0 && largest > 0.0).then(|| largest.recip())
 }
 
 /// Largest angle to the real axis (rad) at which a locus counts as on it.
@@ -196,7 +242,7 @@ fn frequencies(plant: &TransferMatrix, lowest: f64, highest: f64) -> Vec<f64> {
     let cells = (range / LN_10 * PER_DECADE).ceil().clamp(1.0, MOST_CELLS) as usize;
     let ratio = range / cells as f64;
     let mut frequencies: Vec<f64> = (0..=cells).map(|k| lowest * (ratio * k as f64).exp()).collect();
-    for pole in plant.0.as_flattened().iter().filter_map(|element| element.poles().ok()).flatten() {
+    for pole in plant.0.as_flattened().iter().filter_map(|element| poles_off_the_origin(element).ok()).flatten() {
         let (resonance, damping) = (pole.norm(), (pole.re.abs() / pole.norm()).max(LEAST_DAMPING));
         if pole.im > 0.0 {
             let mut away = 0.0;
@@ -216,7 +262,7 @@ impl CriticalSearch {
     /// A search from the lowest to the highest frequency (rad per unit of time), both positive.
     pub fn new(plant: &TransferMatrix, lowest: f64, highest: f64) -> Self {
         let grid = frequencies(plant, lowest, highest).into_iter().map(|w| Sample::of(plant, w)).collect();
-        Self { plant: plant.clone(), at_rest: Sample::of(plant, 0.0), grid }
+        Self { plant: plant.clone(), at_rest: AtRest::of(plant), instant: plant.instant_gain(), grid }
     }
 
     /// All critical points in a direction `(c1, c2)`, nearest first. Only the nearest bounds the stable gains; two at the
@@ -302,21 +348,23 @@ impl CriticalSearch {
     /// The same by [`nearest_within`](Self::nearest_within).
     pub(super) fn limit_within(&self, direction: [f64; 2], most_effort: u32) -> GainLimit {
         let point = self.nearest_within(direction, most_effort);
-        let real = self.real_pole(direction).filter(|&factor| point.is_none_or(|point| factor < point.factor));
-        match (real, point) {
-            (Some(factor), _) => GainLimit::RealPole { gains: direction.map(|c| factor * c), factor },
-            (None, Some(point)) => GainLimit::Oscillation(point),
-            (None, None) => GainLimit::None,
+        let is_nearest = |factor: &f64| point.is_none_or(|point| *factor < point.factor);
+        let real = smallest_factor(self.at_rest.coefficients(direction)).filter(is_nearest);
+        let algebraic = smallest_factor(self.at_infinity(direction)).filter(is_nearest);
+        let gains = |factor: f64| direction.map(|c| factor * c);
+        match (real, algebraic, point) {
+            (Some(factor), other, _) if other.is_none_or(|other| factor <= other) => {
+                GainLimit::RealPole { gains: gains(factor), factor }
+            }
+            (_, Some(factor), _) => GainLimit::AlgebraicLoop { gains: gains(factor), factor },
+            (_, None, Some(point)) => GainLimit::Oscillation(point),
+            (_, None, None) => GainLimit::None,
         }
     }
 
-    /// The smallest positive factor for which `det(I + a G(0) diag c) = 1 + a T + a² D` is zero.
-    fn real_pole(&self, direction: [f64; 2]) -> Option<f64> {
-        let (t, d) = self.at_rest.trace_and_determinant(direction);
-        // In 1/a: x² + T x + D = 0, whose largest root is the nearest factor.
-        let discriminant = t.re * t.re - 4.0 * d.re;
-        let largest = f64::midpoint(-t.re, discriminant.sqrt());
-        (discriminant >= 0.0 && largest > 0.0).then(|| largest.recip())
+    /// Coefficients of `det(I + a G(∞) diag c) = 1 + a T + a² D`.
+    fn at_infinity(&self, [c1, c2]: [f64; 2]) -> [f64; 3] {
+        [1.0, self.instant[(0, 0)] * c1 + self.instant[(1, 1)] * c2, self.instant.determinant() * c1 * c2]
     }
 
     /// Where the equation has the other sign than at the grid points around k, all of which have the same.

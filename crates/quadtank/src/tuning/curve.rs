@@ -43,7 +43,7 @@ impl CriticalCurve {
     /// The curve in at least two directions, at equal angles in the plane of the normalised gains. The diagonal gains of the
     /// plant must not be zero.
     pub fn of(plant: &TransferMatrix, search: &CriticalSearch, directions: usize) -> Self {
-        let gain = plant.dc_gain();
+        let gain = plant.rest_gain();
         let direction = |angle: f64| {
             let (sine, cosine) = angle.sin_cos();
             [cosine / gain[(0, 0)], sine / gain[(1, 1)]]

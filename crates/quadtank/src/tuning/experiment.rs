@@ -1,7 +1,7 @@
 //! Relay tests on a plant with two loops: single, independent, sequential and simultaneous (Campestrini 2006, §3.5 to 3.7).
 
 use crate::control::{IsaPid, ParallelPid, PidMatrix, Relay};
-use crate::linear::{DelayedPlant, SignalPath, TransferFunction, TransferMatrix};
+use crate::linear::{Complex, DelayedPlant, LinearError, SignalPath, TransferFunction, TransferMatrix};
 use crate::sim::{HeldPlant, LoopTrace, MAX_WORK, TwoLoops, run_two_loops_within};
 
 use super::error::positive;
@@ -68,17 +68,26 @@ fn relay_test_within(
     Ok(RelayTest { trace, reading })
 }
 
-/// Refuses a plant with a pole that is not in the left half-plane.
+/// Refuses a plant with a pole that is neither in the left half-plane nor at the origin, where integrating elements have theirs.
 ///
 /// # Errors
 /// [`TuningError::UnstablePlant`] with the real part of that pole.
 pub fn check_stable(plant: &TransferMatrix) -> Result<(), TuningError> {
     for element in plant.0.as_flattened() {
-        if let Some(pole) = element.poles()?.last().filter(|pole| pole.re >= 0.0) {
+        if let Some(pole) = poles_off_the_origin(element)?.last().filter(|pole| pole.re >= 0.0) {
             return Err(TuningError::UnstablePlant { real_part: pole.re });
         }
     }
     Ok(())
+}
+
+/// Poles without those at the origin, which are exact zeros of the coefficients. Rounding would move them to either side.
+///
+/// # Errors
+/// As [`TransferFunction::poles`].
+pub fn poles_off_the_origin(element: &TransferFunction) -> Result<Vec<Complex>, LinearError> {
+    let first = element.denominator().iter().position(|&c| c != 0.0).unwrap_or(0);
+    TransferFunction::new(vec![1.0], element.denominator()[first..].to_vec(), 0.0)?.poles()
 }
 
 /// Ideal relays of the given amplitudes with the signs of the diagonal gains, together (DRF, Campestrini 2006, §3.7).
@@ -91,7 +100,7 @@ pub fn simultaneous_test(
     time: TestTime,
 ) -> Result<RelayTest, TuningError> {
     check_stable(plant)?;
-    let gain = plant.dc_gain();
+    let gain = plant.rest_gain();
     let relays = [0, 1].map(|i| Some(Relay::ideal(amplitudes[i], gain[(i, i)])));
     relay_test(&mut DelayedPlant::new(&plant.paths())?, relays, PidMatrix::default(), time)
 }
@@ -223,7 +232,7 @@ pub fn modulus_estimator(element: &TransferFunction, r: f64) -> Result<TransferF
     if element.dead_time() != 0.0 {
         return Err(TuningError::OutOfRange { field: "dead_time", value: element.dead_time() });
     }
-    let r = r.copysign(element.dc_gain());
+    let r = r.copysign(element.rest_gain());
     let combined = |sign: f64| -> Vec<f64> {
         let (b, a) = (element.numerator(), element.denominator());
         let at = |c: &[f64], k: usize| c.get(k).copied().unwrap_or(0.0);

@@ -29,8 +29,8 @@ pub use design::Design;
 pub use error::TuningError;
 pub use experiment::{
     RelayTest, SequentialStep, TestAndSettings, TestTime, check_stable, independent_test, independent_tuning,
-    modulus_estimator, relay_test, sequential_tuning, simultaneous_test, single_loop_test, ultimate_point,
-    with_integrator,
+    modulus_estimator, poles_off_the_origin, relay_test, sequential_tuning, simultaneous_test, single_loop_test,
+    ultimate_point, with_integrator,
 };
 pub use identification::{complete_response, sine_test};
 pub use level_cost::{CostMeasure, LevelCost, LevelProblem, LevelWorth, VIOLATION, sensitivity_peak};

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use super::{Design, ModelRule, ProcessModel, TuningError, TuningRule, ultimate_point_of};
+use super::{Design, ModelRule, ProcessModel, TuningError, TuningRule, poles_off_the_origin, ultimate_point_of};
 use crate::control::{IsaPid, PidMatrix};
 use crate::linear::{Complex, LinearError, LoopStability, TransferFunction, TransferMatrix};
 
@@ -37,6 +37,12 @@ pub enum PairRuleError {
         "element {number}{number} has complex poles or zeros in the left half-plane, which the half rule does not reduce"
     )]
     NotReducible {
+        /// Number of the loop.
+        number: usize,
+    },
+    /// An element integrates, and the rule needs a gain at rest.
+    #[error("element {number}{number} integrates, and the rule needs a gain at rest")]
+    Integrating {
         /// Number of the loop.
         number: usize,
     },
@@ -136,7 +142,10 @@ impl PairRule {
                 let rule = ModelRule::Simc { closed_loop_time_s: model.dead_time_s() };
                 rule.settings(&model).map_err(|_| PairRuleError::NoDeadTime { number })
             }),
-            Self::Imc => each(&|element, number| Ok(internal_model_control(&reduced(element, number)?))),
+            Self::Imc => each(&|element, number| {
+                let model = reduced(element, number)?;
+                internal_model_control(&model).ok_or(PairRuleError::Integrating { number })
+            }),
         }
     }
 }
@@ -182,13 +191,14 @@ fn detuned(plant: &TransferMatrix, settings: [IsaPid; 2]) -> Result<[IsaPid; 2],
     Ok(with(high))
 }
 
-/// A stable element with real poles as a first-order model with dead time by the half rule; zeros in the right half-plane count as dead
-/// time (Skogestad 2003, Eq. 10).
+/// An element with real poles as a first-order model, or an integrator, with dead time by the half rule; zeros in the right half-plane
+/// count as dead time (Skogestad 2003, Eq. 10).
 fn reduced(element: &TransferFunction, number: usize) -> Result<ProcessModel, PairRuleError> {
     let fault = PairRuleError::NotReducible { number };
-    let poles = element.poles()?;
+    let poles = poles_off_the_origin(element)?;
+    let integrators = element.integrators();
     let is_lag = |pole: &Complex| pole.re < 0.0 && pole.im.abs() <= REAL * pole.norm();
-    if poles.is_empty() || !poles.iter().all(is_lag) {
+    if poles.len() + integrators as usize == 0 || integrators > 1 || !poles.iter().all(is_lag) {
         return Err(fault);
     }
     let lags: Vec<f64> = poles.iter().map(|pole| -pole.re.recip()).collect();
@@ -198,19 +208,23 @@ fn reduced(element: &TransferFunction, number: usize) -> Result<ProcessModel, Pa
         return Err(fault);
     }
     let inverse_response: f64 = zeros.iter().map(|zero| zero.finv().re).sum();
-    Ok(ProcessModel::by_half_rule(element.dc_gain(), &lags, element.dead_time() + inverse_response))
+    let (gain, dead_time) = (element.rest_gain(), element.dead_time() + inverse_response);
+    Ok(match integrators {
+        0 => ProcessModel::by_half_rule(gain, &lags, dead_time),
+        _ => ProcessModel::integrating_by_half_rule(gain, &lags, dead_time),
+    })
 }
 
-/// PID of a self-regulating model by internal model control.
-fn internal_model_control(model: &ProcessModel) -> IsaPid {
-    let (time, dead_time) = (model.time_constant_s().unwrap_or_default(), model.dead_time_s());
+/// PID of a self-regulating model by internal model control; `None` for an integrator.
+fn internal_model_control(model: &ProcessModel) -> Option<IsaPid> {
+    let (gain, time, dead_time) = (model.gain()?, model.time_constant_s()?, model.dead_time_s());
     let lambda = (IMC_LAMBDA[0] * dead_time).max(IMC_LAMBDA[1] * time);
     let sum = 2.0 * time + dead_time;
-    IsaPid {
-        gain: sum / (model.gain().unwrap_or_default() * (2.0 * lambda + dead_time)),
+    Some(IsaPid {
+        gain: sum / (gain * (2.0 * lambda + dead_time)),
         integral_time: 0.5 * sum,
         derivative_time: time * dead_time / sum,
-    }
+    })
 }
 
 #[cfg(test)]
@@ -270,6 +284,19 @@ mod tests {
         assert_relative_eq!(settings.gain, 24.0 / (2.0 * (2.0 * 3.2 + 4.0)), max_relative = 1e-9);
         assert_relative_eq!(settings.integral_time, 12.0, max_relative = 1e-9);
         assert_relative_eq!(settings.derivative_time, 40.0 / 24.0, max_relative = 1e-9);
+    }
+
+    #[test]
+    fn integrating_elements_have_the_rules_for_integrators() {
+        // 0.2 e^(−3 s)/s: SIMC with τc = θ is 1/(k′ 2 θ) and 8 θ; 4θ and π/(2 k′ θ) are the ultimate point.
+        let element = TransferFunction::new(vec![0.2], vec![0.0, 1.0], 3.0).unwrap();
+        let settings = first(PairRule::Simc, element.clone()).unwrap();
+        assert_relative_eq!(settings.gain, 1.0 / (0.2 * 6.0), max_relative = 1e-12);
+        assert_relative_eq!(settings.integral_time, 24.0, max_relative = 1e-12);
+        let point = ultimate_point_of(&element).unwrap().unwrap();
+        assert_relative_eq!(point.gain, std::f64::consts::FRAC_PI_2 / 0.6, max_relative = 1e-9);
+        assert_relative_eq!(point.period, 12.0, max_relative = 1e-9);
+        assert_eq!(first(PairRule::Imc, element), Err(PairRuleError::Integrating { number: 1 }));
     }
 
     #[test]

@@ -58,7 +58,7 @@ proptest! {
             // Near the end of the searched frequencies, at gains that no loop has, the crossing back may lie beyond them.
             GainLimit::Oscillation(point) if point.frequency > 0.2 * high => return Ok(()),
             GainLimit::Oscillation(point) => point.gains,
-            GainLimit::RealPole { gains, .. } => gains,
+            GainLimit::RealPole { gains, .. } | GainLimit::AlgebraicLoop { gains, .. } => gains,
             GainLimit::None => return Ok(()),
         };
         prop_assert_eq!(stability(gains.map(|k| 0.98 * k)), LoopStability::Stable);

@@ -155,6 +155,14 @@ pub enum LoopStabilityReport {
         /// Its frequency (rad per unit of time); 0 for a pole at the origin.
         marginal_at: f64,
     },
+    /// The loop closes through direct feedthrough of the plant, and an eigenvalue of L(∞) is −1 or beyond: no signals fulfil its
+    /// equations, or any lag, however short, makes them grow.
+    AlgebraicLoop {
+        /// Whether the loop is stable: false.
+        stable: bool,
+        /// Real part of that eigenvalue (no unit).
+        eigenvalue_at_infinity: f64,
+    },
     /// Encirclements that are too many to count.
     NotComputed {
         /// Whether the loop is stable: null.
@@ -302,6 +310,9 @@ impl From<LoopStability> for LoopStabilityReport {
             LoopStability::Stable => Self::Stable { stable: true },
             LoopStability::Unstable { poles } => Self::Unstable { stable: false, right_half_plane_poles: poles },
             LoopStability::Marginal { frequency } => Self::Marginal { stable: false, marginal_at: frequency },
+            LoopStability::AlgebraicLoop { eigenvalue } => {
+                Self::AlgebraicLoop { stable: false, eigenvalue_at_infinity: eigenvalue }
+            }
             LoopStability::NotComputed { frequency } => Self::NotComputed {
                 stable: (),
                 not_computed: NOT_COMPUTED,

@@ -3,7 +3,7 @@
 mod design;
 mod test;
 
-use quadtank::linear::{LinearError, MatrixPolesAndZeros};
+use quadtank::linear::{LinearError, MatrixPolesAndZeros, TransferFunction};
 use quadtank::study::relay_tuning::{PlantStudy, SteadyState, Tuning, TuningSetup};
 use quadtank::tuning::{Corner, CurvePoint, GainLimit, TuningError};
 use serde::Serialize;
@@ -28,9 +28,17 @@ const TOO_MUCH_WORK: &str = "not computed to its end, because the plant is too q
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct TuningAnalysisReport {
-    /// G(0), by rows (outputs per input).
-    pub dc_gain: [[f64; 2]; 2],
-    /// λ11 of the relative gain array at steady state (no unit); an error where G(0) is singular.
+    /// G(0), by rows (outputs per input); null for an integrating element, whose gain is infinite.
+    pub dc_gain: [[Option<f64>; 2]; 2],
+    /// How often each element integrates, by rows (no unit).
+    pub integrators: [[u32; 2]; 2],
+    /// The limit of sⁿ g(s) for s → 0 of an element that integrates n times, by rows (outputs per input and unit of time to the power
+    /// n): the rate of its output for a constant input. g(0) for other elements.
+    pub rest_gain: [[f64; 2]; 2],
+    /// Direct feedthrough G(∞) without dead times, by rows (outputs per input); 0 for strictly proper elements.
+    pub feedthrough: [[f64; 2]; 2],
+    /// λ11 of the relative gain array at steady state (no unit), for integrating elements its limit for s → 0; an error where that is
+    /// not finite.
     pub rga_11: Answer<f64>,
     /// Niederlinski index of the diagonal pairing (no unit); null where it is not defined.
     pub niederlinski_diagonal: Option<f64>,
@@ -72,6 +80,11 @@ pub enum LimitReport {
     },
     /// A real pole at the origin: beyond it the loop drifts away without an oscillation.
     RealPole {
+        /// Gains k1, k2 of the loops (inputs per output).
+        gains: [f64; 2],
+    },
+    /// The loop closes through direct feedthrough of the plant: with these gains an eigenvalue of L(∞) is −1.
+    AlgebraicLoop {
         /// Gains k1, k2 of the loops (inputs per output).
         gains: [f64; 2],
     },
@@ -122,7 +135,10 @@ impl TuningAnalysisReport {
             study => Ok(study?.curve),
         };
         Ok(Self {
-            dc_gain: rows(&steady_state.dc_gain),
+            dc_gain: rows(&steady_state.dc_gain.map(|gain| Some(gain).filter(|gain: &f64| gain.is_finite()))),
+            integrators: matrix.0.each_ref().map(|row| row.each_ref().map(TransferFunction::integrators)),
+            rest_gain: matrix.0.each_ref().map(|row| row.each_ref().map(TransferFunction::rest_gain)),
+            feedthrough: rows(&matrix.feedthrough()),
             rga_11: Answer::of(&steady_state.rga_11, |gain| *gain),
             niederlinski_diagonal: steady_state.niederlinski_diagonal,
             poles: roots.as_ref().map(|roots| complex_numbers(&roots.poles)),
@@ -145,6 +161,7 @@ impl From<GainLimit> for LimitReport {
         match limit {
             GainLimit::Oscillation(point) => Self::Oscillation { gains: point.gains, period: point.period() },
             GainLimit::RealPole { gains, .. } => Self::RealPole { gains },
+            GainLimit::AlgebraicLoop { gains, .. } => Self::AlgebraicLoop { gains },
             GainLimit::None => Self::None,
         }
     }

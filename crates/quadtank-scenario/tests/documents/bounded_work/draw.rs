@@ -142,6 +142,7 @@ impl Draw {
             integral_time: (!self.one_in(4)).then(|| self.number(size)),
             derivative_time: if self.one_in(2) { 0.0 } else { self.number(size) },
             filter_time: self.one_in(2).then(|| self.number(size)),
+            ..GivenPid::default()
         }
     }
 

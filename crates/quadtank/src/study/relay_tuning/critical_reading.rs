@@ -38,7 +38,7 @@ impl CriticalReading {
         let critical = design.and_then(|design| design.critical);
         Ok(Self {
             importance,
-            limit: study.search.limit(importance_direction(&study.dc_gain, direction)),
+            limit: study.search.limit(importance_direction(&study.rest_gain, direction)),
             on_curve: critical.and_then(|critical| study.search.nearest(critical.gains)),
             margins: root.map(|root| study.margins(root)).transpose()?.flatten(),
             peaks: root.map(|root| study.peaks(root)).transpose()?,

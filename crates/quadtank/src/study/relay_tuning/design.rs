@@ -119,9 +119,9 @@ impl PlantStudy {
     fn critical(&self, spec: CriticalSpec) -> Option<CriticalResponse> {
         let (gains, frequency) = match spec {
             CriticalSpec::Point { gains, period } => (gains, TAU / period),
-            CriticalSpec::Importance(r) => match self.search.limit(importance_direction(&self.dc_gain, r)) {
+            CriticalSpec::Importance(r) => match self.search.limit(importance_direction(&self.rest_gain, r)) {
                 GainLimit::Oscillation(point) => (point.gains, point.frequency),
-                GainLimit::RealPole { .. } | GainLimit::None => return None,
+                GainLimit::RealPole { .. } | GainLimit::AlgebraicLoop { .. } | GainLimit::None => return None,
             },
         };
         let g = response_at(&self.plant, frequency);
@@ -135,14 +135,14 @@ impl PlantStudy {
         }
         let &CriticalResponse { frequency, g, .. } = critical;
         let target = Complex::new(spec.target[0], spec.target[1]);
-        let proposals = propose(&self.dc_gain, &g, frequency, spec.method, spec.action, target)?;
+        let proposals = propose(&self.rest_gain, &g, frequency, spec.method, spec.action, target)?;
         proposals.into_iter().map(|root| self.root(root.controllers, Pairing::Diagonal, root.warnings)).collect()
     }
 
     /// Given controllers.
     fn given(&self, controllers: [GivenPid; 2], pairing: Pairing) -> Result<DesignRoot, TuningError> {
         let controllers = controllers.map(ParallelPid::from);
-        let warnings = warnings_of_gains(&self.wired(pairing).dc_gain(), controllers);
+        let warnings = warnings_of_gains(&self.wired(pairing).rest_gain(), controllers);
         self.root(controllers, pairing, warnings)
     }
 

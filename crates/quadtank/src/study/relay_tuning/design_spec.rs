@@ -1,8 +1,10 @@
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use crate::control::{IsaPid, Pairing, ParallelPid};
+use crate::control::Pairing;
 use crate::tuning::{Action, PlacementMethod};
+
+use super::GivenPid;
 
 /// The critical point that a design starts from.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -36,50 +38,6 @@ pub enum DecouplerSpec {
     FirstOutput,
     /// Only the way from loop 1 to output 2.
     SecondOutput,
-}
-
-/// A PI or PID controller that is given, `K (1 + 1/(Ti s) + Td s)`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub struct GivenPid {
-    /// Gain K, of either sign; 0 leaves the loop open.
-    pub gain: f64,
-    /// Integral time Ti; absent without integral action.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub integral_time: Option<f64>,
-    /// Derivative time Td; 0 for PI.
-    #[serde(default)]
-    pub derivative_time: f64,
-    /// Time constant Tf of the derivative filter; a hundredth of the derivative time where it is absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub filter_time: Option<f64>,
-}
-
-impl GivenPid {
-    /// Time constant of the derivative filter in force; 0 without derivative action.
-    pub fn filter_in_force(self) -> f64 {
-        ParallelPid::from(self).filter_time()
-    }
-}
-
-impl From<GivenPid> for IsaPid {
-    fn from(GivenPid { gain, integral_time, derivative_time, .. }: GivenPid) -> Self {
-        Self { gain, integral_time: integral_time.unwrap_or(f64::INFINITY), derivative_time }
-    }
-}
-
-impl From<GivenPid> for ParallelPid {
-    fn from(pid: GivenPid) -> Self {
-        Self { filter: pid.filter_time, ..IsaPid::from(pid).into() }
-    }
-}
-
-impl From<IsaPid> for GivenPid {
-    fn from(IsaPid { gain, integral_time, derivative_time }: IsaPid) -> Self {
-        let integral_time = Some(integral_time).filter(|time| time.is_finite());
-        Self { gain, integral_time, derivative_time, filter_time: None }
-    }
 }
 
 /// The controllers of a session: by a placement of the critical point, or given.
@@ -288,7 +246,7 @@ mod tests {
     #[test]
     fn the_other_pairing_is_that_of_the_plant_with_its_inputs_exchanged() {
         let mut setup = TuningSetup::on(TuningPlant::Published(PublishedPlant::ProcessTwo));
-        let pid = |gain: f64| GivenPid { gain, integral_time: Some(1.0), derivative_time: 0.1, filter_time: None };
+        let pid = |gain: f64| GivenPid { gain, integral_time: Some(1.0), derivative_time: 0.1, ..GivenPid::default() };
         setup.design = DesignSpec { pairing: Pairing::Swapped, ..DesignSpec::given([pid(-0.2), pid(0.3)]) };
         let study = PlantStudy::of(&setup.plant).unwrap();
         let swapped = study.design(&setup).unwrap().unwrap();

@@ -5,8 +5,8 @@ use nalgebra::Matrix2;
 use crate::control::{ParallelPid, PidMatrix};
 use crate::linear::{Complex, LoopPeak, LoopStability, Margins, TransferFunction, TransferMatrix, locus_values};
 use crate::tuning::{
-    Design, LimitCycle, Oscillation, TuningError, complete_response, limit_cycles, modulus_estimator, response_at,
-    sine_test, with_integrator,
+    Design, LimitCycle, Oscillation, TuningError, complete_response, limit_cycles, modulus_estimator,
+    poles_off_the_origin, response_at, sine_test, with_integrator,
 };
 
 use super::{DesignRoot, PlantStudy, SeriesElement, TestSpec};
@@ -109,17 +109,19 @@ impl PlantStudy {
     }
 
     /// The exact limit cycle beside the reading of a single relay test, of the period nearest to it and with the amplitude of
-    /// its relay. `None` with a dead time, hysteresis or bias, for which the equations do not hold, and where there is none.
+    /// its relay. `None` with a dead time, direct feedthrough, hysteresis or bias, for which the equations do not hold, and where there
+    /// is none.
     ///
     /// # Errors
     /// As [`limit_cycles`].
     pub fn exact_limit_cycle(&self, spec: &TestSpec, period: f64) -> Result<Option<LimitCycle>, TuningError> {
         let index = spec.number.clamp(1, 2) - 1;
         let element = excited(&self.plant, spec)?;
-        if element.dead_time() != 0.0 || spec.hysteresis[index] != 0.0 || spec.bias[index] != 0.0 {
+        let has_equations = element.dead_time() == 0.0 && element.feedthrough() == 0.0;
+        if !has_equations || spec.hysteresis[index] != 0.0 || spec.bias[index] != 0.0 {
             return Ok(None);
         }
-        let sign = self.plant.0[index][index].dc_gain().signum();
+        let sign = self.plant.0[index][index].rest_gain().signum();
         let sign = if matches!(spec.behind, SeriesElement::Modulus(_)) { 1.0 } else { sign };
         let half = period / 2.0;
         let cycles = limit_cycles(&element.scaled(sign), SOUGHT.0 * half, SOUGHT.1 * half)?;
@@ -143,11 +145,12 @@ pub(super) fn excited(plant: &TransferMatrix, spec: &TestSpec) -> Result<Transfe
     }
 }
 
-/// Distance of the slowest pole from the imaginary axis (rad per unit of time); infinite for a plant of gains alone.
+/// Distance of the slowest pole that decays from the imaginary axis (rad per unit of time); infinite for a plant of gains and
+/// integrators alone. An integrator keeps a constant of its transient, which a sine test does not see.
 fn slowest_rate(plant: &TransferMatrix) -> Result<f64, TuningError> {
     let mut slowest = f64::INFINITY;
     for element in plant.0.as_flattened() {
-        slowest = element.poles()?.iter().map(|pole| pole.re.abs()).fold(slowest, f64::min);
+        slowest = poles_off_the_origin(element)?.iter().map(|pole| pole.re.abs()).fold(slowest, f64::min);
     }
     Ok(slowest)
 }

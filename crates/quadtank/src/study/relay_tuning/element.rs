@@ -1,6 +1,7 @@
 use thiserror::Error;
 
 use crate::linear::{LinearError, TransferFunction};
+use crate::tuning::poles_off_the_origin;
 use serde::{Deserialize, Serialize};
 
 /// An element `b(s)/a(s) e^(−θ s)` of a plant of one's own.
@@ -17,31 +18,26 @@ pub struct Element {
     pub dead_time: f64,
 }
 
-/// Why relay tests and placements do not work with an element: all of them need stable elements that are strictly proper.
+/// Why the bench cannot work with an element: it takes proper elements whose poles are in the left half-plane or at the origin.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum ElementFault {
     /// All coefficients of the denominator are zero.
     #[error("the denominator is zero")]
     NoDenominator,
-    /// As many zeros as poles: the output would jump with the relay.
-    #[error("a biproper element (degree {degree} over {degree}) is not supported, only strictly proper ones")]
-    Biproper {
-        /// Degree of both polynomials.
-        degree: usize,
-    },
     /// More zeros than poles.
-    #[error("an improper element (degree {numerator} over {denominator}) is not supported, only strictly proper ones")]
+    #[error(
+        "an improper element (degree {numerator} over {denominator}) is not supported: it would answer a step with an impulse"
+    )]
     Improper {
         /// Degree of the numerator.
         numerator: usize,
         /// Degree of the denominator.
         denominator: usize,
     },
-    /// A pole at the origin.
-    #[error("an integrating element (a pole at 0) is not supported, only stable ones")]
-    Integrating,
-    /// A pole that is not in the left half-plane.
-    #[error("an unstable element (a pole with the real part {real_part}) is not supported, only stable ones")]
+    /// A pole that is neither in the left half-plane nor at the origin.
+    #[error(
+        "an unstable element (a pole with the real part {real_part}) is not supported, only stable and integrating ones"
+    )]
     Unstable {
         /// Real part of the right-most pole.
         real_part: f64,
@@ -65,21 +61,17 @@ impl Element {
     }
 
     /// What is wrong with an element whose numbers are all finite. One whose numerator is zero passes nothing, whatever its
-    /// degrees are, but needs stable poles as any other.
+    /// degrees are, but its poles count as any other.
     pub fn fault(&self) -> Option<ElementFault> {
         let Some(denominator) = degree(&self.denominator) else { return Some(ElementFault::NoDenominator) };
         match degree(&self.numerator) {
             Some(numerator) if numerator > denominator => {
                 return Some(ElementFault::Improper { numerator, denominator });
             }
-            Some(degree) if degree == denominator => return Some(ElementFault::Biproper { degree }),
             _ => {}
         }
-        if self.denominator.first() == Some(&0.0) {
-            return Some(ElementFault::Integrating);
-        }
         // Poles that no iteration finds are an error where the plant is studied.
-        let rightmost = self.transfer_function().and_then(|element| element.poles()).ok()?.last()?.re;
+        let rightmost = self.transfer_function().and_then(|element| poles_off_the_origin(&element)).ok()?.last()?.re;
         (rightmost >= 0.0).then_some(ElementFault::Unstable { real_part: rightmost })
     }
 }
@@ -98,18 +90,25 @@ mod tests {
         let fault = |numerator: &[f64], denominator: &[f64]| {
             Element { numerator: numerator.to_vec(), denominator: denominator.to_vec(), dead_time: 0.0 }.fault()
         };
-        assert_eq!(fault(&[1.0, 1.0], &[5.0, 1.0]), Some(ElementFault::Biproper { degree: 1 }));
-        assert_eq!(fault(&[1.0], &[1.0]), Some(ElementFault::Biproper { degree: 0 }));
-        assert_eq!(fault(&[1.0, 0.0], &[2.0, 0.0, 0.0]), Some(ElementFault::Biproper { degree: 0 }));
         let improper = ElementFault::Improper { numerator: 2, denominator: 1 };
         assert_eq!(fault(&[1.0, 0.0, 3.0], &[5.0, 1.0]), Some(improper));
-        assert_eq!(fault(&[1.0], &[0.0, 1.0, 1.0]), Some(ElementFault::Integrating));
         assert_eq!(fault(&[1.0], &[0.0, 0.0]), Some(ElementFault::NoDenominator));
         assert_eq!(fault(&[1.0], &[]), Some(ElementFault::NoDenominator));
         assert_eq!(fault(&[1.0], &[-0.5, 1.0]), Some(ElementFault::Unstable { real_part: 0.5 }));
         // An oscillator: the imaginary axis is not stable either.
         assert!(matches!(fault(&[1.0], &[4.0, 0.0, 1.0]), Some(ElementFault::Unstable { .. })));
-        for (numerator, denominator) in [(&[1.0][..], &[1.0, 2.0][..]), (&[0.0, 0.0], &[1.0]), (&[], &[1.0, 1.0])] {
+        assert_eq!(fault(&[1.0], &[0.0, -2.0, 1.0]), Some(ElementFault::Unstable { real_part: 2.0 }));
+        let supported: [(&[f64], &[f64]); 7] = [
+            (&[1.0], &[1.0, 2.0]),
+            (&[0.0, 0.0], &[1.0]),
+            (&[], &[1.0, 1.0]),
+            // Biproper and integrating ones.
+            (&[1.0, 1.0], &[5.0, 1.0]),
+            (&[1.0, 0.0], &[2.0, 0.0, 0.0]),
+            (&[1.0], &[0.0, 1.0, 1.0]),
+            (&[1.0], &[0.0, 0.0, 3.0]),
+        ];
+        for (numerator, denominator) in supported {
             assert_eq!(fault(numerator, denominator), None, "{numerator:?} / {denominator:?}");
         }
     }

@@ -5,7 +5,7 @@ use crate::linear::{Complex, LoopStability};
 use crate::tuning::{Action, Design, RelayVerdict, TuningRule, propose};
 
 use super::start::DEAD_TIME_S;
-use super::{Designed, PlantStudy, Tested, TuningPlant, TuningSetup, rule_targets};
+use super::{Designed, PlantStudy, SeriesElement, Tested, TuningPlant, TuningSetup, rule_targets};
 
 /// Half widths of hysteresis that may end chattering, as shares of what the relay moves its output by at rest; the least that does
 /// is taken, because hysteresis moves the point that the test finds.
@@ -66,12 +66,24 @@ impl PlantStudy {
     /// both loops then swing with one period is another question.
     pub fn mend_chattering(&self, setup: &TuningSetup) -> Option<Mend> {
         HYSTERESES.into_iter().find_map(|share| {
-            let half_width = |k: usize| share * setup.test.amplitudes[k] * self.dc_gain[(k, k)].abs();
+            // Direct feedthrough moves the output by its part at once, which hysteresis has to exceed.
+            let half_width = |k: usize| {
+                let [at_rest, at_once] = [self.rest_gain, self.plant.instant_gain()].map(|gain| gain[(k, k)].abs());
+                setup.test.amplitudes[k] * (at_once + share * (at_rest - at_once).max(0.0))
+            };
             let mend = Mend::Hysteresis([half_width(0), half_width(1)]);
             let mut mended = setup.clone();
             mend.apply(&mut mended);
             self.test(&mended).is_ok_and(|tested| !tested.chatters()).then_some(mend)
         })
+    }
+
+    /// By how much the output of a chattering relay jumps with it, through the direct feedthrough of its own element; `None` for another
+    /// verdict, and where nothing is passed straight on.
+    pub fn jump_with_relay(&self, setup: &TuningSetup, verdict: RelayVerdict) -> Option<f64> {
+        let RelayVerdict::Chattering { relay } = verdict else { return None };
+        let jump = 2.0 * setup.test.amplitudes[relay] * self.plant.instant_gain()[(relay, relay)].abs();
+        (jump != 0.0 && setup.test.behind == SeriesElement::Nothing).then_some(jump)
     }
 
     /// The rule whose target makes the chosen root of a placement stable, where it is not.
@@ -83,7 +95,7 @@ impl PlantStudy {
         let (root, critical) = (designed.chosen, designed.critical?);
         let is_pi = |rule: TuningRule| matches!(rule, TuningRule::ZieglerNicholsPi | TuningRule::TyreusLuybenPi);
         let is_stable = |target: Complex| {
-            let found = propose(&self.dc_gain, &critical.g, critical.frequency, spec.method, spec.action, target);
+            let found = propose(&self.rest_gain, &critical.g, critical.frequency, spec.method, spec.action, target);
             let controllers = found.ok().map(|roots| roots[root].controllers);
             let design = controllers.and_then(|of| Design::new(&self.plant, PidMatrix::decentralised(of)).ok());
             design.is_some_and(|design| design.stability() == LoopStability::Stable)

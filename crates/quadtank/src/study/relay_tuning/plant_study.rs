@@ -20,9 +20,9 @@ const DIRECTIONS: usize = 200;
 pub struct PlantStudy {
     /// The plant as transfer functions.
     pub plant: TransferMatrix,
-    /// G(0).
-    pub dc_gain: Matrix2<f64>,
-    /// λ11 of the relative gain array; `None` where G(0) is singular.
+    /// Gains at rest, which give signs and units: G(0), or rates where elements integrate, see [`TransferMatrix::rest_gain`].
+    pub rest_gain: Matrix2<f64>,
+    /// λ11 of the relative gain array at rest; `None` where the gains at rest are singular.
     pub rga_11: Option<f64>,
     /// The boundary of the stable gains.
     pub curve: CriticalCurve,
@@ -85,20 +85,20 @@ impl PlantStudy {
     pub fn of(plant: &TuningPlant) -> Result<Self, TuningError> {
         let plant = plant.transfer_matrix()?;
         check_stable(&plant)?;
-        let SteadyState { dc_gain, rga_11, .. } = SteadyState::of(&plant);
-        // Importance, signs and normalised gains all rest on the diagonal of G(0).
-        if dc_gain.diagonal().iter().any(|&g| g == 0.0 || !g.is_finite()) {
+        let SteadyState { rest_gain, rga_11, .. } = SteadyState::of(&plant);
+        // Importance, signs and normalised gains all rest on the diagonal of the gains at rest.
+        if rest_gain.diagonal().iter().any(|&g| g == 0.0 || !g.is_finite()) {
             return Err(LinearError::SingularGain { reciprocal_condition: 0.0 }.into());
         }
         let (low, high) = frequency_range(&plant)?;
         let search = CriticalSearch::new(&plant, low, high);
         let curve = CriticalCurve::of(&plant, &search, DIRECTIONS);
-        Ok(Self { plant, dc_gain, rga_11: rga_11.ok(), curve, search })
+        Ok(Self { plant, rest_gain, rga_11: rga_11.ok(), curve, search })
     }
 
     /// Gains on the axes of the normalised critical curve, k1 g11(0) and k2 g22(0) (Campestrini 2006, Fig. 25).
     pub fn normalised(&self, gains: [f64; 2]) -> (f64, f64) {
-        (gains[0] * self.dc_gain[(0, 0)], gains[1] * self.dc_gain[(1, 1)])
+        (gains[0] * self.rest_gain[(0, 0)], gains[1] * self.rest_gain[(1, 1)])
     }
 
     /// The relay test of a session.
@@ -117,7 +117,7 @@ impl PlantStudy {
 fn test(plant: &TransferMatrix, search: &CriticalSearch, setup: &TuningSetup) -> Result<Tested, TuningError> {
     let spec = &setup.test;
     let time = TestTime { duration: spec.duration, release: spec.release, step: spec.step };
-    let gain = plant.dc_gain();
+    let gain = plant.rest_gain();
     let relays = [0, 1].map(|i| relay(spec, i, gain[(i, i)]));
     match spec.kind {
         TestKind::Single => single(plant, spec, time),
@@ -151,7 +151,7 @@ fn single(plant: &TransferMatrix, spec: &TestSpec, time: TestTime) -> Result<Tes
     let index = spec.number - 1;
     let element = &plant.0[index][index];
     let with = excited(plant, spec)?;
-    let gain = if matches!(spec.behind, SeriesElement::Modulus(_)) { 1.0 } else { element.dc_gain() };
+    let gain = if matches!(spec.behind, SeriesElement::Modulus(_)) { 1.0 } else { element.rest_gain() };
     let test = single_loop_test(&with, relay(spec, index, gain), time)?;
     let found = test.reading.oscillation.and_then(|oscillation| {
         let frequency = oscillation.frequency();
@@ -162,7 +162,7 @@ fn single(plant: &TransferMatrix, spec: &TestSpec, time: TestTime) -> Result<Tes
             SeriesElement::Modulus(r) => r,
         };
         let response = element.at(Complex::new(0.0, frequency));
-        let phase = (response * element.dc_gain().signum()).arg();
+        let phase = (response * element.rest_gain().signum()).arg();
         Some(FoundPoint { frequency, modulus, response, phase })
     });
     Ok(Tested::Single(Box::new(test), found))

@@ -72,7 +72,7 @@ fn computed(case: PublishedCase, study: &PlantStudy) -> Result<Vec<f64>, TuningE
 fn point_on_curve(case: PublishedCase, study: &PlantStudy) -> Option<[f64; 4]> {
     let PublishedPlacement { critical_gains: gains, .. } = case.placement();
     let point = study.search.nearest(gains)?;
-    Some([importance(&study.dc_gain, gains), point.gains[0], point.gains[1], point.period()])
+    Some([importance(&study.rest_gain, gains), point.gains[0], point.gains[1], point.period()])
 }
 
 /// Kc and Tc of a locus of G alone, and PI settings by 0.45 Kc and 0.8 Tc (Campestrini 2006, Table 3): of locus 1 the crossing

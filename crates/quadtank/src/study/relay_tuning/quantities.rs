@@ -25,6 +25,11 @@ fn study(results: &Results) -> Option<&PlantStudy> {
     results.study.as_ref().as_ref().ok()
 }
 
+/// A gain at rest; `None` for an integrating element, whose gain is infinite.
+fn gain(results: &Results, at: (usize, usize)) -> Option<f64> {
+    Some(steady(results)?.dc_gain[at]).filter(|gain| gain.is_finite())
+}
+
 fn steady(results: &Results) -> Option<SteadyState> {
     Some(SteadyState::of(&study(results)?.plant))
 }
@@ -143,7 +148,9 @@ fn unstable_poles(results: &Results) -> Option<f64> {
     match root(results)?.stability {
         LoopStability::Unstable { poles } => Some(f64::from(poles)),
         LoopStability::Stable => Some(0.0),
-        LoopStability::Marginal { .. } | LoopStability::NotComputed { .. } => None,
+        LoopStability::Marginal { .. } | LoopStability::NotComputed { .. } | LoopStability::AlgebraicLoop { .. } => {
+            None
+        }
     }
 }
 
@@ -155,7 +162,7 @@ fn reading(results: &Results) -> Option<CriticalReading> {
 fn limit(results: &Results) -> Option<CriticalPoint> {
     match reading(results)?.limit {
         GainLimit::Oscillation(point) => Some(point),
-        GainLimit::RealPole { .. } | GainLimit::None => None,
+        GainLimit::RealPole { .. } | GainLimit::AlgebraicLoop { .. } | GainLimit::None => None,
     }
 }
 
@@ -195,10 +202,10 @@ fn compared_output(results: &Results, index: usize) -> Option<StepMetrics> {
 /// The numbers of the relay-tuning bench.
 #[rustfmt::skip]
 pub const QUANTITIES: &[Quantity<Results>] = &[
-    q("gain.g11", "output/input", "Steady-state gain g11(0).", |r| Some(study(r)?.dc_gain[(0, 0)])),
-    q("gain.g12", "output/input", "Steady-state gain g12(0).", |r| Some(study(r)?.dc_gain[(0, 1)])),
-    q("gain.g21", "output/input", "Steady-state gain g21(0).", |r| Some(study(r)?.dc_gain[(1, 0)])),
-    q("gain.g22", "output/input", "Steady-state gain g22(0).", |r| Some(study(r)?.dc_gain[(1, 1)])),
+    q("gain.g11", "output/input", "Steady-state gain g11(0).", |r| gain(r, (0, 0))),
+    q("gain.g12", "output/input", "Steady-state gain g12(0).", |r| gain(r, (0, 1))),
+    q("gain.g21", "output/input", "Steady-state gain g21(0).", |r| gain(r, (1, 0))),
+    q("gain.g22", "output/input", "Steady-state gain g22(0).", |r| gain(r, (1, 1))),
     q("rga.lambda11", "1", "Relative gain λ11 at steady state; none where G(0) is singular.", |r| study(r)?.rga_11),
     q("niederlinski", "1", "Niederlinski index of the diagonal pairing; negative means unstable with integral action.", |r| steady(r)?.niederlinski_diagonal),
     q("relay.drive1", "input", "Amplitude d of relay 1.", |r| Some(r.setup.test.amplitudes[0])),

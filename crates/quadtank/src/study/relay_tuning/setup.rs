@@ -144,7 +144,7 @@ impl TuningSetup {
     pub fn importance(&self) -> Result<f64, TuningError> {
         match self.design.critical {
             CriticalSpec::Importance(r) => Ok(r),
-            CriticalSpec::Point { gains, .. } => Ok(importance(&self.plant.transfer_matrix()?.dc_gain(), gains)),
+            CriticalSpec::Point { gains, .. } => Ok(importance(&self.plant.transfer_matrix()?.rest_gain(), gains)),
         }
     }
 }

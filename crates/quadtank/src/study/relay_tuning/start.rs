@@ -67,7 +67,7 @@ impl TuningSetup {
     }
 
     fn paced(plant: TuningPlant) -> Self {
-        let limit = PlantStudy::of(&plant).map(|study| study.search.limit(importance_direction(&study.dc_gain, 1.0)));
+        let limit = PlantStudy::of(&plant).map(|study| study.search.limit(importance_direction(&study.rest_gain, 1.0)));
         let period = match limit {
             Ok(GainLimit::Oscillation(point)) => TAU / point.frequency,
             _ => period_without_oscillation(&plant),
@@ -131,7 +131,7 @@ impl TuningSetup {
             let GivenPid { gain, integral_time, derivative_time, .. } =
                 isa.map_or_else(GivenPid::default, GivenPid::from);
             let integral_time = integral_time.filter(|&time| time > 0.0);
-            GivenPid { gain, integral_time, derivative_time: derivative_time.max(0.0), filter_time: None }
+            GivenPid { gain, integral_time, derivative_time: derivative_time.max(0.0), ..GivenPid::default() }
         };
         self.design.controllers = Some(placed.unwrap_or_default().map(given));
     }
