@@ -20,7 +20,7 @@ pub struct Term {
 }
 
 /// All words, in the order of the benches.
-pub const TERMS: [Term; 66] = [
+pub const TERMS: [Term; 70] = [
     Term { key: "gamma", text: terms::gamma, lesson: 1 },
     Term { key: "minimum_phase", text: terms::minimum_phase, lesson: 1 },
     Term { key: "zero", text: terms::zero, lesson: 1 },
@@ -34,6 +34,10 @@ pub const TERMS: [Term; 66] = [
     Term { key: "gain", text: terms::gain, lesson: 4 },
     Term { key: "integral_time", text: terms::integral_time, lesson: 4 },
     Term { key: "peak", text: terms::peak, lesson: 4 },
+    Term { key: "singular_value", text: terms::singular_value, lesson: 5 },
+    Term { key: "sensitivity", text: terms::sensitivity, lesson: 4 },
+    Term { key: "complementary", text: terms::complementary, lesson: 4 },
+    Term { key: "bandwidth", text: terms::bandwidth, lesson: 4 },
     Term { key: "windup", text: terms::windup, lesson: 7 },
     Term { key: "weight", text: terms::weight, lesson: 7 },
     Term { key: "reference", text: terms::reference, lesson: 4 },

@@ -37,7 +37,7 @@ pub use select::{Choice, Select};
 pub use table::{
     Caption, Cells, Figure, FigureCells, Figures, Folded, Headings, ReasonedRow, Row, TableContent, is_open,
 };
-pub use terms::Text;
+pub use terms::{Terms, Text};
 pub use tick::Tick;
 pub use time_bar::{Playback, TimeBar, prefers_less_motion, shown_times};
 pub use time_surface::{TimeAxis, TimeSurface, ZoomButtons};

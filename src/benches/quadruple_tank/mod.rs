@@ -5,6 +5,7 @@ mod experiment;
 mod explore;
 mod fit_view;
 mod flags;
+mod frequency;
 mod marks;
 mod metrics;
 mod moment;

@@ -3,6 +3,7 @@
 use leptos::prelude::*;
 
 use super::flags::{locks, panels};
+use super::frequency::FrequencyFold;
 use super::metrics::{MetricsTable, why};
 use super::moment::{RigState, use_moment};
 use super::pictures;
@@ -79,6 +80,7 @@ pub fn ResponsesCard() -> impl IntoView {
                     <summary>{say!(lab, responses.figures)}</summary>
                     <MetricsTable />
                 </details>
+                <FrequencyFold />
                 <DataTable picture=for_table id="data-table" />
                 {(!lab.flags.with_value(|flags| flags.embed)).then(|| view! { <RecordFold /> })}
             </div>

@@ -39,6 +39,7 @@ pub use margins::Margins;
 pub use matrix_zeros::MatrixPolesAndZeros;
 pub use peaks::{LoopPeak, biggest_log_modulus, largest_sensitivity};
 pub use return_ratio::ReturnRatio;
+pub use sensitivity::LoopGains;
 pub use single_loop::SingleLoop;
 pub use spectrum::{eigenvalues, singular_values};
 pub use stability::{Stability, UNIT_CIRCLE_TOLERANCE, s_from_z};

@@ -2,6 +2,7 @@
 
 mod analysis;
 mod first_steps;
+mod frequency_curves;
 mod guaranteed_margins;
 mod identification;
 mod prepared;
@@ -15,6 +16,7 @@ mod zero_situation;
 
 pub use analysis::{Analysis, analyse};
 pub use first_steps::{Direction, calmed, direction_steps, first_experiment, fitted_duration_s, held_operating_point};
+pub use frequency_curves::{ClosedCurves, FrequencyCurves};
 pub use guaranteed_margins::GuaranteedMargins;
 pub use prepared::Prepared;
 pub use published::setup_of;
