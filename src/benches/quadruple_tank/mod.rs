@@ -7,6 +7,7 @@ mod fit_view;
 mod flags;
 mod frequency;
 mod marks;
+mod mends;
 mod metrics;
 mod moment;
 mod pictures;

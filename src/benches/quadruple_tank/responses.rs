@@ -4,6 +4,7 @@ use leptos::prelude::*;
 
 use super::flags::{locks, panels};
 use super::frequency::FrequencyFold;
+use super::mends::{self, MendButton};
 use super::metrics::{MetricsTable, why};
 use super::moment::{RigState, use_moment};
 use super::pictures;
@@ -74,7 +75,10 @@ pub fn ResponsesCard() -> impl IntoView {
                     <SetPoints frames held />
                 </div>
             </div>
-            <Sentence id="responses-sentence" text=sentence status=true />
+            <div class="mended">
+                <Sentence id="responses-sentence" text=sentence status=true />
+                <MendButton id="mend-run" offer=mends::of_run />
+            </div>
             <div class="folded">
                 <details class="more" data-testid="metrics-fold">
                     <summary>{say!(lab, responses.figures)}</summary>
