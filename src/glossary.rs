@@ -113,8 +113,8 @@ impl Term {
             "pole" => "5-poles-and-steady-state-gain",
             "minimum_phase" | "zero" | "right_half_plane" | "direction" => "6-zeros-and-directions",
             "relative_gain" | "pairing" | "niederlinski" => "7-interaction-and-pairing",
-            "closed_loop" | "gain" | "integral_time" | "windup" | "weight" => "8-the-controller",
-            "peak" | "singular_value" | "sensitivity" | "complementary" | "bandwidth" => "8-the-controller",
+            "closed_loop" | "gain" | "integral_time" | "windup" | "weight" | "peak" | "singular_value"
+            | "sensitivity" | "complementary" | "bandwidth" => "8-the-controller",
             "reference" | "noise" => "9-the-run",
             "rise" | "overshoot" | "costs" => "10-metrics",
             "local_model" | "estimate" | "alpha" | "lost" => "14-model-free-control",

@@ -61,10 +61,11 @@ pub struct FrequencyTexts<'a> {
 pub fn over_frequency<'a>(spec: &FrequencyCharts<'a>) -> Vec<Chart<'a>> {
     let mut charts: Vec<Chart> =
         [Some(plant(spec)), spec.closed.map(|closed| loop_gains(spec, &closed))].into_iter().flatten().collect();
-    let last = charts.len() - 1;
-    for (index, chart) in charts.iter_mut().enumerate() {
-        chart.x.numbered = index == last;
-        chart.x.label = if index == last { spec.texts.frequency } else { "" }.to_owned();
+    if let Some((last, others)) = charts.split_last_mut() {
+        last.x.label.push_str(spec.texts.frequency);
+        for chart in others {
+            chart.x.numbered = false;
+        }
     }
     charts
 }

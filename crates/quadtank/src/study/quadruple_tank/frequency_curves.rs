@@ -1,5 +1,5 @@
 use crate::control::PiLoop;
-use crate::linear::{LoopGains, LoopPeak};
+use crate::linear::{Complex, LoopGains, LoopPeak};
 
 use super::{Analysis, Prepared, Setup, ZeroSituation};
 use crate::study::StudyError;
@@ -103,7 +103,7 @@ fn frequencies(
     let nyquist = std::f64::consts::PI / setup.controller.sampling_time_s;
     let zeros = analysis.linear.zeros.iter().flatten().map(|zero| zero.value);
     let poles = analysis.linear.poles.iter().chain(&analysis.closed_loop.poles_s).copied();
-    let rates = zeros.chain(poles).map(|s| s.norm()).filter(|&rate| rate > 0.0 && rate.is_finite());
+    let rates = zeros.chain(poles).map(Complex::norm).filter(|&rate| rate > 0.0 && rate.is_finite());
     let (slowest, fastest) = rates
         .map(|rate| rate.min(nyquist))
         .fold((nyquist, 0.0), |(low, high): (f64, f64), rate| (low.min(rate), high.max(rate)));
