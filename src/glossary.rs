@@ -7,7 +7,7 @@ use quadtank_lesson::LESSON_IDS;
 use super::lab::{Lab, use_lab};
 use super::lessons::LessonLink;
 use super::texts::{Language, say, terms, tr};
-use super::widgets::{Text, marked, unmarked};
+use super::widgets::{ReadOn, Text, marked, unmarked};
 
 /// A word of the glossary.
 pub struct Term {
@@ -20,7 +20,7 @@ pub struct Term {
 }
 
 /// All words, in the order of the benches.
-pub const TERMS: [Term; 66] = [
+pub const TERMS: [Term; 70] = [
     Term { key: "gamma", text: terms::gamma, lesson: 1 },
     Term { key: "minimum_phase", text: terms::minimum_phase, lesson: 1 },
     Term { key: "zero", text: terms::zero, lesson: 1 },
@@ -34,6 +34,10 @@ pub const TERMS: [Term; 66] = [
     Term { key: "gain", text: terms::gain, lesson: 4 },
     Term { key: "integral_time", text: terms::integral_time, lesson: 4 },
     Term { key: "peak", text: terms::peak, lesson: 4 },
+    Term { key: "singular_value", text: terms::singular_value, lesson: 5 },
+    Term { key: "sensitivity", text: terms::sensitivity, lesson: 4 },
+    Term { key: "complementary", text: terms::complementary, lesson: 4 },
+    Term { key: "bandwidth", text: terms::bandwidth, lesson: 4 },
     Term { key: "windup", text: terms::windup, lesson: 7 },
     Term { key: "weight", text: terms::weight, lesson: 7 },
     Term { key: "reference", text: terms::reference, lesson: 4 },
@@ -99,6 +103,25 @@ impl Term {
     fn lesson_id(&self) -> &'static str {
         LESSON_IDS[self.lesson - 1]
     }
+
+    /// Its section in the document about the model.
+    fn section(&self) -> &'static str {
+        match self.key {
+            "gamma" => "2-symbols-and-constants",
+            "load" => "3-the-plant",
+            "linear" => "4-the-linear-model",
+            "pole" => "5-poles-and-steady-state-gain",
+            "minimum_phase" | "zero" | "right_half_plane" | "direction" => "6-zeros-and-directions",
+            "relative_gain" | "pairing" | "niederlinski" => "7-interaction-and-pairing",
+            "closed_loop" | "gain" | "integral_time" | "windup" | "weight" | "peak" | "singular_value"
+            | "sensitivity" | "complementary" | "bandwidth" => "8-the-controller",
+            "reference" | "noise" => "9-the-run",
+            "rise" | "overshoot" | "costs" => "10-metrics",
+            "local_model" | "estimate" | "alpha" | "lost" => "14-model-free-control",
+            _ if matches!(self.lesson, 4..=5 | 8..=9) => "13-relay-tuning",
+            _ => "15-the-level-loop",
+        }
+    }
 }
 
 /// The link from a word to its lesson.
@@ -133,7 +156,8 @@ pub fn TermLink(
             view! {
                 <span class="term-note" role="note">
                     {move || marked(&(term.text)(lab.language.get()))} " "
-                    {lesson_link(lab, term)}
+                    {lesson_link(lab, term)} " "
+                    <ReadOn section=term.section() />
                 </span>
             }
         })
@@ -167,7 +191,8 @@ pub fn Glossary() -> impl IntoView {
         view! {
             <li id=format!("term-{}", term.key)>
                 <p>{marked(&(term.text)(lab.language.get()))}</p>
-                {lesson_link(lab, term)}
+                {lesson_link(lab, term)} " "
+                <ReadOn section=term.section() />
             </li>
         }
     };
@@ -208,6 +233,23 @@ mod tests {
         for (term, language) in TERMS.iter().flat_map(|term| Language::ALL.map(|language| (term, language))) {
             assert!((term.text)(language).contains("**"), "{} in {}", term.key, language.tag());
             assert!(!term.lesson_id().is_empty());
+        }
+    }
+
+    #[test]
+    fn every_word_has_its_section_in_the_document_about_the_model() {
+        let document = include_str!("../docs/model.md");
+        let anchors: Vec<String> = document
+            .lines()
+            .filter_map(|line| line.strip_prefix("## "))
+            .map(|heading| heading.to_lowercase().replace('.', "").replace(' ', "-"))
+            .collect();
+        for term in &TERMS {
+            assert!(anchors.iter().any(|anchor| anchor == term.section()), "{} {}", term.key, term.section());
+        }
+        let section = |key: &str| TERMS.iter().find(|term| term.key == key).map(Term::section);
+        for (key, of) in [("locus", "13-relay-tuning"), ("margins", "13-relay-tuning"), ("simc", "15-the-level-loop")] {
+            assert_eq!(section(key), Some(of));
         }
     }
 

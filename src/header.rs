@@ -20,7 +20,7 @@ use super::share;
 use super::storage::{DEPTH, LANGUAGE, THEME};
 use super::tables::CsvStyleChoice;
 use super::texts::{Language, say, tr};
-use super::widgets::Segmented;
+use super::widgets::{MODEL, Segmented};
 
 /// A link to a page beside the benches.
 #[component]
@@ -118,6 +118,10 @@ pub fn Header() -> impl IntoView {
                         <SideLink page=SidePage::Glossary name=say!(lab, lesson.glossary) />
                         <SideLink page=SidePage::Teachers name=say!(lab, lesson.teachers) />
                     </p>
+                    // The single file has no page beside it.
+                    {(!is_single_file()).then(|| view! {
+                        <p><a href=MODEL target="_blank" rel="noopener" data-testid="to-model">{say!(lab, app.model)}</a></p>
+                    })}
                     <p>{say!(lab, app.footer)}</p>
                     <p hidden=move || !lab.offline.get() data-testid="offline">{say!(lab, app.offline)}</p>
                     <p>{say!(lab, app.keys)}</p>

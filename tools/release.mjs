@@ -1,7 +1,8 @@
-// The step between Trunk and a static host: the page gets its content security policy and must not break it.
+// The step between Trunk and a static host: the page gets its content security policy and must not break it, and the model its own page.
 import { createHash } from 'node:crypto';
 import { readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { SITE_POLICY, fail, inlineParts, withPolicy } from './html.mjs';
+import { modelPage } from './model-page.mjs';
 
 const PAGE = 'dist/index.html';
 
@@ -9,6 +10,10 @@ const html = readFileSync(PAGE, 'utf8');
 const inline = inlineParts(html);
 if (inline.length > 0) fail(`${PAGE} has inline parts that its policy refuses: ${inline.join(' ')}`);
 writeFileSync(PAGE, withPolicy(html, SITE_POLICY));
+
+// Of the styles of the laboratory the first has its colours and parts; what is for documents alone stands beside it.
+const sheet = html.match(/<link\b[^>]*\brel="stylesheet"[^>]*\bhref="(?:\.\/)?(main[^"]*)"/)?.[1] ?? fail(`${PAGE} has no style sheet`);
+writeFileSync('dist/model.html', modelPage(readFileSync('docs/model.md', 'utf8'), [sheet, 'paper.css']));
 
 // The service worker learns what the site has; the edition is named after all of it.
 const OFFLINE = 'dist/offline.js';

@@ -11,6 +11,7 @@ mod marked;
 mod pins;
 mod point;
 mod point_button;
+mod read_on;
 mod readout;
 mod segmented;
 mod select;
@@ -31,13 +32,14 @@ pub use marked::{marked, unmarked};
 pub use pins::Pins;
 pub use point::{PointHandle, first_frame};
 pub use point_button::PointButton;
+pub use read_on::{MODEL, ReadOn};
 pub use readout::Readout;
 pub use segmented::Segmented;
 pub use select::{Choice, Select};
 pub use table::{
     Caption, Cells, Figure, FigureCells, Figures, Folded, Headings, ReasonedRow, Row, TableContent, is_open,
 };
-pub use terms::Text;
+pub use terms::{Terms, Text};
 pub use tick::Tick;
 pub use time_bar::{Playback, TimeBar, prefers_less_motion, shown_times};
 pub use time_surface::{TimeAxis, TimeSurface, ZoomButtons};

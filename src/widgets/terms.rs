@@ -2,6 +2,7 @@ use leptos::html::Div;
 use leptos::prelude::*;
 
 use super::marked::marked;
+use super::read_on::ReadOn;
 use crate::lab::use_lab;
 use crate::texts::{Language, tr};
 
@@ -42,7 +43,7 @@ pub fn Terms(
     view! {
         <details class="menu small terms" data-testid=id on:toggle=on_toggle>
             <summary aria-label=name title=name>"?"</summary>
-            <div node_ref=panel>{move || open.get().then(list)}</div>
+            <div node_ref=panel>{move || open.get().then(list)} {move || open.get().then(|| view! { <ReadOn /> })}</div>
         </details>
     }
 }

@@ -25,6 +25,8 @@ pub enum HomePicture {
     ValvePlane,
     /// Poles and zeros, open and closed loop
     PoleZero,
+    /// Singular values of plant, sensitivity and complementary sensitivity over frequency
+    Frequency,
 }
 
 /// What can be drawn of a relay-tuning session.

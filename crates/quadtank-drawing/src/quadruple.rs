@@ -1,9 +1,9 @@
 use quadtank::literature::{DisplayUnit, PresetId};
 use quadtank::study::StudyError;
-use quadtank::study::quadruple_tank::{PlantSpec, Setup, ValveMap, analyse, run};
+use quadtank::study::quadruple_tank::{FrequencyCurves, PlantSpec, Setup, ValveMap, analyse, run};
 use quadtank_figure::{
-    self, PoleZero, PoleZeroTexts, ResponseTexts, Responses, RunColumns, Size, Style, ValvePlane, ValvePlaneTexts,
-    to_svg,
+    self, ClosedLoopGains, FrequencyCharts, FrequencyTexts, PoleZero, PoleZeroTexts, ResponseTexts, Responses,
+    RunColumns, Size, Style, ValvePlane, ValvePlaneTexts, to_svg,
 };
 
 use crate::HomePicture;
@@ -14,6 +14,7 @@ pub fn svg(setup: &Setup, picture: HomePicture, style: &Style) -> Result<String,
         HomePicture::Responses => responses(setup, style),
         HomePicture::ValvePlane => valve_plane(setup, style),
         HomePicture::PoleZero => pole_zero(setup, style),
+        HomePicture::Frequency => frequency(setup, style),
     }
 }
 
@@ -118,4 +119,43 @@ fn pole_zero(setup: &Setup, style: &Style) -> Result<String, StudyError> {
     let size = Size { width: 720.0, height: 480.0 };
     let description = "Poles and transmission zeros of the linear model, and the poles of the closed loop.";
     Ok(to_svg(&[chart], size, style, "Poles and zeros", description))
+}
+
+/// Both columns, borrowed.
+fn columns(both: &[Vec<f64>; 2]) -> [&[f64]; 2] {
+    both.each_ref().map(Vec::as_slice)
+}
+
+fn frequency(setup: &Setup, style: &Style) -> Result<String, StudyError> {
+    let analysis = analyse(setup)?;
+    let curves = FrequencyCurves::of(setup, &analysis)?;
+    let peak = curves.closed.as_ref().map(|closed| format!("Ms = {:.3}", closed.peak.value));
+    let charts = quadtank_figure::over_frequency(&FrequencyCharts {
+        frequencies: &curves.frequencies,
+        plant: columns(&curves.plant),
+        closed: curves.closed.as_ref().map(|closed| ClosedLoopGains {
+            sensitivity: columns(&closed.sensitivity),
+            complementary: columns(&closed.complementary),
+            peak: (closed.peak.frequency, closed.peak.value),
+            bandwidth: closed.bandwidth,
+        }),
+        zero: curves.zero,
+        texts: FrequencyTexts {
+            frequency: "frequency (rad/s)",
+            plant: "σ of G (V/V)",
+            closed: "σ of S, T",
+            largest: "largest",
+            smallest: "smallest",
+            peak: peak.as_deref().unwrap_or_default(),
+            bandwidth: "ωB",
+            zero: "z",
+        },
+    });
+    let size = Size { width: 840.0, height: 560.0 };
+    let description = if curves.closed.is_some() {
+        "Singular values of the linear plant, and of the sensitivity and the complementary sensitivity of its sampled loop."
+    } else {
+        "Singular values of the linear plant. The sampled loop is not stable, so it has no sensitivity to show."
+    };
+    Ok(to_svg(&charts, size, style, "Over frequency", description))
 }

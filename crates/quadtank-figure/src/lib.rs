@@ -22,6 +22,7 @@ mod ends;
 mod field;
 mod flag;
 mod frame;
+mod frequency;
 mod legend;
 mod level_loop;
 mod levels;
@@ -51,6 +52,7 @@ pub use chart::{
 };
 pub use flag::Flag;
 pub use frame::{Frame, Rect, Size, layout};
+pub use frequency::{ClosedLoopGains, FrequencyCharts, FrequencyTexts, over_frequency};
 pub use level_loop::{
     CostCell, CostMapChart, LevelLoopCharts, LevelLoopTexts, LevelRunColumns, NamedPoint, StaticCurve, StepTestCharts,
     StepTestTexts, TradeOffChart, cost_map, level_loop, static_curve, step_test, trade_off,

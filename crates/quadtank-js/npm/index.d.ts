@@ -78,6 +78,8 @@ export interface AnalysisReport {
     poles_z: Complex[];
     poles_s: Complex[];
     sensitivity_peak: number | null;
+    /** Its frequency (rad/s). */
+    sensitivity_peak_frequency: number | null;
     guaranteed_margins: { gain_min: number; gain_max: number | null; phase_rad: number } | null;
   };
 }
@@ -170,10 +172,10 @@ export interface TableOptions {
 }
 
 export interface PlotOptions {
-  /** Of the quadruple tank: responses (the default), valve-plane, pole-zero; of relay tuning: loci (the default), curve, test,
+  /** Of the quadruple tank: responses (the default), valve-plane, pole-zero, frequency; of relay tuning: loci (the default), curve, test,
    * response; of model-free control: run; of a level loop: run (the default), step-test, trade-off, cost-map. */
   chart?:
-    | 'responses' | 'valve-plane' | 'pole-zero'
+    | 'responses' | 'valve-plane' | 'pole-zero' | 'frequency'
     | 'loci' | 'curve' | 'test' | 'response'
     | 'run' | 'step-test' | 'trade-off' | 'cost-map';
   theme?: 'light' | 'dark';

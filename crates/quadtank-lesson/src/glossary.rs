@@ -1,7 +1,7 @@
 //! The words that a lesson can link to. The page holds their explanations, in each of its languages.
 
 /// All words of the glossary, as links name them: `[zero](glossary:zero)`.
-pub const TERMS: [&str; 66] = [
+pub const TERMS: [&str; 70] = [
     "gamma",
     "minimum_phase",
     "zero",
@@ -15,6 +15,10 @@ pub const TERMS: [&str; 66] = [
     "gain",
     "integral_time",
     "peak",
+    "singular_value",
+    "sensitivity",
+    "complementary",
+    "bandwidth",
     "windup",
     "weight",
     "reference",

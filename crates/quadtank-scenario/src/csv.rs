@@ -3,28 +3,14 @@
 use std::fmt::Write as _;
 
 use quadtank::linear::Complex;
-use quadtank::study::quadruple_tank::{Analysis, Run, ValveMap};
+use quadtank::study::quadruple_tank::{Analysis, FrequencyCurves, Run, ValveMap};
 
 /// A row of a table of poles and zeros.
 type Root = (&'static str, Complex);
 
 /// The trajectories, one row per sample, with the unit of each column in its name.
 pub fn run_to_csv(run: &Run) -> String {
-    let columns = columns(run);
-    let names: Vec<&str> = columns.iter().map(|(name, _)| name.as_str()).collect();
-    let mut text = names.join(",") + "\n";
-    for row in 0..run.nonlinear.time_s.len() {
-        for (index, (_, values)) in columns.iter().enumerate() {
-            let separator = if index == 0 { "" } else { "," };
-            // Writing to a String cannot fail.
-            let _ = match values.get(row) {
-                Some(value) => write!(text, "{separator}{value}"),
-                None => write!(text, "{separator}"),
-            };
-        }
-        text.push('\n');
-    }
-    text
+    table(&columns(run))
 }
 
 fn columns(run: &Run) -> Vec<(String, &[f64])> {
@@ -63,6 +49,40 @@ pub fn valve_map_to_csv(map: &ValveMap, steps: u32) -> String {
     "gamma_1,gamma_2,rightmost_zero_per_s\n".to_owned() + &rows.map(row).collect::<String>()
 }
 
+/// Singular values over frequency, the largest and the smallest each; those of a loop that is not stable are left out.
+pub fn frequency_to_csv(curves: &FrequencyCurves) -> String {
+    let mut columns = vec![("frequency_rad_per_s".to_owned(), curves.frequencies.as_slice())];
+    columns.extend(singular_values("g", &curves.plant));
+    if let Some(closed) = &curves.closed {
+        columns.extend(singular_values("s", &closed.sensitivity));
+        columns.extend(singular_values("t", &closed.complementary));
+    }
+    table(&columns)
+}
+
+fn singular_values<'a>(of: &str, both: &'a [Vec<f64>; 2]) -> impl Iterator<Item = (String, &'a [f64])> {
+    let names = [format!("largest_{of}"), format!("smallest_{of}")];
+    names.into_iter().zip(both.iter().map(Vec::as_slice))
+}
+
+/// Columns of the length of the first one, under their names.
+fn table(columns: &[(String, &[f64])]) -> String {
+    let names: Vec<&str> = columns.iter().map(|(name, _)| name.as_str()).collect();
+    let mut text = names.join(",") + "\n";
+    for row in 0..columns.first().map_or(0, |(_, values)| values.len()) {
+        for (index, (_, values)) in columns.iter().enumerate() {
+            let separator = if index == 0 { "" } else { "," };
+            // Writing to a String cannot fail.
+            let _ = match values.get(row) {
+                Some(value) => write!(text, "{separator}{value}"),
+                None => write!(text, "{separator}"),
+            };
+        }
+        text.push('\n');
+    }
+    text
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -72,9 +92,15 @@ mod tests {
     #[test]
     fn every_row_has_a_value_for_every_column() -> Result<(), Box<dyn std::error::Error>> {
         let setup = setup_of(PresetId::JohanssonNonMinimumPhase);
-        let texts =
-            [run_to_csv(&run(&setup)?), roots_to_csv(&analyse(&setup)?), valve_map_to_csv(&ValveMap::of(&setup)?, 4)];
-        for (text, rows) in texts.iter().zip([3002, 1 + 4 + 2 + 6, 1 + 25]) {
+        let analysis = analyse(&setup)?;
+        let curves = FrequencyCurves::of(&setup, &analysis)?;
+        let texts = [
+            run_to_csv(&run(&setup)?),
+            roots_to_csv(&analysis),
+            valve_map_to_csv(&ValveMap::of(&setup)?, 4),
+            frequency_to_csv(&curves),
+        ];
+        for (text, rows) in texts.iter().zip([3002, 1 + 4 + 2 + 6, 1 + 25, 1 + curves.frequencies.len()]) {
             assert_eq!(text.lines().count(), rows);
             let columns = text.lines().next().map_or(0, |line| line.split(',').count());
             assert!(text.lines().all(|line| line.split(',').count() == columns));

@@ -35,7 +35,7 @@ mod validate;
 pub use codec::{
     DOCUMENT_LIMIT, Document, check_length, document_from_bytes, document_from_json, from_json, read_json, to_json,
 };
-pub use csv::{roots_to_csv, run_to_csv, valve_map_to_csv};
+pub use csv::{frequency_to_csv, roots_to_csv, run_to_csv, valve_map_to_csv};
 pub use csv_style::{CsvStyle, DecimalSign, Separator, TwoCommas};
 pub use document::{BenchDocument, Scenario, View};
 pub use entries::{Entry, EntryValue, entries};

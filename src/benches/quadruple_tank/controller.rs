@@ -3,6 +3,7 @@
 use leptos::prelude::*;
 
 use super::flags::{locks, panels};
+use super::mends::{self, MendButton};
 use super::sentences;
 use super::session::{Session, use_session};
 use crate::benches::handover::{self, HandOver};
@@ -173,6 +174,7 @@ pub fn ControllerCard() -> impl IntoView {
                 warm=Signal::derive(move || stability.get().1)
                 status=true
             />
+            <MendButton id="mend-loop" offer=mends::of_loop />
         </Card>
     }
 }

@@ -27,6 +27,8 @@ const FIRST_LEAK_AREA: f64 = 1.5e-6;
 const FIRST_LOAD_SHARE: f64 = -0.2;
 /// Travel of the reference sliders as a share of the lowest wall.
 const REFERENCE_TRAVEL: f64 = 0.25;
+/// How long an experiment lasts that is to show a step at its end, as a multiple of the time of the step.
+const AFTER_STEP: f64 = 1.5;
 /// Travel of the noise slider (m).
 const NOISE_TRAVEL: f64 = 0.005;
 
@@ -261,6 +263,12 @@ fn Timed(
             ((size.read)(s, index) != 0.0 && time_s >= end_s).then_some((time_s, end_s))
         })
     };
+    let extend = move |_| {
+        session.edit(|s| {
+            let limits = limits::duration_s(s.controller.sampling_time_s);
+            s.experiment.duration_s = (AFTER_STEP * (time.read)(s, index)).clamp(limits.min, limits.max);
+        });
+    };
     let said = move |(time_s, end_s): (f64, f64)| {
         let style = lab.number_style();
         tr!(lab, experiment.after_end, time = style.fixed(time_s, 0), end = style.fixed(end_s, 0))
@@ -274,7 +282,12 @@ fn Timed(
                 <span class="unit">"s"</span>
             </div>
         </div>
-        {move || late().map(|times| view! { <p class="remark warm" data-testid="after-end">{said(times)}</p> })}
+        {move || late().map(|times| view! {
+            <p class="remark warm" data-testid="after-end">{said(times)}</p>
+            <button type="button" class="button small" data-testid="mend-after-end" disabled=lab.locks(locks::EXPERIMENT) on:click=extend>
+                {say!(lab, mend.longer)}
+            </button>
+        })}
     }
 }
 

@@ -1,5 +1,6 @@
 //! The charts of the home bench, from the results of the laboratory. Building them follows what they read.
 
+use super::frequency::Curves;
 use super::record::OpenRecord;
 use super::session::Session;
 use crate::lab::Lab;
@@ -10,11 +11,11 @@ use quadtank::linear::Complex;
 use quadtank::sim::{EventKind, Settling};
 use quadtank::study::quadruple_tank::{Run, ValveMap};
 use quadtank_figure::{
-    self, Chart, Flag, Levels, PoleZero, PoleZeroTexts, Residuals, ResponseTexts, Responses, Role, RunColumns,
-    ValvePlane, ValvePlaneTexts,
+    self, Chart, ClosedLoopGains, Flag, FrequencyCharts, FrequencyTexts, Levels, PoleZero, PoleZeroTexts, Residuals,
+    ResponseTexts, Responses, Role, RunColumns, ValvePlane, ValvePlaneTexts,
 };
 use quadtank_record::Record;
-use quadtank_scenario::{roots_to_csv, run_to_csv, valve_map_to_csv};
+use quadtank_scenario::{frequency_to_csv, roots_to_csv, run_to_csv, valve_map_to_csv};
 
 use leptos::prelude::*;
 
@@ -86,6 +87,45 @@ pub fn pole_zero(session: Session) -> Picture {
         });
     };
     Picture::new(build, csv)
+}
+
+/// Singular values over frequency.
+pub fn over_frequency(session: Session, curves: Curves) -> Picture {
+    let lab = session.lab;
+    let csv = move || curves.with(|curves| curves.as_ref().map(frequency_to_csv).unwrap_or_default());
+    let build = move |visit: &mut dyn FnMut(&[Chart])| {
+        curves.with(|curves| {
+            let Some(curves) = curves else { return };
+            let style = lab.number_style();
+            let peak = curves.closed.as_ref().map(|closed| format!("Ms = {}", style.significant(closed.peak.value, 3)));
+            visit(&quadtank_figure::over_frequency(&FrequencyCharts {
+                frequencies: &curves.frequencies,
+                plant: columns(&curves.plant),
+                closed: curves.closed.as_ref().map(|closed| ClosedLoopGains {
+                    sensitivity: columns(&closed.sensitivity),
+                    complementary: columns(&closed.complementary),
+                    peak: (closed.peak.frequency, closed.peak.value),
+                    bandwidth: closed.bandwidth,
+                }),
+                zero: curves.zero,
+                texts: FrequencyTexts {
+                    frequency: &tr!(lab, frequency.axis),
+                    plant: &tr!(lab, frequency.plant),
+                    closed: &tr!(lab, frequency.closed),
+                    largest: &tr!(lab, frequency.largest),
+                    smallest: &tr!(lab, frequency.smallest),
+                    peak: peak.as_deref().unwrap_or_default(),
+                    bandwidth: "ωB",
+                    zero: "z",
+                },
+            }));
+        });
+    };
+    Picture::new(build, csv)
+}
+
+fn columns(both: &[Vec<f64>; 2]) -> [&[f64]; 2] {
+    both.each_ref().map(Vec::as_slice)
 }
 
 /// Levels alone, as far as a replay has come.

@@ -3,6 +3,7 @@
 use leptos::prelude::*;
 
 use super::flags::{locks, panels};
+use super::mends::{self, MendButton};
 use super::moment::use_moment;
 use super::preset::{PresetRemark, PresetSelect};
 use super::published::PublishedFigures;
@@ -88,7 +89,10 @@ fn Situation() -> impl IntoView {
         let all = std::iter::once(sentence.get().0).chain(sentences::of_equilibrium(session));
         all.map(|text| view! { <p>{marked(&text)}</p> }).collect_view()
     };
-    view! { <Verdict id="process-sentence" warm=Signal::derive(move || sentence.get().1)>{paragraphs}</Verdict> }
+    view! {
+        <Verdict id="process-sentence" warm=Signal::derive(move || sentence.get().1)>{paragraphs}</Verdict>
+        <MendButton id="mend-rest" offer=mends::of_rest />
+    }
 }
 
 /// The operating point and what was printed of it, folded.

@@ -3,6 +3,8 @@
 use leptos::prelude::*;
 
 use super::flags::{locks, panels};
+use super::frequency::FrequencyFold;
+use super::mends::{self, MendButton};
 use super::metrics::{MetricsTable, why};
 use super::moment::{RigState, use_moment};
 use super::pictures;
@@ -73,12 +75,16 @@ pub fn ResponsesCard() -> impl IntoView {
                     <SetPoints frames held />
                 </div>
             </div>
-            <Sentence id="responses-sentence" text=sentence status=true />
+            <div class="mended">
+                <Sentence id="responses-sentence" text=sentence status=true />
+                <MendButton id="mend-run" offer=mends::of_run />
+            </div>
             <div class="folded">
                 <details class="more" data-testid="metrics-fold">
                     <summary>{say!(lab, responses.figures)}</summary>
                     <MetricsTable />
                 </details>
+                <FrequencyFold />
                 <DataTable picture=for_table id="data-table" />
                 {(!lab.flags.with_value(|flags| flags.embed)).then(|| view! { <RecordFold /> })}
             </div>

@@ -119,7 +119,7 @@ pub fn of_stability(session: Session) -> (String, bool) {
                     let time = style.significant(1.0 / pole.re.abs(), 3);
                     let text = match analysis.closed_loop.sensitivity_peak {
                         Some(peak) => {
-                            let peak = style.significant(peak, 3);
+                            let peak = style.significant(peak.value, 3);
                             tr!(lab, pi.stable, pole = number(pole), time = time, peak = peak)
                         }
                         None => tr!(lab, pi.stable_short, pole = number(pole), time = time),

@@ -133,7 +133,7 @@ fn plot_draws_every_chart_in_both_themes() {
     let scenario = folder.join("scenario.json");
     fs::write(&scenario, preset(PresetId::CocotaNonMinimumPhase)).unwrap();
     let mut drawings = Vec::new();
-    for chart in ["responses", "valve-plane", "pole-zero"] {
+    for chart in ["responses", "valve-plane", "pole-zero", "frequency"] {
         for theme in ["light", "dark"] {
             let drawing = folder.join(format!("{chart}-{theme}.svg"));
             let files = [scenario.to_str().unwrap(), drawing.to_str().unwrap()];
@@ -146,7 +146,7 @@ fn plot_draws_every_chart_in_both_themes() {
     }
     drawings.sort();
     drawings.dedup();
-    assert_eq!(drawings.len(), 6);
+    assert_eq!(drawings.len(), 8);
     let output = run(&["plot", scenario.to_str().unwrap(), "--svg", "-"]);
     assert!(stdout(&output).starts_with("<svg "));
 }

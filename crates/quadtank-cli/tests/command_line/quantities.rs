@@ -42,6 +42,7 @@ fn quantities_of_the_home_bench_are_those_of_its_reports() {
             ("rga.lambda11", "/rga_11"),
             ("niederlinski.diagonal", "/niederlinski/diagonal"),
             ("closed_loop.sensitivity_peak", "/closed_loop/sensitivity_peak"),
+            ("closed_loop.sensitivity_peak_frequency", "/closed_loop/sensitivity_peak_frequency"),
             ("closed_loop.guaranteed_phase", "/closed_loop/guaranteed_margins/phase_rad"),
         ];
         assert_agree(&document, &report(&["analyse", "-"], &document), &theory);

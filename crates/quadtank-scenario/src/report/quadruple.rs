@@ -85,6 +85,8 @@ pub struct ClosedLoopReport {
     pub poles_s: Vec<ComplexNumber>,
     /// Peak Ms of the largest singular value of the sensitivity (no unit); null when the loop is not stable.
     pub sensitivity_peak: Option<f64>,
+    /// Frequency of this peak (rad/s); null when the loop is not stable.
+    pub sensitivity_peak_frequency: Option<f64>,
     /// Margins that this peak guarantees in each channel; null when the loop is not stable.
     pub guaranteed_margins: Option<GuaranteedMargins>,
 }
@@ -130,8 +132,9 @@ impl From<&ClosedLoop> for ClosedLoopReport {
             stability: closed_loop.stability,
             poles_z: complex_numbers(&closed_loop.poles_z),
             poles_s: complex_numbers(&closed_loop.poles_s),
-            sensitivity_peak: closed_loop.sensitivity_peak,
-            guaranteed_margins: closed_loop.sensitivity_peak.map(GuaranteedMargins::of),
+            sensitivity_peak: closed_loop.sensitivity_peak.map(|peak| peak.value),
+            sensitivity_peak_frequency: closed_loop.sensitivity_peak.map(|peak| peak.frequency),
+            guaranteed_margins: closed_loop.sensitivity_peak.map(|peak| GuaranteedMargins::of(peak.value)),
         }
     }
 }

@@ -23,6 +23,6 @@ pub use model_free_loop::{
 };
 pub use pi::{AntiWindup, LoopMode, Pi, PiSettings};
 pub use pi_dials::{IntegralDial, PiDials, PiForm, ProportionalDial};
-pub use pi_loop::closed_loop;
+pub use pi_loop::{PiLoop, closed_loop};
 pub use pid::{IsaPid, ParallelPid, PidMatrix, RunningPidMatrix, SeriesPid};
 pub use relay::Relay;

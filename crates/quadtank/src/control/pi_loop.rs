@@ -24,8 +24,9 @@ pub fn closed_loop(
     ClosedLoop::new(&matrix, controller.sampling_time_s, |z| pi_loop.return_ratio(z))
 }
 
-/// The sampled plant with its laws. Columns are by loops, not by pumps.
-struct PiLoop<'a> {
+/// The sampled plant with its laws, over frequency. Columns are by loops, not by pumps.
+#[derive(Clone, Debug)]
+pub struct PiLoop<'a> {
     controller: &'a DecentralisedPi,
     /// State transition of the plant over one sample.
     transition: Matrix4<f64>,
@@ -36,7 +37,8 @@ struct PiLoop<'a> {
 }
 
 impl<'a> PiLoop<'a> {
-    fn new(jacobian: &Jacobian, controller: &'a DecentralisedPi, power_gain: f64) -> Self {
+    /// The loop that [`closed_loop`] judges.
+    pub fn new(jacobian: &Jacobian, controller: &'a DecentralisedPi, power_gain: f64) -> Self {
         let hold = ZeroOrderHold::new(&jacobian.a, controller.sampling_time_s);
         let by_pump = hold.response * jacobian.b * power_gain;
         let input = Matrix4x2::from_fn(|tank, i| by_pump[(tank, controller.pairing.pump_of(i))]);
@@ -64,6 +66,11 @@ impl<'a> PiLoop<'a> {
             (None, None) if row == column => 1.0,
             (None, _) => 0.0,
         })
+    }
+
+    /// L at a frequency (rad/s) up to Nyquist, on the unit circle.
+    pub fn at(&self, frequency: f64) -> Matrix2<Complex> {
+        self.return_ratio(Complex::cis(frequency * self.controller.sampling_time_s))
     }
 
     /// `L(z) = G(z) K(z)`, cut open at the measured signals. Only the tank above stands between an input and a lower tank.
@@ -172,7 +179,7 @@ mod tests {
             if closed.stability != Stability::Stable {
                 continue;
             }
-            let peak = closed.sensitivity_peak.unwrap();
+            let peak = closed.sensitivity_peak.unwrap().value;
             let (a, b, c) = jacobian.reduced();
             let plant = StateSpace::strictly_proper(a, b, c).unwrap().sampled(1.0).unwrap();
             let sensitivity = |w: f64| {

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, Matrix2};
 
 use super::sensitivity::sensitivity_peak;
-use super::{Complex, LinearError, Stability, UNIT_CIRCLE_TOLERANCE, eigenvalues, s_from_z};
+use super::{Complex, LinearError, LoopPeak, Stability, UNIT_CIRCLE_TOLERANCE, eigenvalues, s_from_z};
 
 /// The poles of a sampled linear closed loop.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,9 +15,9 @@ pub struct ClosedLoop {
     pub poles_s: Vec<Complex>,
     /// The verdict.
     pub stability: Stability,
-    /// Peak Ms of the largest singular value of the sensitivity at the outputs, over all frequencies up to Nyquist;
-    /// `None` when the loop is not stable. 1.2 to 2 is usual for a loop that keeps its distance from instability.
-    pub sensitivity_peak: Option<f64>,
+    /// Peak Ms of the largest singular value of the sensitivity at the outputs, over all frequencies up to Nyquist, with its
+    /// frequency (rad/s); `None` when the loop is not stable. 1.2 to 2 is usual for a loop that keeps its distance from instability.
+    pub sensitivity_peak: Option<LoopPeak>,
 }
 
 impl ClosedLoop {
@@ -75,7 +75,9 @@ mod tests {
         assert_eq!(closed.poles_z, [Complex::from(0.8), Complex::from(0.5)]);
         assert_eq!(closed.slowest(), Some(Complex::from(0.8_f64.ln() / 2.0)));
         assert_eq!(closed.stability, Stability::Stable);
-        assert_relative_eq!(closed.sensitivity_peak.unwrap(), 2.0 / 1.5, max_relative = 1e-12);
+        let peak = closed.sensitivity_peak.unwrap();
+        assert_relative_eq!(peak.value, 2.0 / 1.5, max_relative = 1e-12);
+        assert_relative_eq!(peak.frequency, std::f64::consts::FRAC_PI_2, max_relative = 1e-12);
     }
 
     #[test]

@@ -42,6 +42,7 @@ pub use margins::Margins;
 pub use matrix_zeros::MatrixPolesAndZeros;
 pub use peaks::{LoopPeak, biggest_log_modulus, largest_sensitivity};
 pub use return_ratio::ReturnRatio;
+pub use sensitivity::LoopGains;
 pub(crate) use series::{Series, determinant as determinant_of_series, elements as elements_as_series};
 pub use single_loop::SingleLoop;
 pub use spectrum::{eigenvalues, singular_values};

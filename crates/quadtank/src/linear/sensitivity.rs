@@ -1,8 +1,33 @@
-//! Peak of the sensitivity of a sampled loop with two inputs and outputs.
+//! Sensitivity of a sampled loop with two inputs and outputs: its singular values at a frequency, and its peak.
 
 use nalgebra::Matrix2;
 
-use super::Complex;
+use super::{Complex, LoopPeak};
+
+/// Singular values of the sensitivity `S = (I + L)⁻¹` and of the complementary sensitivity `T = L (I + L)⁻¹ = I − S` of a closed
+/// loop at one frequency, each the largest and the smallest: between them lies the amplification of every direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LoopGains {
+    /// Of S: what is left of a disturbance at the outputs.
+    pub sensitivity: [f64; 2],
+    /// Of T: what arrives of a reference, and of the noise of the sensors.
+    pub complementary: [f64; 2],
+}
+
+impl LoopGains {
+    /// From the return ratio L at the frequency, cut open at the outputs. Infinite where the loop has a pole there.
+    pub fn of(return_ratio: &Matrix2<Complex>) -> Self {
+        let difference = Matrix2::identity() + return_ratio;
+        let determinant = size_of_determinant(&difference);
+        let [a, b, c, d] = [(0, 0), (0, 1), (1, 0), (1, 1)].map(|at| difference[at]);
+        // The adjugate is det(I + L) S, so that no inverse is needed.
+        let [largest_l, smallest_l] = both_singular_values(&(return_ratio * Matrix2::new(d, -b, -c, a)));
+        Self {
+            sensitivity: [largest_singular_value_of_inverse(&difference), largest_singular_value(&difference).recip()],
+            complementary: [largest_l / determinant, smallest_l / determinant],
+        }
+    }
+}
 
 /// Frequencies of the grid, from below the slowest pole of the loop up to Nyquist.
 const GRID: u32 = 80;
@@ -14,12 +39,12 @@ const BELOW_SLOWEST: f64 = 0.1;
 const REFINEMENTS: u32 = 16;
 
 /// Peak Ms of the largest singular value of `S = (I + L)⁻¹` over all frequencies up to Nyquist, for a stable loop with the poles
-/// `poles_s` (1/s), where a narrow peak may hide between two points of the grid. `return_ratio` is L(z).
+/// `poles_s` (1/s), where a narrow peak may hide between two points of the grid, and its frequency (rad/s). `return_ratio` is L(z).
 pub(super) fn sensitivity_peak(
     return_ratio: impl Fn(Complex) -> Matrix2<Complex>,
     poles_s: &[Complex],
     sampling_time_s: f64,
-) -> f64 {
+) -> LoopPeak {
     let sensitivity = |w: f64| {
         let z = Complex::cis(w * sampling_time_s);
         largest_singular_value_of_inverse(&(Matrix2::identity() + return_ratio(z)))
@@ -35,13 +60,19 @@ pub(super) fn sensitivity_peak(
 }
 
 /// Golden-section search on a logarithmic axis, one point of the grid to either side of the best frequency.
-fn refine(sensitivity: impl Fn(f64) -> f64, (mut peak, best): (f64, f64), ratio: f64, nyquist: f64) -> f64 {
+fn refine(sensitivity: impl Fn(f64) -> f64, highest: (f64, f64), ratio: f64, nyquist: f64) -> LoopPeak {
+    let (value, best) = highest;
+    let mut peak = LoopPeak { value, frequency: best };
     let golden = (5.0_f64.sqrt() - 1.0) / 2.0;
     let (mut low, mut high) = ((best / ratio).ln(), (best * ratio).min(nyquist).ln());
     for _ in 0..REFINEMENTS {
         let (left, right) = (high - golden * (high - low), low + golden * (high - low));
         let (at_left, at_right) = (sensitivity(left.exp()), sensitivity(right.exp()));
-        peak = peak.max(at_left.max(at_right));
+        for (value, at) in [(at_left, left), (at_right, right)] {
+            if value > peak.value {
+                peak = LoopPeak { value, frequency: at.exp() };
+            }
+        }
         if at_left > at_right { high = right } else { low = left }
     }
     peak
@@ -58,6 +89,13 @@ pub(super) fn largest_singular_value(m: &Matrix2<Complex>) -> f64 {
     let product = size_of_determinant(m);
     let difference = ((sum - 2.0 * product) * (sum + 2.0 * product)).max(0.0).sqrt();
     f64::midpoint(sum, difference).sqrt()
+}
+
+/// Both singular values, the largest first.
+fn both_singular_values(m: &Matrix2<Complex>) -> [f64; 2] {
+    let largest = largest_singular_value(m);
+    let smallest = if largest > 0.0 { size_of_determinant(m) / largest } else { 0.0 };
+    [largest, smallest]
 }
 
 fn size_of_determinant(m: &Matrix2<Complex>) -> f64 {
@@ -83,6 +121,24 @@ mod tests {
             let values = singular_values(&DMatrix::from_iterator(2, 2, m.iter().copied())).unwrap();
             assert_relative_eq!(largest_singular_value_of_inverse(&m), 1.0 / values[1], max_relative = 1e-12);
             assert_relative_eq!(largest_singular_value(&m), values[0], max_relative = 1e-12);
+        }
+    }
+
+    #[test]
+    fn the_gains_of_a_loop_are_those_of_its_matrices() {
+        let c = Complex::new;
+        for ratio in [
+            Matrix2::new(c(1.0, 0.5), c(-0.3, 0.2), c(0.1, 2.0), c(0.7, -0.4)),
+            // One loop does not act.
+            Matrix2::new(c(3.0, -20.0), Complex::ZERO, c(1.0, -1.0), Complex::ZERO),
+        ] {
+            let gains = LoopGains::of(&ratio);
+            let s = (Matrix2::identity() + ratio).try_inverse().unwrap();
+            for (matrix, found) in [(s, gains.sensitivity), (Matrix2::identity() - s, gains.complementary)] {
+                let values = singular_values(&DMatrix::from_iterator(2, 2, matrix.iter().copied())).unwrap();
+                assert_relative_eq!(found[0], values[0], max_relative = 1e-12);
+                assert_relative_eq!(found[1], values[1], max_relative = 1e-10, epsilon = 1e-14);
+            }
         }
     }
 }

@@ -187,7 +187,7 @@ proptest! {
         prop_assert!(closed.poles_z.windows(2).all(|pair| pair[0].norm() >= pair[1].norm()));
         prop_assert!(closed.poles_s.iter().all(|s| s.is_finite()));
         prop_assert_eq!(closed.sensitivity_peak.is_some(), closed.stability == Stability::Stable);
-        prop_assert!(closed.sensitivity_peak.is_none_or(|peak| peak >= 0.99 && peak.is_finite()));
+        prop_assert!(closed.sensitivity_peak.is_none_or(|peak| peak.value >= 0.99 && peak.value.is_finite()));
     }
 
     #[test]

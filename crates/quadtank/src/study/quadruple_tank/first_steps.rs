@@ -60,7 +60,7 @@ pub fn calmed(setup: &Setup) -> Option<Setup> {
     for _ in 0..MOST_TRIES {
         let closed_loop = analyse(&tried).ok()?.closed_loop;
         if closed_loop.stability == Stability::Stable
-            && closed_loop.sensitivity_peak.is_some_and(|peak| peak <= CALM_PEAK)
+            && closed_loop.sensitivity_peak.is_some_and(|peak| peak.value <= CALM_PEAK)
         {
             return Some(tried);
         }
@@ -140,7 +140,7 @@ mod tests {
             setup.controller.pairing = right;
             let closed_loop = analyse(&calmed(&setup).unwrap()).unwrap().closed_loop;
             assert_eq!(closed_loop.stability, Stability::Stable, "{valves:?}");
-            assert!(closed_loop.sensitivity_peak.unwrap() <= CALM_PEAK, "{valves:?}");
+            assert!(closed_loop.sensitivity_peak.unwrap().value <= CALM_PEAK, "{valves:?}");
             setup.controller.pairing = if right == Pairing::Diagonal { Pairing::Swapped } else { Pairing::Diagonal };
             assert_eq!(calmed(&setup), None, "{valves:?}");
         }

@@ -2,8 +2,10 @@
 
 mod analysis;
 mod first_steps;
+mod frequency_curves;
 mod guaranteed_margins;
 mod identification;
+mod mends;
 mod prepared;
 mod published;
 mod quantities;
@@ -15,7 +17,9 @@ mod zero_situation;
 
 pub use analysis::{Analysis, analyse};
 pub use first_steps::{Direction, calmed, direction_steps, first_experiment, fitted_duration_s, held_operating_point};
+pub use frequency_curves::{ClosedCurves, FrequencyCurves};
 pub use guaranteed_margins::GuaranteedMargins;
+pub use mends::{Mend, mend_loop, mend_rest, mend_run};
 pub use prepared::Prepared;
 pub use published::setup_of;
 pub use results::{QuadrupleTankStudy, Results};

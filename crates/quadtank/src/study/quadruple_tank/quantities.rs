@@ -7,7 +7,7 @@ use crate::sim::{EventKind, LoopMetrics, Settling};
 use crate::study::Quantity;
 use crate::study::quantity::yes;
 
-use super::{Analysis, GuaranteedMargins, Results, Run};
+use super::{Analysis, FrequencyCurves, GuaranteedMargins, Results, Run};
 
 type Read = fn(&Results) -> Option<f64>;
 
@@ -62,7 +62,11 @@ fn is_automatic(results: &Results, index: usize) -> bool {
 }
 
 fn margins(results: &Results) -> Option<GuaranteedMargins> {
-    Some(GuaranteedMargins::of(theory(results)?.closed_loop.sensitivity_peak?))
+    Some(GuaranteedMargins::of(theory(results)?.closed_loop.sensitivity_peak?.value))
+}
+
+fn bandwidth(results: &Results) -> Option<f64> {
+    FrequencyCurves::of(&results.setup, theory(results)?).ok()?.closed?.bandwidth
 }
 
 /// The costs of a whole run.
@@ -149,7 +153,9 @@ pub const QUANTITIES: &[Quantity<Results>] = &[
     q("closed_loop.is_stable", "yes/no", "Whether the sampled linear loop is stable; no also on the border of stability.", |r| Some(yes(theory(r)?.closed_loop.stability == Stability::Stable))),
     q("closed_loop.rightmost_pole", "1/s", "Real part of the right-most pole of the sampled linear loop, mapped to the s-plane.", |r| Some(theory(r)?.closed_loop.slowest()?.re)),
     q("closed_loop.largest_modulus", "1", "Largest modulus of a pole of the sampled linear loop in the z-plane; below 1 for a stable loop.", |r| Some(theory(r)?.closed_loop.poles_z.first()?.norm())),
-    q("closed_loop.sensitivity_peak", "1", "Peak Ms of the largest singular value of the sensitivity; none where the loop is not stable.", |r| theory(r)?.closed_loop.sensitivity_peak),
+    q("closed_loop.sensitivity_peak", "1", "Peak Ms of the largest singular value of the sensitivity; none where the loop is not stable.", |r| Some(theory(r)?.closed_loop.sensitivity_peak?.value)),
+    q("closed_loop.sensitivity_peak_frequency", "rad/s", "Frequency of the peak Ms, up to that of Nyquist; none where the loop is not stable.", |r| Some(theory(r)?.closed_loop.sensitivity_peak?.frequency)),
+    q("closed_loop.bandwidth", "rad/s", "Where the largest singular value of the sensitivity first crosses 1/√2 from below; none where the loop is not stable or holds a level at no frequency.", bandwidth),
     q("closed_loop.guaranteed_gain", "1", "Largest factor on the gain of each channel that Ms guarantees, Ms/(Ms − 1).", |r| margins(r)?.gain_max),
     q("closed_loop.guaranteed_phase", "rad", "Largest phase lag in each channel that Ms guarantees, 2 asin(1/(2 Ms)).", |r| Some(margins(r)?.phase_rad)),
     q("interpolation.area", "m s", "∫ ηᵀe e^(−zt) dt = ηᵀr/z from the first step on, the same for every stabilising controller; none without a zero in the right half-plane or a step.", |r| theory(r)?.interpolation_integral(&r.setup.experiment)),
