@@ -174,7 +174,7 @@ pub fn ControllerCard() -> impl IntoView {
                 warm=Signal::derive(move || stability.get().1)
                 status=true
             />
-            <MendButton id="mend-loop" offer=mends::of_loop />
+            <MendButton id="mend-loop" offer=mends::of_gains />
         </Card>
     }
 }

@@ -13,6 +13,11 @@ pub fn of_loop(session: Session) -> Option<Mend> {
     session.throttled.analysis.with(|outcome| mend_loop(&setup, outcome.as_ref().as_ref().ok()))
 }
 
+/// The same on the card with the pairing, whose switch offers the advised one itself.
+pub fn of_gains(session: Session) -> Option<Mend> {
+    of_loop(session).filter(|mend| *mend != Mend::AdvisedPairing)
+}
+
 /// What brings the operating point within the rig.
 pub fn of_rest(session: Session) -> Option<Mend> {
     session.throttled.setup.with(|setup| mend_rest(setup))
