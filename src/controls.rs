@@ -128,11 +128,15 @@ pub fn ParamRow<B: Bench>(
     /// Which one of a pair.
     #[prop(optional)]
     index: usize,
+    /// What a change does in place of setting the number alone; it is given the shown number.
+    #[prop(optional)]
+    act: Option<Callback<f64>>,
 ) -> impl IntoView {
     let &ParamControl { ids, smallest, class, .. } = control;
     let (id, class, lab) = (ids[index], class[index], session.lab);
     let label = Signal::derive(move || (control.label)(lab, index));
     let Wires { name, value, on_change, limits, scale, digits, disabled } = wires(session, control, index);
+    let on_change = act.unwrap_or(on_change);
     let unit = unit_text(session, control, index);
     let Some(travel) = control.travel else {
         return view! {

@@ -318,6 +318,7 @@ test('a rig changes during a run, its pumps have a curve, and its levels can be 
   await lab.settle();
   await expect(lab.id('responses-sentence')).not.toContainText('overflows');
   // With the levels held, the pumps follow the valves.
+  await lab.page.locator('[data-testid=operating-point-fold] > summary').click();
   await lab.id('hold-levels').check();
   const level = await lab.text('rig-level-1');
   await lab.id('valve-handle').focus();
@@ -325,14 +326,16 @@ test('a rig changes during a run, its pumps have a curve, and its levels can be 
   await lab.settle();
   expect(await lab.value('gamma1-number')).toBeCloseTo(0.65, 1);
   expect(await lab.text('rig-level-1')).toBe(level);
-  await lab.page.locator('[data-testid=operating-point-fold] > summary').click();
+  await lab.type('gamma1-number', '0.66');
+  await lab.settle();
+  expect(await lab.text('rig-level-1')).toBe(level);
   expect(Math.abs((await lab.value('voltage1')) - 3)).toBeGreaterThan(0.02);
   await lab.type('voltage1', '3');
   // A dead zone in which the pump would rest is told.
   await lab.id('rig-numbers').locator('summary').click();
   await lab.type('rig-start1', '3.5');
   await lab.settle();
-  await expect(lab.id('process')).toContainText(/3\.50? to 10/);
+  await expect(lab.id('process-sentence')).toContainText('3.5');
   await lab.clean();
   await lab.axe();
 });

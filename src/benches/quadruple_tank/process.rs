@@ -11,8 +11,10 @@ use super::replay::play_cursor;
 use super::rig::Rig;
 use super::rig_numbers::RigNumbers;
 use super::sentences;
-use super::session::use_session;
+use super::session::{turn_valves, use_session};
+use super::valves::HoldSwitch;
 use crate::controls::{ParamControl, ParamRow};
+use crate::depth::Depth;
 use crate::texts::{say, terms, tr};
 use crate::widgets::{Card, NumberField, Scale, Text, TimeBar, Verdict, is_open, marked};
 use quadtank::study::quadruple_tank::{OperatingPointSpec, Setup};
@@ -70,10 +72,17 @@ pub fn SettingsCard() -> impl IntoView {
 #[component]
 fn Settings() -> impl IntoView {
     let session = use_session();
+    let turn = |valve: usize| {
+        Callback::new(move |gamma: f64| {
+            let mut valves = session.document.with_untracked(|document| document.setup.valves);
+            valves[valve] = gamma.clamp(0.0, 1.0);
+            turn_valves(session, valves);
+        })
+    };
     view! {
         <div>
-            <ParamRow session control=&GAMMA index=0 />
-            <ParamRow session control=&GAMMA index=1 />
+            <ParamRow session control=&GAMMA index=0 act=turn(0) />
+            <ParamRow session control=&GAMMA index=1 act=turn(1) />
         </div>
         <Situation />
         <OperatingPoint />
@@ -99,6 +108,8 @@ fn Situation() -> impl IntoView {
 #[component]
 fn OperatingPoint() -> impl IntoView {
     let lab = use_session().lab;
+    // Explore has the switch on its map.
+    let has_switch = move || !lab.locks(locks::VALVES) && lab.shown_depth() != Depth::Explore;
     let open = RwSignal::new(false);
     view! {
         <details class="more" data-testid="operating-point-fold" on:toggle=move |event| open.set(is_open(&event))>
@@ -108,6 +119,7 @@ fn OperatingPoint() -> impl IntoView {
                 <VoltageField pump=0 />
                 <VoltageField pump=1 />
             </div>
+            {move || has_switch().then(|| view! { <HoldSwitch /> })}
             {move || open.get().then(|| view! { <PublishedFigures /> })}
             <RigNumbers />
         </details>

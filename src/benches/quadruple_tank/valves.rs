@@ -39,7 +39,6 @@ pub fn ValvePlaneCard() -> impl IntoView {
                 <ChartCanvas picture on_paper frames summary name="valve-plane" />
                 <Overlay frames />
             </div>
-            {(!lab.locks(locks::VALVES)).then(|| view! { <HoldSwitch /> })}
             <Sentence id="valves-sentence" text=Signal::derive(move || sentences::of_rightmost(session)) />
         </Card>
     }
@@ -70,7 +69,7 @@ pub fn ValveMapCard() -> impl IntoView {
 
 /// What stays while valves are turned.
 #[component]
-fn HoldSwitch() -> impl IntoView {
+pub fn HoldSwitch() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
     view! {

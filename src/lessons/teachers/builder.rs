@@ -136,23 +136,7 @@ pub fn Builder(lessons: RwSignal<Vec<Option<Arc<Lesson>>>>) -> impl IntoView {
         Subject::Lesson(_) => None,
         Subject::Bench(bench) => Some(view! { <BenchChoices bench preset panels locks /> }),
     };
-    let preview = move || {
-        is_previewed.get().then(|| {
-            let title = say!(lab, lesson.preview);
-            // Each by itself: the policy of the page allows no attribute with a style.
-            view! {
-                <iframe
-                    class="preview"
-                    title=title
-                    style:width=move || size.get().width()
-                    style:height=move || size.get().height()
-                    style:transform=move || size.get().transform()
-                    style:margin-bottom=move || size.get().margin_bottom()
-                    src=query.get()
-                ></iframe>
-            }
-        })
-    };
+    let preview = move || is_previewed.get().then(|| view! { <Preview query size /> });
     view! {
         <section data-testid="builder">
             <h3>{say!(lab, lesson.builder)}</h3>
@@ -190,6 +174,24 @@ pub fn Builder(lessons: RwSignal<Vec<Option<Arc<Lesson>>>>) -> impl IntoView {
             </p>
             {preview}
         </section>
+    }
+}
+
+/// The frame as it will be.
+#[component]
+fn Preview(query: Memo<String>, size: Signal<FrameSize>) -> impl IntoView {
+    let lab = use_lab();
+    // Each part of the style by itself: the policy of the page allows no attribute with a style.
+    view! {
+        <iframe
+            class="preview"
+            title=say!(lab, lesson.preview)
+            style:width=move || size.get().width()
+            style:height=move || size.get().height()
+            style:transform=move || size.get().transform()
+            style:margin-bottom=move || size.get().margin_bottom()
+            src=query
+        ></iframe>
     }
 }
 
