@@ -40,7 +40,7 @@ pub struct ClosedCurves {
     pub complementary: [Vec<f64>; 2],
     /// Ms, the peak of the largest singular value of S, and its frequency (rad/s).
     pub peak: LoopPeak,
-    /// Bandwidth, see [`bandwidth`].
+    /// Bandwidth ωB (rad/s): below it feedback helps in every direction, `σ̄(S) < 1/√2`; `None` where that holds at no frequency shown.
     pub bandwidth: Option<f64>,
 }
 
