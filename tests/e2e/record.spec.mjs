@@ -64,6 +64,7 @@ test('a record is read, run and fitted', async ({ lab, page }) => {
   await lab.id('residuals').click();
   await lab.id('residual-table').click();
   const left = page.locator('details:has(> [data-testid=residual-table]) tbody td:nth-child(n+2)');
+  await expect.poll(() => left.count()).toBeGreaterThan(20);
   const residuals = (await left.allTextContents()).map((text) => Math.abs(Number.parseFloat(text.replace('−', '-'))));
   expect(residuals.length).toBeGreaterThan(20);
   expect(Math.max(...residuals)).toBeLessThan(0.1);
