@@ -91,7 +91,7 @@ pub const SET_POINT_STEP: Limits = Limits::new(-LEVEL.max, LEVEL.max);
 pub const LOAD_FLOW: Limits = Limits::new(-0.01, 0.01);
 /// Constant flow that a tank receives from outside (m³/s).
 pub const INFLOW: Limits = Limits::new(0.0, 0.01);
-/// Change of a valve fraction, or of a pump or an outlet as a share of what it is.
+/// Change of a valve fraction γ; or relative change of the flow of a pump, or of the area of an outlet (1 is 100 %).
 pub const LOAD_SHARE: Limits = Limits::new(-1.0, 1.0);
 /// Standard deviation of the noise on the flow of a pump (m³/s).
 pub const PUMP_FLOW_NOISE_STD: Limits = Limits::new(0.0, LOAD_FLOW.max);

@@ -194,7 +194,7 @@ fn coefficient_order(setup: &TuningSetup) -> Option<TuningWarning> {
         let (read, reversed) = (longest(lag_of), longest(reversed_lag_of));
         let far_apart = (reversed / read).ln().abs() >= FAR_APART.ln();
         let is_turned = far_apart && !plausible(read) && plausible(reversed);
-        // Integrating and biproper elements are none of the lags that are told apart here.
+        // The order is judged by time constants, which an integrating or biproper element does not show.
         let is_lag = |of: &Element| {
             let element = of.transfer_function();
             element.is_ok_and(|element| element.integrators() == 0 && element.feedthrough() == 0.0)
@@ -211,7 +211,8 @@ fn coefficient_order(setup: &TuningSetup) -> Option<TuningWarning> {
     })
 }
 
-/// Whether the last coefficient that is not zero is 1, and the first one is neither that nor 0, with which nobody writes a highest power.
+/// Whether a denominator looks as if it had been written highest power first: its last nonzero coefficient is 1, and its first one is
+/// neither 1 nor 0, because nobody writes a highest power with the coefficient 0.
 fn ends_with_one(element: &Element) -> bool {
     let last = element.denominator.iter().rev().find(|&&a| a != 0.0);
     last == Some(&1.0) && !matches!(element.denominator.first(), Some(&1.0 | &0.0))

@@ -26,7 +26,7 @@ impl TransferFunction {
         }
     }
 
-    /// Direct feedthrough: what is left of the rational part at infinite frequency. 0 for a strictly proper element, infinite for an
+    /// Direct feedthrough: the gain of the rational part at infinite frequency. 0 for a strictly proper element, infinite for an
     /// improper one.
     pub fn feedthrough(&self) -> f64 {
         let degree = |of: &[f64]| of.iter().rposition(|&c| c != 0.0);

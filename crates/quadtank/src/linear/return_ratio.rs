@@ -16,8 +16,8 @@ pub struct ReturnRatio<'a> {
     at_infinity: Matrix2<f64>,
 }
 
-/// Share by which det(I + L) of an integrating plant differs from its pole at the origin at the lowest frequency, where no smaller
-/// one is asked for: rounding does not allow for less.
+/// Smallest relative deviation of det(I + L) of an integrating plant from its asymptote at the origin that the lowest frequency is
+/// chosen for; rounding hides smaller ones.
 const LEAST_DEVIATION: f64 = 1e-9;
 /// Decades that the lowest frequency is lowered by at most to get there.
 const DECADES: usize = 60;

@@ -8,9 +8,9 @@ use super::{Complex, LoopPeak};
 /// loop at one frequency, each the largest and the smallest: between them lies the amplification of every direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoopGains {
-    /// Of S: what is left of a disturbance at the outputs.
+    /// Of S: the gain from a disturbance at the outputs to the outputs.
     pub sensitivity: [f64; 2],
-    /// Of T: what arrives of a reference, and of the noise of the sensors.
+    /// Of T: the gain from references, and from the noise of the sensors, to the outputs.
     pub complementary: [f64; 2],
 }
 
