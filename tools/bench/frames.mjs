@@ -12,8 +12,8 @@ const EMPTY_PAGE_BAR = 2;
 
 // With every card: what Explore shows is a part of it.
 const HOME = { query: '?view=full', computeBar: COMPUTE_BAR_MS };
-const RELAY = { query: '?bench=relay-tuning' };
-const MODEL_FREE = { query: '?bench=model-free' };
+const RELAY = { query: '?bench=relay-tuning&view=full' };
+const MODEL_FREE = { query: '?bench=model-free&view=full' };
 
 /** Chooses one plant after the other. */
 async function choosePlants(page, moves) {
