@@ -60,6 +60,23 @@ for (const [width, height] of SIZES) {
   }
 }
 
+for (const lang of ['en', 'pt-BR', 'es']) {
+  test(`1440 × 900, ${lang}: every published rig has its whole page in the window`, async ({ lab, page }) => {
+    await page.setViewportSize({ width: 1440, height: 900 });
+    await lab.open(`lang=${lang}`);
+    const presets = await lab.id('preset').locator('option').evaluateAll((options) => options.map((option) => option.value).filter(Boolean));
+    expect(presets.length).toBeGreaterThan(3);
+    const tooHigh = [];
+    for (const preset of presets) {
+      await lab.id('preset').selectOption(preset);
+      await lab.settle();
+      const height = await page.evaluate(() => document.documentElement.scrollHeight);
+      if (height > 900) tooHigh.push(`${preset}: ${height}`);
+    }
+    expect(tooHigh).toEqual([]);
+  });
+}
+
 for (const [width, height] of [[1440, 900], [1920, 1080]]) {
   for (const lang of ['en', 'pt-BR']) {
     test(`${width} × ${height}, ${lang}: pictures keep their size while sentences change`, async ({ lab, page }) => {
