@@ -267,3 +267,69 @@ impl<'a> ModelFreeLoop<'a> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Matrix2x4, Matrix4, Matrix4x2};
+
+    use super::*;
+    use crate::control::ModelFreeSettings;
+
+    /// Two lower tanks that have nothing to do with each other, each with a drain (1/s) and a slope of its level (m/(s V)).
+    fn apart(drains: [f64; 2], slopes: [f64; 2]) -> Jacobian {
+        let mut a = Matrix4::zeros();
+        let mut b = Matrix4x2::zeros();
+        for i in 0..2 {
+            a[(i, i)] = -drains[i];
+            b[(i, i)] = slopes[i];
+        }
+        Jacobian { a, b, c: Matrix2x4::identity(), quasi_steady: [false, false, true, true] }
+    }
+
+    fn loops() -> [ModelFreeSettings; 2] {
+        let published = ModelFree::PUBLISHED.loops[0];
+        let other = ModelFreeSettings { model_gain: 2.5e-3, proportional: 0.7, integral: 0.2, ..published };
+        [published, other]
+    }
+
+    /// With the integral action as large as the rest, so that it counts.
+    #[test]
+    fn below_its_smallest_model_gain_an_integrator_swings() {
+        for (slope, proportional, integral, sampling_time_s) in [(6e-4, 2.0, 0.05, 1.0), (3e-3, 0.4, 1.7, 0.3)] {
+            let least = smallest_model_gain_of_integrator(slope, proportional, integral, sampling_time_s);
+            let stability = |share: f64| {
+                let model_gain = share * least;
+                let one = ModelFreeSettings { model_gain, proportional, integral, ..ModelFree::PUBLISHED.loops[0] };
+                let law = ModelFree { loops: [one; 2], estimator: None, sampling_time_s, ..ModelFree::PUBLISHED };
+                model_free_poles(&apart([0.0; 2], [slope; 2]), &law, 1.0).unwrap().stability
+            };
+            assert_eq!([1.001, 0.999].map(stability), [Stability::Stable, Stability::Unstable], "{least}");
+        }
+    }
+
+    /// The estimator of each loop remembers its own loop alone.
+    #[test]
+    fn poles_of_tanks_apart_are_those_of_each_loop() {
+        let plant = apart([0.01, 0.03], [6e-4, 9e-4]);
+        let [one, other] = loops();
+        for estimator in
+            [Window::Sliding, Window::Block].map(|window| EstimatorSettings { window, ..EstimatorSettings::PUBLISHED })
+        {
+            let poles = |loops: [ModelFreeSettings; 2], tanks: [usize; 2]| {
+                let plant = apart(tanks.map(|k| -plant.a[(k, k)]), tanks.map(|k| plant.b[(k, k)]));
+                let law = ModelFree { loops, estimator: Some(estimator), ..ModelFree::PUBLISHED };
+                model_free_poles(&plant, &law, 1.0).unwrap().poles_s
+            };
+            let together = poles([one, other], [0, 1]);
+            // Each alone comes twice here, since both tanks are then the same.
+            let mut apart: Vec<Complex> = [poles([one; 2], [0; 2]), poles([other; 2], [1; 2])].concat();
+            apart.sort_by(falling);
+            assert_eq!(apart.len(), 2 * together.len(), "{estimator:?}");
+            for pole in &together {
+                let nearest = apart.iter().map(|z| (z - pole).norm()).fold(f64::INFINITY, f64::min);
+                // A double eigenvalue is found to the root of the rounding error.
+                assert!(nearest < 1e-6, "{estimator:?} {pole}: {nearest}");
+            }
+        }
+    }
+}
