@@ -31,6 +31,9 @@ pub fn of_error(lab: Lab, unit: DisplayUnit, error: &ScenarioError) -> String {
         ScenarioError::UnknownVersion { found, newest } => {
             tr!(lab, refused.version, found = found, newest = newest)
         }
+        ScenarioError::Scene { index, error } => {
+            tr!(lab, refused.scene, number = index + 1, reason = of_error(lab, unit, error))
+        }
         ScenarioError::TooLong { length, max } => tr!(lab, refused.long, length = length, max = max),
         ScenarioError::DamagedLink => tr!(lab, refused.damaged),
         ScenarioError::Study { error, .. } => of_study_error(lab, unit, error),

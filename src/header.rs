@@ -15,6 +15,7 @@ use super::keep;
 use super::lab::{Lab, use_lab};
 use super::lessons::{LessonFiles, SidePage, is_for_here, use_classroom};
 use super::naming::{ExperimentName, NameFields};
+use super::scenes;
 use super::scripts::Scripts;
 use super::share;
 use super::storage::{DEPTH, LANGUAGE, THEME};
@@ -240,6 +241,11 @@ fn FileMenu() -> impl IntoView {
         input.set_value("");
     };
     let single = is_single_file();
+    let to_scenes = move |event| {
+        if is_for_here(&event) {
+            share::go_to_page(lab, SidePage::Scenes);
+        }
+    };
     view! {
         <details class="menu" data-testid="file-menu">
             <summary>{say!(lab, app.export)}</summary>
@@ -256,6 +262,10 @@ fn FileMenu() -> impl IntoView {
                 <Scripts />
                 <button type="button" data-testid="print" on:click=move |_| handout::print()>{say!(lab, handout.print)}</button>
                 <CsvStyleChoice />
+                <button type="button" data-testid="add-scene" disabled=move || scenes::is_full(lab) on:click=move |_| scenes::add_shown(lab)>
+                    {say!(lab, scenes.add)}
+                </button>
+                <a href=SidePage::Scenes.address() data-testid="to-scenes" on:click=to_scenes>{say!(lab, scenes.see)}</a>
                 <NameFields />
             </div>
             <input type="file" accept=".json,application/json" hidden node_ref=picker data-testid="open-input" on:change=on_file />

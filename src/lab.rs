@@ -16,7 +16,7 @@ use super::texts::Language;
 use super::widgets::Picture;
 use quadtank::literature::PresetId;
 use quadtank_figure::{Palette, Style};
-use quadtank_scenario::{CsvStyle, Document, ScenarioError};
+use quadtank_scenario::{CsvStyle, Document, ScenarioError, Scenes};
 
 /// For an audience charts are so much larger as the window is wider than this (CSS px), within limits.
 const PRESENTED_AT_PX: f64 = 860.0;
@@ -45,6 +45,12 @@ pub enum Notice {
     TableNotCopied,
     /// The browser remembers the link of the last experiment.
     Continue(String),
+    /// What is shown was added to the scenes, as which.
+    SceneAdded(usize),
+    /// A scene was removed from these.
+    SceneRemoved(Scenes),
+    /// A link or file brought other scenes than these.
+    ScenesReplaced(Scenes),
     /// What was loaded, by its name; it can be undone.
     Loaded(String),
     /// A rig was handed to relays with a dead time of its own (s), without which no relay would swing it.
@@ -92,6 +98,10 @@ pub struct State {
     pub large: RwSignal<Option<&'static str>>,
     /// The page that is shown in place of the benches, if one is.
     pub side: RwSignal<Option<SidePage>>,
+    /// The scenes of a lecture.
+    pub scenes: RwSignal<Scenes>,
+    /// The scene that is shown, by its place, while a lecture is going on.
+    pub scene: RwSignal<Option<usize>>,
     /// Whether the site works without a network.
     pub offline: RwSignal<bool>,
     /// What a lesson shows of the bench beside it, while one is taken.
@@ -158,6 +168,8 @@ impl Lab {
             presents: RwSignal::new(false),
             large: RwSignal::new(None),
             side: RwSignal::new(flags.page),
+            scenes: RwSignal::new(Scenes::default()),
+            scene: RwSignal::new(None),
             offline: RwSignal::new(false),
             stage: RwSignal::new(None),
             first_depth: depth,

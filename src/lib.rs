@@ -24,6 +24,7 @@ mod naming;
 mod notices;
 mod offline;
 mod pinned;
+mod scenes;
 mod scripts;
 mod session;
 mod share;

@@ -3,14 +3,16 @@
 use gloo_timers::callback::Timeout;
 use leptos::prelude::*;
 use quadtank::literature::DisplayUnit;
-use quadtank_scenario::document_from_link;
+use quadtank_scenario::{Scenes, document_from_link};
 
 use super::benches::{load, name_of};
 use super::errors::of_error;
 use super::keep;
 use super::lab::{Lab, Notice, use_lab};
-use super::lessons::LoadError;
+use super::lessons::{LoadError, SidePage};
 use super::offline;
+use super::scenes;
+use super::share;
 use super::texts::tr;
 
 /// How long a notice stays that needs no answer (ms): it lies over the page.
@@ -54,6 +56,15 @@ pub fn Notices() -> impl IntoView {
             </button>
         }
         .into_any(),
+        Notice::SceneAdded(number) => view! {
+            <div>{tr!(lab, scenes.added, number = number)}</div>
+            <button type="button" class="button small" data-testid="see-scenes" on:click=move |_| see_scenes(lab)>
+                {tr!(lab, scenes.see)}
+            </button>
+        }
+        .into_any(),
+        Notice::SceneRemoved(former) => bring_back(lab, tr!(lab, scenes.removed), tr!(lab, app.undo), former),
+        Notice::ScenesReplaced(former) => bring_back(lab, tr!(lab, scenes.replaced), tr!(lab, scenes.bring_back), former),
         Notice::Loaded(name) => view! {
             <div>{tr!(lab, app.loaded, name = name)}</div>
             <button type="button" class="button small" data-testid="undo-load" on:click=move |_| undo_load(lab)>
@@ -83,6 +94,7 @@ pub fn Notices() -> impl IntoView {
                 Notice::Copied
                     | Notice::TableCopied
                     | Notice::Loaded(_)
+                    | Notice::SceneAdded(_)
                     | Notice::ValvesOf(_)
                     | Notice::DeadTimeAdded(_)
             )
@@ -111,6 +123,22 @@ pub fn Notices() -> impl IntoView {
             })}
         </div>
     }
+}
+
+fn see_scenes(lab: Lab) {
+    lab.notice.set(None);
+    share::go_to_page(lab, SidePage::Scenes);
+}
+
+/// A sentence on scenes that are not in the list any more, and the way back to them.
+fn bring_back(lab: Lab, said: String, name: String, former: Scenes) -> AnyView {
+    view! {
+        <div>{said}</div>
+        <button type="button" class="button small" data-testid="bring-back" on:click=move |_| scenes::bring_back(lab, former.clone())>
+            {name}
+        </button>
+    }
+    .into_any()
 }
 
 fn undo_load(lab: Lab) {

@@ -7,11 +7,14 @@ use super::download::{copy, download_text};
 use super::lab::{Lab, Notice};
 use super::lessons::SidePage;
 use super::naming::file_name;
+use super::scenes;
 use super::start::StartFlags;
-use quadtank_scenario::{DOCUMENT_LIMIT, Document, ScenarioError, document_from_bytes, document_from_link};
+use quadtank_scenario::{DOCUMENT_LIMIT, Opened, ScenarioError, Scenes, document_from_link, opened_from_bytes};
 
 /// What stands before the link text in the fragment of an address.
 const PREFIX: &str = "lab=";
+/// The same before the link text of scenes.
+const SCENES_PREFIX: &str = "scenes=";
 /// Flags of what is shown in place of the benches, which an address of a bench has not.
 const ELSEWHERE: [&str; 3] = ["page", "lesson", "step"];
 /// A reference to this page without its query.
@@ -24,10 +27,22 @@ pub fn go_to_page(lab: Lab, page: SidePage) {
     lab.side.set(Some(page));
 }
 
-/// The document in the fragment of the address, if there is one.
-pub fn from_address() -> Option<Result<Document, ScenarioError>> {
+/// The document or the scenes in the fragment of the address, if there are any.
+pub fn from_address() -> Option<Result<Opened, ScenarioError>> {
     let fragment = window().location().hash().ok()?;
-    fragment.trim_start_matches('#').strip_prefix(PREFIX).map(document_from_link)
+    let fragment = fragment.trim_start_matches('#');
+    let document = fragment.strip_prefix(PREFIX).map(|link| document_from_link(link).map(Opened::Document));
+    let scenes = || fragment.strip_prefix(SCENES_PREFIX).map(|link| Scenes::from_link(link).map(Opened::Scenes));
+    document.or_else(scenes)
+}
+
+/// Shows what a link or a file holds.
+pub fn open(lab: Lab, outcome: Result<Opened, ScenarioError>) {
+    match outcome {
+        Ok(Opened::Scenes(scenes)) => scenes::open(lab, scenes),
+        Ok(Opened::Document(document)) => lab.open(Ok(document)),
+        Err(error) => lab.open(Err(error)),
+    }
 }
 
 /// The link of the bench that is shown.
@@ -111,11 +126,21 @@ pub fn share(lab: Lab) {
         Ok(address) => {
             let fragment = address.split_once('#').map_or("", |(_, fragment)| fragment);
             show_address(&format!("#{fragment}"));
-            copy(&address.clone(), move |copied| {
-                lab.notice.set(Some(if copied { Notice::Copied } else { Notice::CopyByHand(address) }));
-            });
+            hand_over(lab, address);
         }
     }
+}
+
+/// Puts an address on the clipboard; where there is none, shows it.
+pub fn hand_over(lab: Lab, address: String) {
+    copy(&address.clone(), move |copied| {
+        lab.notice.set(Some(if copied { Notice::Copied } else { Notice::CopyByHand(address) }));
+    });
+}
+
+/// A reference to this page that brings all scenes along.
+pub fn reference_of_scenes(lab: Lab) -> Result<String, ScenarioError> {
+    Ok(format!("{BARE}#{SCENES_PREFIX}{}", lab.scenes.with_untracked(Scenes::to_link)?))
 }
 
 /// Shows an address without loading it, and says whether it could: a sandboxed page may not touch its address, and goes on
@@ -159,7 +184,7 @@ pub fn follow_address(lab: Lab) {
         lab.depth.set(depth);
     }
     match from_address() {
-        Some(outcome) => lab.open(outcome),
+        Some(outcome) => open(lab, outcome),
         None => lab.bench.set(flags.bench.unwrap_or(&lab.benches[0])),
     }
 }
@@ -180,9 +205,9 @@ pub fn save(lab: Lab) {
     }
 }
 
-/// Opens an experiment from a file. One that is too long is refused by its size.
+/// Opens an experiment or scenes from a file. One that is too long is refused by its size.
 pub fn open_file(lab: Lab, file: &web_sys::File) {
-    read_file(lab, file, DOCUMENT_LIMIT, move |bytes| lab.open(document_from_bytes(&bytes)));
+    read_file(lab, file, DOCUMENT_LIMIT, move |bytes| open(lab, opened_from_bytes(&bytes)));
 }
 
 /// Reads a file of at most `limit` bytes, and hands them to `then`.

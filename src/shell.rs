@@ -15,6 +15,7 @@ use super::lessons::{self, Catalogue, Classroom, LessonPanel, SidePage, Teachers
 use super::messages;
 use super::notices::Notices;
 use super::offline;
+use super::scenes::{self, SceneBar, ScenesPage};
 use super::share;
 use super::start::StartFlags;
 use super::stopped::Stopped;
@@ -75,6 +76,13 @@ pub fn Laboratory(
             lab.present(false);
         }
         "f" | "F" if is_plain(&event) => lab.present(!untrack(|| lab.is_presenting())),
+        // The keys of a presenter in the hand. Sliders and handles have a use for them of their own.
+        key @ ("PageDown" | "PageUp")
+            if is_plain(&event) && !is_slider(&event) && lab.scene.get_untracked().is_some() =>
+        {
+            event.prevent_default();
+            scenes::step(lab, key == "PageDown");
+        }
         _ => {}
     });
     on_cleanup(move || {
@@ -94,6 +102,8 @@ pub fn Laboratory(
                 view! { <Header /> }.into_any()
             }}
             <Stopped />
+            // The header, with the title of the page, is away then.
+            <header class="visually-hidden" hidden=move || !lab.is_presenting()><h1>{say!(lab, app.title)}</h1></header>
             <button
                 type="button"
                 class="button end-presenting"
@@ -104,6 +114,7 @@ pub fn Laboratory(
                 {say!(lab, app.end_presenting)}
             </button>
             <Notices />
+            <SceneBar />
             <LessonHeader />
             <div class="desk" hidden=move || lab.side.get().is_some()>
                 <LessonPanel />
@@ -122,6 +133,7 @@ fn side_page(page: SidePage) -> AnyView {
         SidePage::Lessons => view! { <Catalogue /> }.into_any(),
         SidePage::Glossary => view! { <Glossary /> }.into_any(),
         SidePage::Teachers => view! { <Teachers /> }.into_any(),
+        SidePage::Scenes => view! { <ScenesPage /> }.into_any(),
     };
     view! { {content} <p class="paper-link" aria-hidden="true">{lessons::absolute(&page.address())}</p> }.into_any()
 }
@@ -173,6 +185,12 @@ fn is_plain(event: &ev::KeyboardEvent) -> bool {
     !(event.ctrl_key() || event.meta_key() || event.alt_key() || is_field())
 }
 
+/// Whether a key is pressed on a slider or a handle.
+fn is_slider(event: &ev::KeyboardEvent) -> bool {
+    let element = event.target().and_then(|target| target.dyn_into::<web_sys::Element>().ok());
+    element.is_some_and(|e| e.matches("input[type=range], [role=slider]").unwrap_or(false))
+}
+
 /// Closes the menus that are open, but for the one that was pressed.
 fn close_menus(pressed: Option<web_sys::EventTarget>) {
     let pressed = pressed.and_then(|target| target.dyn_into::<web_sys::Node>().ok());
@@ -199,9 +217,10 @@ fn start(benches: &'static [BenchEntry]) -> Lab {
     let depth = Depth::at_start(&flags, linked.is_some(), DEPTH.read().as_deref());
     let lab = Lab::new(benches, language, dark, depth, flags);
     lab.csv_style.set(remembered_style());
+    lab.scenes.set(scenes::remembered());
     // Before any bench is shown, so that its document is computed at once.
     if let Some(outcome) = linked {
-        lab.open(outcome);
+        share::open(lab, outcome);
     }
     let unknown = lab.flags.with_value(|flags| flags.unknown.clone());
     // A link that was refused matters more.

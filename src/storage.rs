@@ -1,4 +1,4 @@
-//! What the browser remembers: theme, language, depth, and the last experiment. Where there is no storage (a sandboxed frame),
+//! What the browser remembers: theme, language, depth, the last experiment, and scenes. Where there is no storage (a sandboxed frame),
 //! nothing is.
 
 use leptos::prelude::window;
@@ -17,6 +17,9 @@ pub const DEPTH: Preference = Preference("quadtank-depth");
 pub const CSV: Preference = Preference("quadtank-csv");
 /// The link of the last experiment.
 pub const LAST: Preference = Preference("quadtank-last");
+
+/// The scenes of a lecture, as their link.
+pub const SCENES: Preference = Preference("quadtank-scenes");
 
 /// Whether the progress in lessons may be kept: `yes` or `no`.
 pub const LESSONS_KEPT: Preference = Preference("quadtank-lessons-kept");

@@ -1,4 +1,4 @@
-//! Pages beside the benches: the list of lessons, the glossary, the page for teachers. Each has an address of its own.
+//! Pages beside the benches: the list of lessons, the glossary, the page for teachers, the scenes of a lecture. Each has an address of its own.
 
 use leptos::prelude::*;
 
@@ -11,11 +11,13 @@ pub enum SidePage {
     Glossary,
     /// For who teaches.
     Teachers,
+    /// The scenes of a lecture.
+    Scenes,
 }
 
 impl SidePage {
     /// All of them.
-    pub const ALL: [Self; 3] = [Self::Lessons, Self::Glossary, Self::Teachers];
+    pub const ALL: [Self; 4] = [Self::Lessons, Self::Glossary, Self::Teachers, Self::Scenes];
 
     /// Its name in an address.
     pub fn name(self) -> &'static str {
@@ -23,6 +25,7 @@ impl SidePage {
             Self::Lessons => "lessons",
             Self::Glossary => "glossary",
             Self::Teachers => "teachers",
+            Self::Scenes => "scenes",
         }
     }
 

@@ -1,5 +1,6 @@
 #[cfg(feature = "schema")]
 use schemars::JsonSchema;
+use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use super::error::{malformed, quoted};
@@ -16,7 +17,8 @@ use super::{BenchDocument, Scenario, ScenarioError, reader};
 pub const DOCUMENT_LIMIT: usize = 1024 * 1024;
 
 /// A document of any kind.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
 pub enum Document {
     /// A run of the quadruple tank, version 1.
     Quadruple(Scenario),
@@ -123,7 +125,7 @@ pub fn read_json<T: DeserializeOwned>(bytes: &[u8], limit: usize) -> Result<T, S
 /// Reads a document of any kind from what JSON was parsed to.
 ///
 /// A later version of a document is read here too: into its own types, then brought up to date.
-fn document_from_tree(tree: &Tree) -> Result<Document, ScenarioError> {
+pub(super) fn document_from_tree(tree: &Tree) -> Result<Document, ScenarioError> {
     let found = version_of(tree)?;
     match DocumentKind::of_version(found) {
         Some(kind) => (kind.read)(tree),
@@ -131,7 +133,7 @@ fn document_from_tree(tree: &Tree) -> Result<Document, ScenarioError> {
     }
 }
 
-fn tree_of(text: &str) -> Result<Tree, ScenarioError> {
+pub(super) fn tree_of(text: &str) -> Result<Tree, ScenarioError> {
     check_length(text.len())?;
     serde_json::from_str(text).map_err(|error| syntax_error(text, &error))
 }
@@ -192,6 +194,19 @@ pub fn to_json(document: &impl BenchDocument) -> Result<String, ScenarioError> {
 }
 
 impl Document {
+    /// Checks a document of any kind.
+    ///
+    /// # Errors
+    /// As [`BenchDocument::validate`].
+    pub fn validate(&self) -> Result<(), ScenarioError> {
+        match self {
+            Self::Quadruple(scenario) => scenario.validate(),
+            Self::Tuning(scenario) => scenario.validate(),
+            Self::ModelFree(scenario) => scenario.validate(),
+            Self::LevelLoop(scenario) => scenario.validate(),
+        }
+    }
+
     /// Writes a document of any kind as JSON.
     ///
     /// # Errors

@@ -86,6 +86,14 @@ pub enum ScenarioError {
         /// The limit.
         max: usize,
     },
+    /// A scene that cannot be read or written.
+    #[error("scenes[{index}].{error}")]
+    Scene {
+        /// Its place, from 0.
+        index: usize,
+        /// What is wrong with its document.
+        error: Box<ScenarioError>,
+    },
     /// A link that is cut off or damaged.
     #[error("the link is damaged or cut off")]
     DamagedLink,

@@ -24,6 +24,7 @@ mod published;
 mod quantities;
 mod reader;
 pub mod report;
+mod scenes;
 #[cfg(feature = "schema")]
 mod schema;
 mod setting;
@@ -45,5 +46,6 @@ pub use limits::Limits;
 pub use link::{LINK_LIMIT, document_from_link, to_link};
 pub use published::{level_loop_cases, model_free_cases, published_document, published_names};
 pub use quantities::{Quantities, QuantityRow, UnknownQuantity, bench_of, quantities_of};
+pub use scenes::{Opened, Scenes, opened_from_bytes};
 #[cfg(feature = "schema")]
 pub use schema::{schema_of, schema_of_report};

@@ -16,10 +16,11 @@ pub use package::LessonFiles;
 use super::catalogue::OwnFile;
 use super::classroom::tongue;
 use super::finish::link_of;
-use super::load;
-use super::place::lesson_address;
+use super::place::{SidePage, lesson_address};
+use super::{is_for_here, load};
 use crate::download::is_single_file;
 use crate::lab::{Lab, use_lab};
+use crate::share;
 use crate::texts::{say, tr};
 
 /// Everything for a course: lessons with answers, embeds, codes of reports.
@@ -27,6 +28,11 @@ use crate::texts::{say, tr};
 pub fn Teachers() -> impl IntoView {
     let lab = use_lab();
     let lessons = load::all();
+    let to_scenes = move |event| {
+        if is_for_here(&event) {
+            share::go_to_page(lab, SidePage::Scenes);
+        }
+    };
     view! {
         <main class="side-page teachers" id="bench" tabindex="-1" data-testid="teachers">
             <h2>{say!(lab, lesson.teachers)}</h2>
@@ -41,6 +47,7 @@ pub fn Teachers() -> impl IntoView {
             <section>
                 <h3>{say!(lab, lesson.projector)}</h3>
                 <p>{say!(lab, lesson.projector_lead)}</p>
+                <p><a class="button" href=SidePage::Scenes.address() on:click=to_scenes>{say!(lab, scenes.see)}</a></p>
             </section>
             <section>
                 <h3>{say!(lab, lesson.own)}</h3>
