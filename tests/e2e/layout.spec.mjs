@@ -77,6 +77,20 @@ for (const lang of ['en', 'pt-BR', 'es']) {
   });
 }
 
+test('in the colours of the reader charts keep their ground, and what is chosen stays told', async ({ lab, page }) => {
+  await page.emulateMedia({ forcedColors: 'active' });
+  await lab.open('lang=en');
+  const [chart, handles, chosen, other] = await page.evaluate(() => {
+    const plane = document.querySelector('[data-testid=valve-plane]').closest('.chart');
+    const [chosen, other] = [true, false].map((is) => document.querySelector(`.segmented button[aria-pressed="${is}"]`));
+    return [plane, plane.querySelector('svg'), chosen, other].map((element) => getComputedStyle(element).backgroundColor);
+  });
+  // The handles lie over the picture: a ground of their own would hide it.
+  expect(handles).toBe('rgba(0, 0, 0, 0)');
+  expect(chart).toBe('rgb(255, 255, 255)');
+  expect(chosen).not.toBe(other);
+});
+
 for (const [width, height] of [[1440, 900], [1920, 1080]]) {
   for (const lang of ['en', 'pt-BR']) {
     test(`${width} × ${height}, ${lang}: pictures keep their size while sentences change`, async ({ lab, page }) => {
