@@ -178,13 +178,13 @@ test('the point that a test found goes on to the placement, and the case says th
   await lab.open(BENCH);
   await choose(lab, 'case', 'table-12-row-2');
   const chosen = lab.id('case').locator('option:checked');
-  await expect(chosen).toHaveText('Table 12 · point 2');
+  await expect(chosen).toHaveText('PID by both loci, point 2 · Table 12');
   const found = await lab.id('test-figures').locator('tbody tr').evaluateAll((rows) => rows.map((row) => row.lastElementChild.textContent));
   await lab.id('test-take').click();
   await lab.settle();
   const taken = await lab.id('critical-point').locator('tbody tr').evaluateAll((rows) => rows.map((row) => row.cells[1].textContent));
   expect(taken.slice(0, 2)).toEqual(found.slice(0, 2));
-  await expect(chosen).toHaveText('changed: Table 12 · point 2');
+  await expect(chosen).toHaveText('changed: PID by both loci, point 2 · Table 12');
   // A test of one loop finds no point of both, and shows the settings of its own relay alone.
   await lab.id('test-single').click();
   await lab.settle();

@@ -9,6 +9,7 @@ use crate::texts::{say, tr};
 use crate::widgets::{Caption, Cells, Figures};
 use quadtank::literature::campestrini::{PrintedRemark, PublishedCase};
 use quadtank::study::relay_tuning::{PrintedFigure, printed_figures};
+use quadtank::tuning::{Action, PlacementMethod};
 
 /// The figures of the chosen case; nothing where none is chosen.
 #[component]
@@ -56,9 +57,14 @@ fn computed(style: NumberStyle, figure: &PrintedFigure) -> impl IntoView + use<>
     view! { <td class=if agrees { "good" } else { "warm" } data-agrees=agrees.to_string()>{format!("{sign} {number}")}</td> }
 }
 
-/// Name of a case in the language of the laboratory.
+/// What a case shows, and where it is printed.
 pub fn name_of_case(lab: Lab, case: PublishedCase) -> String {
     let PublishedCase { table, row } = case;
+    let placement = case.placement();
+    let action = match placement.action {
+        Action::Pi => "PI",
+        Action::Pid => "PID",
+    };
     match (table, row) {
         (0, _) => tr!(lab, relay.case_usol),
         (88, _) => tr!(lab, relay.case_full),
@@ -67,10 +73,14 @@ pub fn name_of_case(lab: Lab, case: PublishedCase) -> String {
             let rule = ["ZN PI", "ZN PID", "TL PI", "TL PID"][(row - 1).min(3)];
             tr!(lab, relay.case_rule, table = table, rule = rule)
         }
-        (6 | 11, _) => tr!(lab, relay.case_controller, table = table, row = row),
-        (14, 4) => tr!(lab, relay.case_other_target, table = table),
-        (5 | 9, _) => tr!(lab, relay.case_table, table = table),
-        _ => tr!(lab, relay.case_point, table = table, row = row),
+        (7 | 13, _) => tr!(lab, relay.case_point, table = table, row = row),
+        (5 | 9, _) => tr!(lab, relay.case_one_locus, table = table, action = action),
+        (6 | 11, _) => tr!(lab, relay.case_root, table = table, row = row, action = action),
+        (14, 4) => tr!(lab, relay.case_other_target, table = table, action = action),
+        _ if placement.method == PlacementMethod::OneLocus => {
+            tr!(lab, relay.case_one_locus_at, table = table, row = row, action = action)
+        }
+        _ => tr!(lab, relay.case_both_loci_at, table = table, row = row, action = action),
     }
 }
 
