@@ -21,6 +21,7 @@ use super::share;
 use super::storage::{DEPTH, LANGUAGE, THEME};
 use super::tables::CsvStyleChoice;
 use super::texts::{Language, say, tr};
+use super::tour;
 use super::widgets::{MODEL, Segmented};
 
 /// A link to a page beside the benches.
@@ -88,6 +89,8 @@ pub fn LessonHeader() -> impl IntoView {
 #[component]
 pub fn Header() -> impl IntoView {
     let lab = use_lab();
+    // The home bench has one.
+    let has_no_tour = move || lab.bench.get() != &lab.benches[0] || lab.side.get().is_some();
     view! {
         <header class="top">
             <button type="button" class="button skip" data-testid="skip" on:click=|_| focus_bench()>{say!(lab, app.skip)}</button>
@@ -115,6 +118,9 @@ pub fn Header() -> impl IntoView {
             <details class="menu about">
                 <summary>{say!(lab, app.about)}</summary>
                 <div>
+                    <button type="button" data-testid="begin-tour" hidden=has_no_tour on:click=move |_| tour::begin(lab)>
+                        {say!(lab, tour.begin)}
+                    </button>
                     <p class="links">
                         <SideLink page=SidePage::Glossary name=say!(lab, lesson.glossary) />
                         <SideLink page=SidePage::Teachers name=say!(lab, lesson.teachers) />

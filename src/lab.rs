@@ -102,6 +102,8 @@ pub struct State {
     pub scenes: RwSignal<Scenes>,
     /// The scene that is shown, by its place, while a lecture is going on.
     pub scene: RwSignal<Option<usize>>,
+    /// The stop of the tour that is shown, while there is one.
+    pub tour: RwSignal<Option<usize>>,
     /// Whether the site works without a network.
     pub offline: RwSignal<bool>,
     /// What a lesson shows of the bench beside it, while one is taken.
@@ -170,6 +172,7 @@ impl Lab {
             side: RwSignal::new(flags.page),
             scenes: RwSignal::new(Scenes::default()),
             scene: RwSignal::new(None),
+            tour: RwSignal::new(None),
             offline: RwSignal::new(false),
             stage: RwSignal::new(None),
             first_depth: depth,

@@ -37,6 +37,7 @@ mod storage;
 mod tables;
 mod texts;
 mod timing;
+mod tour;
 mod widgets;
 
 pub use benches::{BENCHES, BenchEntry};

@@ -22,6 +22,7 @@ use super::stopped::Stopped;
 use super::storage::{DEPTH, LANGUAGE, THEME};
 use super::tables::remembered_style;
 use super::texts::{Language, say, tr};
+use super::tour::Tour;
 
 /// The element of the page that the laboratory fills; it holds the static outline until then.
 const ROOT: &str = "app";
@@ -73,6 +74,7 @@ pub fn Laboratory(
         "Escape" => {
             close_menus(None);
             lab.large.set(None);
+            lab.tour.set(None);
             lab.present(false);
         }
         "f" | "F" if is_plain(&event) => lab.present(!untrack(|| lab.is_presenting())),
@@ -115,6 +117,7 @@ pub fn Laboratory(
             </button>
             <Notices />
             <SceneBar />
+            <Tour />
             <LessonHeader />
             <div class="desk" hidden=move || lab.side.get().is_some()>
                 <LessonPanel />

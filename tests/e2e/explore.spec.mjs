@@ -218,3 +218,26 @@ test('valves that are turned slowly across the line keep their place and a run',
   expect(await level(lab, 1)).toBeGreaterThan(0);
   await lab.clean();
 });
+
+test('the tour frames one thing after the other and ends where one likes', async ({ lab, page }) => {
+  for (const view of ['explore', 'full']) {
+    await lab.open(`lang=en&view=${view}`);
+    await page.locator('.about > summary').click();
+    await lab.id('begin-tour').click();
+    const framed = new Set();
+    for (let stop = 1; stop <= 5; stop += 1) {
+      expect(await lab.text('tour-place')).toBe(`${stop} of 5`);
+      await expect(page.locator('.framed')).toHaveCount(1);
+      framed.add(await page.locator('.framed').evaluate((element) => element.className));
+      if (stop === 2) await lab.axe();
+      await page.keyboard.press('Enter');
+    }
+    expect(framed.size).toBe(5);
+    await expect(lab.id('tour')).toBeHidden();
+    await expect(page.locator('.framed')).toHaveCount(0);
+  }
+  await page.locator('.about > summary').click();
+  await lab.id('begin-tour').click();
+  await page.keyboard.press('Escape');
+  await expect(lab.id('tour')).toBeHidden();
+});
