@@ -99,9 +99,10 @@ fn formula(session: Session) -> impl IntoView {
                 <mrow><mn>{first}</mn><mo>"·"</mo><mn>{second}</mn></mrow>
                 <mn>{below}</mn>
             </mfrac>
-            <mo>"="</mo>
-            <mn data-testid="lambda">{value}</mn>
         </math>
+        // By itself, so that the line can break before it in a narrow card.
+        " "
+        <math><mo>"="</mo><mn data-testid="lambda">{value}</mn></math>
     }
 }
 
