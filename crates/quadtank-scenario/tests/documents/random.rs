@@ -265,8 +265,8 @@ fn law() -> impl Strategy<Value = ModelFree> {
 }
 
 /// Without hoses that delay, which the model-free bench does not know.
-fn without_delay(plant: PlantSpec) -> PlantSpec {
-    let PlantSpec::Parameters { rig, display_unit } = plant else { return plant };
+fn without_delay(plant: &PlantSpec) -> PlantSpec {
+    let PlantSpec::Parameters { rig, display_unit } = *plant else { return *plant };
     let pumps = rig.pumps.map(|pump| Pump { delay_s: 0.0, ..pump });
     PlantSpec::Parameters { rig: QuadrupleTank { pumps, ..rig }, display_unit }
 }
@@ -275,7 +275,7 @@ pub fn model_free_setup(steps: usize) -> impl Strategy<Value = ModelFreeSetup> {
     let start = prop_oneof![Just(StartSpec::Empty), pair(limits::LEVEL).prop_map(StartSpec::Rest)];
     (plant(), [valve(), valve()], start, law(), prop::option::of(controller()), experiment(steps)).prop_map(
         |(plant, valves, start, controller, compare, experiment)| ModelFreeSetup {
-            plant: without_delay(plant),
+            plant: without_delay(&plant),
             valves: valves.map(|valve| turning_within(valve, limits::valve_frequency(experiment.duration_s))),
             start,
             controller,
