@@ -119,10 +119,10 @@ impl<'a> PiLoop<'a> {
     fn return_ratio(&self, z: Complex) -> Matrix2<Complex> {
         let settings = &self.controller.loops;
         let law = settings.map(|settings| tustin_pi(&settings, self.controller.sampling_time_s, z));
-        let delay = self.delay.map(|samples| z.powi(-samples));
+        let (earlier, delay) = (z.inv(), self.delay.map(|samples| z.powi(-samples)));
         Matrix2::from_fn(|lower, input| {
             let upper = lower + 2;
-            let arriving = |tank: usize| z.inv() * self.late[(tank, input)] + self.input[(tank, input)];
+            let arriving = |tank: usize| earlier * self.late[(tank, input)] + self.input[(tank, input)];
             let above = arriving(upper) / (z - self.transition[(upper, upper)]);
             let flow = above * self.transition[(lower, upper)] + arriving(lower);
             flow * self.sensor[lower] / (z - self.transition[(lower, lower)]) * law[input] * delay[input]
@@ -293,9 +293,10 @@ mod tests {
             let (a, b, c) = jacobian.reduced();
             StateSpace::strictly_proper(a, b, c).unwrap().sampled(duration).unwrap()
         };
-        let whole = jacobian.input_delay_s.map(|delay| (delay / ts).floor());
-        let rest = [0, 1].map(|pump: usize| jacobian.input_delay_s[pump] - whole[pump] * ts);
-        let steps = whole.map(|samples| samples as usize + 1);
+        let whole =
+            jacobian.input_delay_s.map(|delay| (1..=1000_u32).take_while(|&k| f64::from(k) * ts <= delay).count());
+        let rest = [0, 1].map(|pump: usize| jacobian.input_delay_s[pump] - whole[pump] as f64 * ts);
+        let steps = whole.map(|samples| samples + 1);
         let tanks = model(ts).a.nrows();
         let n = tanks + 2 + steps[0] + steps[1];
         let mut matrix = DMatrix::<f64>::zeros(n, n);
