@@ -336,6 +336,11 @@ test('a rig changes during a run, its pumps have a curve, and its levels can be 
   await lab.type('rig-start1', '3.5');
   await lab.settle();
   await expect(lab.id('process-sentence')).toContainText('3.5');
+  // A hose that delays its pump is told with the loop, whose poles are then not listed.
+  await lab.type('rig-start1', '0');
+  await lab.type('rig-delay1', '4');
+  await lab.settle();
+  await expect(lab.id('stability')).toContainText('dead time');
   await lab.clean();
   await lab.axe();
 });

@@ -109,6 +109,11 @@ export const CASES = [
       ],
     },
   },
+  {
+    name: 'hoses that delay the pumps',
+    document: 'crates/quadtank-scenario/tests/data/hoses.json',
+    set: {},
+  },
   { name: 'one loop open', preset: P_MINUS, set: { [`${second}.gain`]: 0 } },
   { name: 'a real sensor', preset: COCOTA_MINUS, set: { 'setup.experiment.measurement.quantised': true } },
   {

@@ -74,6 +74,7 @@ fn rig(setup: &Setup) -> Section {
                 pumps(|pump| pump.flow_max.unwrap_or(NO_LIMIT)),
                 "largest flow (m^3/s); 1e9 for none",
             ),
+            item("pump_delay", pumps(|pump| pump.delay_s), "transport delay of the hose behind the pump (s)"),
             item("gamma", Value::Numbers(plant.valves.to_vec()), "share of each pump that goes to its lower tank"),
             item("power_gain", Value::Number(plant.power_gain), "pump voltage per controller output"),
             item("sensor_gain", Value::Number(plant.sensor.gain), "k_c (V/m)"),
@@ -132,11 +133,9 @@ fn experiment(setup: &Setup) -> Section {
     let moves = experiment.pump_voltage_steps.iter().map(|step| (step.time_s, step.pump, step.voltage)).collect();
     let initial_level = experiment.initial_levels.map_or(Value::Missing, |levels| Value::Numbers(levels.to_vec()));
     let steps = experiment.set_point_steps.iter().map(|step| (step.time_s, step.level, step.size)).collect();
+    let acting = experiment.all_loads(setup.plant().inflow);
     let loads = |of: &dyn Fn(Load) -> Option<(usize, f64)>| {
-        let kind = experiment
-            .load_steps
-            .iter()
-            .filter_map(|step| of(step.load).map(|(index, size)| (step.time_s, index, size)));
+        let kind = acting.iter().filter_map(|step| of(step.load).map(|(index, size)| (step.time_s, index, size)));
         Value::Changes(in_order(kind.collect()))
     };
     Section {

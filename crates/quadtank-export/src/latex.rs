@@ -5,6 +5,7 @@ mod write;
 use nalgebra::DMatrix;
 use quadtank::control::{AntiWindup, LoopMode, PiSettings};
 use quadtank::linear::TransmissionZero;
+use quadtank::plant::Pump;
 use quadtank::study::quadruple_tank::{Analysis, Setup, analyse};
 use quadtank_scenario::{BenchDocument, Scenario};
 
@@ -52,7 +53,8 @@ pub fn latex(scenario: &Scenario) -> Result<String, ExportError> {
         ("c", of_model(&model.c)),
         ("d", of_model(&model.d)),
         ("poles", list(&analysis.linear.poles)),
-        ("transfer", transfer_matrix(&analysis)),
+        ("delays", delays(&setup.plant().pumps)),
+        ("transfer", transfer_matrix(&analysis, &setup.plant().pumps)),
         ("gain", matrix(analysis.linear.dc_gain.map(|row| row.map(number)))),
         ("zeros", zeros(&analysis)),
         ("relative_gains", relative_gains(&analysis)),
@@ -86,21 +88,32 @@ fn states(analysis: &Analysis) -> String {
 }
 
 /// G(s): one lag where a pump feeds a lower tank, two where its water passes an upper one (Johansson 2000, eq. 2). A dry tank
-/// passes its inflow on at once.
-fn transfer_matrix(analysis: &Analysis) -> String {
+/// passes its inflow on at once. The hose of a pump is a dead time.
+fn transfer_matrix(analysis: &Analysis, pumps: &[Pump; 2]) -> String {
     let element = |output: usize, input: usize| {
         let tanks = if output == input { vec![output] } else { vec![output, output + 2] };
         let lags = tanks.into_iter().filter_map(|tank| analysis.time_constants_s[tank]);
         let lags: Vec<String> = lags.map(|time| format!("({} s + 1)", number(time))).collect();
-        match (analysis.linear.dc_gain[output][input], lags.as_slice()) {
-            (0.0, _) => "0".to_owned(),
+        let element = match (analysis.linear.dc_gain[output][input], lags.as_slice()) {
+            (0.0, _) => return "0".to_owned(),
             (gain, []) => number(gain),
             (gain, [lag]) => format!("\\dfrac{{{}}}{{{}}}", number(gain), &lag[1..lag.len() - 1]),
             (gain, lags) => format!("\\dfrac{{{}}}{{{}}}", number(gain), lags.join(" ")),
-        }
+        };
+        let delay_s = pumps[input].delay_s;
+        if delay_s > 0.0 { format!("{element}\\, e^{{-{} s}}", number(delay_s)) } else { element }
     };
     // More room between rows of fractions.
     matrix([0, 1].map(|output| [0, 1].map(|input| element(output, input)))).replacen(" \\\\ ", " \\\\[2ex] ", 1)
+}
+
+/// What the hoses do to the inputs.
+fn delays(pumps: &[Pump; 2]) -> String {
+    if pumps.iter().all(|pump| pump.delay_s == 0.0) {
+        return String::new();
+    }
+    let [first, second] = pumps.map(|pump| number(pump.delay_s));
+    format!(" The inputs $u_1$ and $u_2$ act ${first}$\\,s and ${second}$\\,s late.")
 }
 
 fn zeros(analysis: &Analysis) -> String {

@@ -319,6 +319,13 @@ function simulate(level, voltage)
     changes = [PUMP_LOADS, TANK_FLOWS, LEAKS, PUMP_GAIN_CHANGES, VALVE_CHANGES, OUTLET_CHANGES]
     acting = [loads.pump_flow, loads.tank_flow, loads.leak_area, loads.pump_gain, loads.valve, loads.outlet]
     hand = copy(voltage)
+    # What the pumps did before: a sequence that begins with the run has filled the hoses.
+    flowing, under_way = copy(voltage), [Tuple{Float64, Float64}[] for _ in 1:2]
+    for move in eachrow(PUMP_MOVES)
+        pump = Int(move[2])
+        move[1] <= 0 && (flowing[pump] = clamp(move[3], PUMP_MIN[pump], PUMP_MAX[pump]))
+    end
+    sent = copy(flowing)
     rows = Vector{Float64}[]
     for k in 0:floor(Int, END_TIME / SAMPLING_TIME + 1e-9)
         time, last = k * SAMPLING_TIME, min((k + 1) * SAMPLING_TIME, END_TIME)
@@ -334,13 +341,25 @@ function simulate(level, voltage)
             voltage[pump] = clamp(hand[pump], PUMP_MIN[pump], PUMP_MAX[pump])
         end
         push!(rows, [time; level; reference; voltage])
-        # Loads begin at their exact times, between samples too.
+        for pump in 1:2
+            if voltage[pump] != sent[pump] || PUMP_DELAY[pump] == 0
+                push!(under_way[pump], (time + PUMP_DELAY[pump], voltage[pump]))
+            end
+        end
+        sent = copy(voltage)
+        # Loads begin, and flows arrive, at their exact times, between samples too.
         due = time + slack
         while time < last
             changes = [act!(values, pending, due) for (values, pending) in zip(acting, changes)]
-            coming = filter(begins -> begins < last - slack, vcat([pending[:, 1] for pending in changes]...))
+            for pump in 1:2
+                while !isempty(under_way[pump]) && under_way[pump][1][1] <= due
+                    flowing[pump] = popfirst!(under_way[pump])[2]
+                end
+            end
+            arrivals = [arrival for pending in under_way for (arrival, _) in pending]
+            coming = filter(begins -> begins < last - slack, vcat([pending[:, 1] for pending in changes]..., arrivals))
             next = minimum([coming; last])
-            fed = valve_flows(voltage, loads) .+ outside_flows(loads)
+            fed = valve_flows(flowing, loads) .+ outside_flows(loads)
             level = advance(level, fed, loads, next - time)
             time = due = next
         end
@@ -388,6 +407,10 @@ function check_linear_analysis(level)
         println("relative gain: none, the steady-state gain is singular")
     else
         agree("relative gain", relative_gain_array(gain)[1, 1], EXPECTED_LAMBDA, max(1.0, abs(EXPECTED_LAMBDA)))
+    end
+    if any(PUMP_DELAY .> 0)
+        println("closed-loop poles: none, with dead time there is one more for each sample of the delay")
+        return
     end
     moduli = sort(abs.(poles(closed_loop(plant))))
     agree("closed-loop poles, moduli", moduli, EXPECTED_MODULI, max(1.0, maximum(EXPECTED_MODULI)))

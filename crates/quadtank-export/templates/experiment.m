@@ -322,6 +322,15 @@ function run = simulate(p, level, voltage)
   changes = {p.pump_loads, p.tank_flows, p.leaks, p.pump_gain_changes, p.valve_changes, p.outlet_changes};
   steps = p.set_point_steps; reference = level(1:2);
   moves = p.pump_moves; hand = voltage;
+  % What the pumps did before: a sequence that begins with the run has filled the hoses.
+  acting = voltage; under_way = {zeros(0, 2), zeros(0, 2)};
+  for row = 1:size(moves, 1)
+    if moves(row, 1) <= 0
+      pump = moves(row, 2);
+      acting(pump) = min(max(moves(row, 3), p.pump_min(pump)), p.pump_max(pump));
+    end
+  end
+  sent = acting;
   if ~isempty(p.initial_level)
     level = p.initial_level;
   end
@@ -344,16 +353,27 @@ function run = simulate(p, level, voltage)
       end
     end
     rows(k + 1, :) = [time, level, reference, voltage];
-    % Loads begin at their exact times, between samples too.
+    for pump = 1:2
+      if voltage(pump) ~= sent(pump) || p.pump_delay(pump) == 0
+        under_way{pump}(end + 1, :) = [time + p.pump_delay(pump), voltage(pump)];
+      end
+    end
+    sent = voltage;
+    % Loads begin, and flows arrive, at their exact times, between samples too.
     due = time + slack;
     while time < last
       next = last;
+      for pump = 1:2
+        [under_way{pump}, acting(pump)] = arrive(under_way{pump}, acting(pump), due);
+        coming = under_way{pump}(:, 1);
+        next = min([next; coming(coming < last - slack)]);
+      end
       for kind = 1:numel(kinds)
         [changes{kind}, loads.(kinds{kind})] = take(changes{kind}, loads.(kinds{kind}), due);
         coming = changes{kind}(:, 1);
         next = min([next; coming(coming < last - slack)]);
       end
-      level = advance(p, level, valve_flows(p, voltage, loads) + outside_flows(p, loads), loads, next - time);
+      level = advance(p, level, valve_flows(p, acting, loads) + outside_flows(p, loads), loads, next - time);
       time = next;
       due = time;
     end
@@ -367,6 +387,14 @@ function [moves, hand] = move_pumps(moves, hand, time)
   while ~isempty(moves) && moves(1, 1) <= time
     hand(moves(1, 2)) = moves(1, 3);
     moves(1, :) = [];
+  end
+end
+
+function [under_way, voltage] = arrive(under_way, voltage, time)
+% Lets the voltage (V) act whose flow has passed the hose.
+  while ~isempty(under_way) && under_way(1, 1) <= time
+    voltage = under_way(1, 2);
+    under_way(1, :) = [];
   end
 end
 
@@ -415,6 +443,10 @@ function check_linear_analysis(p, level)
   else
     array = gain .* inv(gain).';  % Bristol 1966
     agree('relative gain', array(1, 1), p.expected_lambda, max(1, abs(p.expected_lambda)));
+  end
+  if any(p.pump_delay > 0)
+    disp('closed-loop poles: none, with dead time there is one more for each sample of the delay');
+    return;
   end
   moduli = reshape(sort(abs(pole(closed_loop(p, plant)))), 1, []);
   agree('closed-loop poles, moduli', moduli, p.expected_moduli, max(1, max(p.expected_moduli)));

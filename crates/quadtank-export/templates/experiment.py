@@ -268,6 +268,12 @@ def simulate(level, voltage):
         (list(PUMP_GAIN_CHANGES), loads.pump_gain), (list(VALVE_CHANGES), loads.valve), (list(OUTLET_CHANGES), loads.outlet),
     ]
     moves, hand = list(PUMP_MOVES), voltage.copy()
+    # What the pumps did before: a sequence that begins with the run has filled the hoses.
+    acting, under_way = voltage.copy(), [[], []]
+    for time, pump, value in moves:
+        if time <= 0.0:
+            acting[int(pump)] = min(max(value, PUMP_MIN[int(pump)]), PUMP_MAX[int(pump)])
+    sent = acting.copy()
     by_hand = sorted({int(pump) for _, pump, _ in PUMP_MOVES})
     rows = []
 
@@ -276,6 +282,12 @@ def simulate(level, voltage):
         while pending and pending[0][0] <= until:
             _, index, size = pending.pop(0)
             values[int(index)] += size
+
+    def arrive(until):
+        """Lets the voltages act whose flows have passed the hoses."""
+        for pump, pending in enumerate(under_way):
+            while pending and pending[0][0] <= until:
+                acting[pump] = pending.pop(0)[1]
 
     for k in range(int(END_TIME / SAMPLING_TIME + 1e-9) + 1):
         time, end = k * SAMPLING_TIME, min((k + 1) * SAMPLING_TIME, END_TIME)
@@ -289,17 +301,23 @@ def simulate(level, voltage):
         for pump in by_hand:  # no controller moves such a pump
             voltage[pump] = min(max(hand[pump], PUMP_MIN[pump]), PUMP_MAX[pump])
         rows.append((time, *level, *reference, *voltage))
-        # Loads begin at their exact times, between samples too.
-        for pending, acting in outside:
-            take(pending, time + slack, acting)
+        for pump in (0, 1):
+            if voltage[pump] != sent[pump] or PUMP_DELAY[pump] == 0.0:
+                under_way[pump].append((time + PUMP_DELAY[pump], voltage[pump]))
+        sent = voltage.copy()
+        # Loads begin, and flows arrive, at their exact times, between samples too.
+        for pending, values in outside:
+            take(pending, time + slack, values)
+        arrive(time + slack)
         while time < end:
-            coming = [pending[0][0] for pending, _ in outside if pending]
+            coming = [pending[0][0] for pending in [*under_way, *(pending for pending, _ in outside)] if pending]
             following = min([begin for begin in coming if begin < end - slack], default=end)
-            level = advance(level, valve_flows(voltage, loads) + outside_flows(loads), loads, following - time)
+            level = advance(level, valve_flows(acting, loads) + outside_flows(loads), loads, following - time)
             time = following
             if time < end:
-                for pending, acting in outside:
-                    take(pending, time, acting)
+                for pending, values in outside:
+                    take(pending, time, values)
+                arrive(time)
     if time > rows[-1][0]:
         rows.append((time, *level, *reference, *voltage))
     table = np.array(rows)
@@ -337,6 +355,9 @@ def check_linear_analysis(level, plant):
         print("relative gain: none, the steady-state gain is singular")
     else:
         agree("relative gain", relative_gain_array(gain)[0, 0], EXPECTED_LAMBDA, max(1.0, abs(EXPECTED_LAMBDA)))
+    if np.any(PUMP_DELAY > 0.0):
+        print("closed-loop poles: none, with dead time there is one more for each sample of the delay")
+        return
     moduli = np.sort(np.abs(closed_loop(plant).poles()))
     agree("closed-loop poles, moduli", moduli, EXPECTED_MODULI, max(1.0, EXPECTED_MODULI.max()))
 

@@ -60,7 +60,7 @@ pub enum RecordError {
     #[error("no column is the time")]
     NoTime,
     /// No column is a signal of the rig.
-    #[error("no column is a level, a reference or a pump voltage")]
+    #[error("no column is a level, a reference, a pump voltage or an inflow")]
     NoSignal,
     /// Two columns are said to be the same signal.
     #[error("columns {columns:?} are both {signal:?}")]
@@ -87,7 +87,7 @@ pub enum RecordError {
         after: f64,
     },
     /// A pump that moves more often than an experiment can hold.
-    #[error("pumps move {moves} times in the record; an experiment holds {max} moves")]
+    #[error("pumps, inflows or references move {moves} times in the record; an experiment holds {max} moves")]
     TooManyMoves {
         /// How often they move.
         moves: usize,

@@ -14,11 +14,13 @@ pub enum Signal {
     Reference(usize),
     /// Voltage of a pump (index 0 or 1).
     PumpVoltage(usize),
+    /// Flow into a tank from outside of the rig (index 0 to 3).
+    Inflow(usize),
 }
 
 impl Signal {
     /// All of them.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 13] = [
         Self::Time,
         Self::Level(0),
         Self::Level(1),
@@ -28,15 +30,20 @@ impl Signal {
         Self::Reference(1),
         Self::PumpVoltage(0),
         Self::PumpVoltage(1),
+        Self::Inflow(0),
+        Self::Inflow(1),
+        Self::Inflow(2),
+        Self::Inflow(3),
     ];
 
-    /// Its name on the command line: `time`, `level1`, `reference2`, `pump1`.
+    /// Its name on the command line: `time`, `level1`, `reference2`, `pump1`, `inflow3`.
     pub fn name(self) -> String {
         let (word, index) = match self {
             Self::Time => return "time".to_owned(),
             Self::Level(index) => ("level", index),
             Self::Reference(index) => ("reference", index),
             Self::PumpVoltage(index) => ("pump", index),
+            Self::Inflow(index) => ("inflow", index),
         };
         format!("{word}{}", index + 1)
     }
@@ -44,12 +51,14 @@ impl Signal {
     /// The units that it may be written in; the first one where nothing else is said.
     pub const fn units(self) -> &'static [Unit] {
         use Unit::{
-            Centimetre, Hour, Inch, Metre, Millimetre, Millisecond, Millivolt, Minute, Second, SensorVolt, Volt,
+            Centimetre, CubicCentimetre, CubicMetre, Hour, Inch, LitrePerMinute, Metre, Millimetre, Millisecond,
+            Millivolt, Minute, Second, SensorVolt, Volt,
         };
         match self {
             Self::Time => &[Second, Millisecond, Minute, Hour],
             Self::Level(_) | Self::Reference(_) => &[Centimetre, Metre, Millimetre, Inch, SensorVolt],
             Self::PumpVoltage(_) => &[Volt, Millivolt],
+            Self::Inflow(_) => &[CubicCentimetre, CubicMetre, LitrePerMinute],
         }
     }
 }
@@ -79,6 +88,12 @@ pub enum Unit {
     Volt,
     /// mV
     Millivolt,
+    /// cm³/s
+    CubicCentimetre,
+    /// m³/s
+    CubicMetre,
+    /// L/min
+    LitrePerMinute,
 }
 
 impl Unit {
@@ -95,13 +110,18 @@ impl Unit {
             Self::Inch => "in",
             Self::SensorVolt | Self::Volt => "V",
             Self::Millivolt => "mV",
+            Self::CubicCentimetre => "cm³/s",
+            Self::CubicMetre => "m³/s",
+            Self::LitrePerMinute => "L/min",
         }
     }
 
-    /// Its name on the command line: the symbol, but for volts of a level sensor.
+    /// Its name on the command line: the symbol, but for volts of a level sensor and for cubes.
     pub const fn name(self) -> &'static str {
         match self {
             Self::SensorVolt => "sensor-V",
+            Self::CubicCentimetre => "cm3/s",
+            Self::CubicMetre => "m3/s",
             other => other.symbol(),
         }
     }
@@ -109,12 +129,14 @@ impl Unit {
     /// What one of it is in SI, where level sensors give `sensor_gain` (V/m).
     pub fn in_si(self, sensor_gain: f64) -> f64 {
         match self {
-            Self::Second | Self::Metre | Self::Volt => 1.0,
+            Self::Second | Self::Metre | Self::Volt | Self::CubicMetre => 1.0,
             Self::Millisecond | Self::Millimetre | Self::Millivolt => 1e-3,
             Self::Minute => 60.0,
             Self::Hour => 3600.0,
             Self::Centimetre => 1e-2,
             Self::Inch => 0.0254,
+            Self::CubicCentimetre => 1e-6,
+            Self::LitrePerMinute => 1e-3 / 60.0,
             Self::SensorVolt => sensor_gain.recip(),
         }
     }
@@ -134,12 +156,17 @@ pub struct ColumnMeaning {
 pub struct Mapping(pub Vec<Option<ColumnMeaning>>);
 
 /// Words of names, as laboratories write them in English, Portuguese and Spanish. The first that fits counts.
-const WORDS: [(&str, Kind); 24] = [
+const WORDS: [(&str, Kind); 29] = [
     ("time", Kind::Time),
     ("tempo", Kind::Time),
     ("tiempo", Kind::Time),
     ("linear", Kind::Other),
     ("output", Kind::Other),
+    ("inflow", Kind::Inflow),
+    ("disturb", Kind::Inflow),
+    ("perturb", Kind::Inflow),
+    ("vazao", Kind::Inflow),
+    ("caudal", Kind::Inflow),
     ("reference", Kind::Reference),
     ("referencia", Kind::Reference),
     ("setpoint", Kind::Reference),
@@ -168,6 +195,7 @@ enum Kind {
     Level,
     Reference,
     Pump,
+    Inflow,
     Other,
 }
 
@@ -233,6 +261,9 @@ fn meaning_of(name: &str) -> Option<ColumnMeaning> {
         Kind::Level => Signal::Level(within(4)?),
         Kind::Reference => Signal::Reference(within(2)?),
         Kind::Pump => Signal::PumpVoltage(within(2)?),
+        Kind::Inflow => {
+            return Some(ColumnMeaning { signal: Signal::Inflow(within(4)?), unit: unit_of_flow(&name) });
+        }
         Kind::Other => return None,
     };
     Some(ColumnMeaning { signal, unit: unit_of(signal, unit) })
@@ -253,6 +284,18 @@ fn split_unit(name: &str) -> (&str, &str) {
             if unit.chars().any(|c| c.is_ascii_digit()) { (name, "") } else { (words, unit) }
         }
         None => (name, ""),
+    }
+}
+
+/// The unit of a flow by what its name has of one, or the usual one. Its slash and its digit stand in the way of [`split_unit`].
+fn unit_of_flow(name: &str) -> Unit {
+    let has = |parts: &[&str]| parts.iter().any(|part| name.contains(part));
+    if has(&["l/min", "lpm"]) {
+        Unit::LitrePerMinute
+    } else if has(&["m3", "m³"]) && !has(&["cm3", "cm³"]) {
+        Unit::CubicMetre
+    } else {
+        Unit::CubicCentimetre
     }
 }
 
@@ -283,6 +326,10 @@ mod tests {
             ("pump_voltage_1_v", Signal::PumpVoltage(0), Unit::Volt),
             ("u2 (mV)", Signal::PumpVoltage(1), Unit::Millivolt),
             ("Bomba 1", Signal::PumpVoltage(0), Unit::Volt),
+            ("inflow 3", Signal::Inflow(2), Unit::CubicCentimetre),
+            ("Inflow_4 (m3/s)", Signal::Inflow(3), Unit::CubicMetre),
+            ("disturbance1 [cm³/s]", Signal::Inflow(0), Unit::CubicCentimetre),
+            ("Vazão 2 (L/min)", Signal::Inflow(1), Unit::LitrePerMinute),
         ] {
             assert_eq!(meaning_of(name), Some(ColumnMeaning { signal, unit }), "{name}");
         }

@@ -1,10 +1,12 @@
-use quadtank::sim::PumpVoltageStep;
+use quadtank::sim::{InflowStep, PumpVoltageStep};
 
 use crate::{Mapping, RecordError, Signal, Table};
 
 /// A pump that moves by less than this (V) stands still: it is far below what a converter resolves, 2.4 mV with 12 bits over 10 V, and it
 /// spares a document the thousands of last moves of a loop that comes to rest.
 const LEAST_MOVE_V: f64 = 1e-4;
+/// The same for a flow from outside (m³/s).
+const LEAST_MOVE_OF_FLOW: f64 = 1e-9;
 
 /// A record of a rig in SI, from its first time on. Signals that were not recorded are empty; a hole is not a number.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -17,6 +19,8 @@ pub struct Record {
     pub references: [Vec<f64>; 2],
     /// Voltages of pumps 1 and 2 (V).
     pub pump_voltage: [Vec<f64>; 2],
+    /// Flow into tanks 1 to 4 from outside (m³/s).
+    pub inflow: [Vec<f64>; 4],
     /// Rows that were left out since they have the time of the row before.
     pub repeated: usize,
     /// Cells of the signals that are holes.
@@ -44,6 +48,7 @@ impl Record {
             levels: [0, 1, 2, 3].map(|tank| kept(Signal::Level(tank))),
             references: [0, 1].map(|level| kept(Signal::Reference(level))),
             pump_voltage: [0, 1].map(|pump| kept(Signal::PumpVoltage(pump))),
+            inflow: [0, 1, 2, 3].map(|tank| kept(Signal::Inflow(tank))),
             repeated: table.len() - rows.len(),
             missing: 0,
             time_s,
@@ -53,7 +58,7 @@ impl Record {
     }
 
     fn columns(&self) -> impl Iterator<Item = &Vec<f64>> {
-        self.levels.iter().chain(&self.references).chain(&self.pump_voltage)
+        self.levels.iter().chain(&self.references).chain(&self.pump_voltage).chain(&self.inflow)
     }
 
     /// How long it is (s).
@@ -82,15 +87,34 @@ impl Record {
     }
 
     fn moves_of(&self, pump: usize) -> impl Iterator<Item = PumpVoltageStep> {
-        let mut last = None::<f64>;
-        self.time_s.iter().zip(&self.pump_voltage[pump]).filter_map(move |(&time_s, &voltage)| {
-            let moves = !voltage.is_nan() && last.is_none_or(|last| (voltage - last).abs() > LEAST_MOVE_V);
-            moves.then(|| {
-                last = Some(voltage);
-                PumpVoltageStep { pump, time_s, voltage }
-            })
-        })
+        let moves = moves(&self.time_s, &self.pump_voltage[pump], LEAST_MOVE_V);
+        moves.map(move |(time_s, voltage)| PumpVoltageStep { pump, time_s, voltage })
     }
+
+    /// The moves of the inflows that were recorded, each value until the next one that differs by 1 mm³/s.
+    ///
+    /// # Errors
+    /// [`RecordError::TooManyMoves`] beyond `most` moves.
+    pub fn inflow_moves(&self, most: usize) -> Result<Vec<InflowStep>, RecordError> {
+        let of_tank = |tank: usize| {
+            let moves = moves(&self.time_s, &self.inflow[tank], LEAST_MOVE_OF_FLOW);
+            moves.map(move |(time_s, flow)| InflowStep { tank, time_s, flow })
+        };
+        let moves: Vec<InflowStep> = (0..4).flat_map(of_tank).collect();
+        if moves.len() > most { Err(RecordError::TooManyMoves { moves: moves.len(), max: most }) } else { Ok(moves) }
+    }
+}
+
+/// When a recorded signal has moved by more than `least`, and to which value, from its first one on.
+fn moves<'a>(time_s: &'a [f64], column: &'a [f64], least: f64) -> impl Iterator<Item = (f64, f64)> + 'a {
+    let mut last = None::<f64>;
+    time_s.iter().zip(column).filter_map(move |(&time_s, &value)| {
+        let moves = !value.is_nan() && last.is_none_or(|last| (value - last).abs() > least);
+        moves.then(|| {
+            last = Some(value);
+            (time_s, value)
+        })
+    })
 }
 
 /// The rows whose times rise, and their times from the first one on (s).

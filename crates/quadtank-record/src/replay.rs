@@ -11,18 +11,19 @@ use crate::{Record, RecordError};
 const STILL: f64 = 1e-9;
 
 /// The setup in the experiment of a record: it begins at the first levels of the record, at rest where one was not recorded, and lasts as
-/// long. Pumps whose voltages were recorded follow them; where none was, the references follow the recorded ones. What the experiment of
-/// the setup did to the rig is not done; the measurement has no noise.
+/// long. Pumps whose voltages were recorded follow them; where none was, the references follow the recorded ones.
+/// Tanks whose inflow from outside was recorded receive it. What the experiment of the setup did to the rig is not done; the measurement has no noise.
 ///
 /// With both pumps recorded no controller acts, and the sampling time becomes the spacing of the record, so that every move of a pump
 /// is met.
 ///
 /// # Errors
-/// [`RecordError::TooManyMoves`] where pumps or references move more often than an experiment holds.
+/// [`RecordError::TooManyMoves`] where pumps, inflows or references move more often than an experiment holds.
 pub fn replay(record: &Record, setup: &Setup) -> Result<Setup, RecordError> {
     let mut replayed = setup.clone();
     let rest = setup.operating_point().ok();
     let moves = record.pump_moves(limits::MAX_PUMP_STEPS)?;
+    let inflows = record.inflow_moves(limits::MAX_PUMP_STEPS)?;
     if record.pump_voltage.iter().all(|column| !column.is_empty()) {
         replayed.controller.sampling_time_s = limits::SAMPLING_TIME_S.clamp(spacing(record));
     }
@@ -35,6 +36,7 @@ pub fn replay(record: &Record, setup: &Setup) -> Result<Setup, RecordError> {
         _ => Vec::new(),
     };
     experiment.pump_voltage_steps = moves;
+    experiment.inflow_steps = inflows;
     experiment.measurement = Measurement { noise_std: 0.0, ..experiment.measurement };
     experiment.initial_levels = first_levels(record, setup);
     Ok(replayed)
@@ -84,6 +86,7 @@ fn reference_steps(record: &Record, rest: &OperatingPoint) -> Result<Vec<SetPoin
 #[cfg(test)]
 mod tests {
     use quadtank::literature::PresetId;
+    use quadtank::sim::{Load, LoadStep};
     use quadtank::study::quadruple_tank::{run, setup_of};
     use quadtank_scenario::{Scenario, document_from_json, run_to_csv, to_json};
 
@@ -152,5 +155,28 @@ mod tests {
         };
         // A level above its wall is one at its wall.
         assert_eq!(replay(&record, &setup).unwrap().experiment.initial_levels, Some([0.05, 0.2, rest[2], rest[3]]));
+    }
+
+    #[test]
+    fn a_measured_inflow_is_received_again() {
+        let mut setup = setup_of(PresetId::JohanssonMinimumPhase);
+        (setup.experiment.duration_s, setup.experiment.set_point_steps) = (400.0, Vec::new());
+        let calm = recorded(&setup);
+        // 4 cm³/s into tank 3 from 60 s to 200 s: what a load does that comes and goes.
+        let load = |time_s, flow| LoadStep { time_s, load: Load::TankFlow { tank: 2, flow } };
+        setup.experiment.load_steps = vec![load(60.0, 4e-6), load(200.0, -4e-6)];
+        let disturbed = recorded(&setup);
+        let mut record = disturbed.clone();
+        record.inflow[2] =
+            record.time_s.iter().map(|&time| if (60.0..200.0).contains(&time) { 4e-6 } else { 0.0 }).collect();
+        let replayed = replay(&record, &setup).unwrap();
+        let steps: Vec<_> = replayed.experiment.inflow_steps.iter().map(|step| (step.time_s, step.flow)).collect();
+        assert_eq!(steps, [(0.0, 0.0), (60.0, 4e-6), (200.0, 0.0)]);
+        let rmse =
+            |record: &Record, setup: &Setup| agreement(record, &run(setup).unwrap().nonlinear).levels[0].unwrap().rmse;
+        // The controllers of the run moved the pumps, by some 0.1 mV less exactly than they did.
+        assert!(rmse(&record, &replayed) < 1e-5);
+        assert!(rmse(&record, &replay(&disturbed, &setup).unwrap()) > 1e-3, "without the column");
+        assert!(rmse(&calm, &replayed) > 1e-3);
     }
 }

@@ -103,7 +103,7 @@ pub const NOISE_STD: Limits = Limits::new(0.0, 1.0);
 pub const SEED: Limits = Limits::new(0.0, u32::MAX as f64);
 /// Steps in one list of an experiment.
 pub const MAX_STEPS: usize = 8;
-/// Steps of pumps that are moved by hand: a record of 2,000 rows in which a controller moved both at every row.
+/// Steps of pumps that are moved by hand, and of measured inflows: a record of 2,000 rows in which two of them moved at every row.
 pub const MAX_PUMP_STEPS: usize = 4000;
 
 /// Cross-section of a tank at any level (m²).
@@ -124,6 +124,8 @@ pub const PUMP_GAIN: Limits = Limits::new(1e-9, 1e-3);
 pub const PUMP_OFFSET: Limits = Limits::new(-1.0, 1.0);
 /// Largest flow of a pump (m³/s): up to that of the largest gain at the highest voltage.
 pub const PUMP_FLOW_MAX: Limits = Limits::new(1e-9, 1.0);
+/// Transport delay of the hose behind a pump (s).
+pub const PUMP_DELAY_S: Limits = Limits::new(0.0, 600.0);
 /// Gain of the power module.
 pub const POWER_GAIN: Limits = Limits::new(0.01, 100.0);
 /// Sensor gain (V/m).

@@ -5,7 +5,7 @@ use leptos::prelude::*;
 
 use super::flags::{locks, panels};
 use super::session::{Session, use_session};
-use super::start::{PumpControls, StartControls};
+use super::start::{InflowSteps, PumpControls, StartControls};
 use super::steps::AllSteps;
 use crate::controls::{ParamControl, ParamNumber, ParamRow};
 use crate::shown::{ShownUnit, finer_digits, to_shown};
@@ -233,13 +233,14 @@ fn MoreControls() -> impl IntoView {
     let is_used = session.document.with_untracked(|document| {
         let experiment = &document.setup.experiment;
         let is_moved = experiment.initial_levels.is_some() || !experiment.pump_voltage_steps.is_empty();
-        is_moved || experiment.pump_flow_noise_std > 0.0
+        is_moved || !experiment.inflow_steps.is_empty() || experiment.pump_flow_noise_std > 0.0
     });
     view! {
         <details class="more" data-testid="experiment-more" open=is_used>
             <summary>{say!(lab, experiment.more)}</summary>
             <StartControls />
             <PumpControls />
+            <InflowSteps />
             <p class="remark">{say!(lab, experiment.flow_noise)}</p>
             <ParamRow session control=&FLOW_NOISE />
             <AllSteps />

@@ -133,6 +133,12 @@ const fn tick_id(parameter: Parameter) -> &'static str {
         Parameter::OutletArea(_) => "fit-a4",
         Parameter::LevelOffset(0) => "fit-offset1",
         Parameter::LevelOffset(_) => "fit-offset2",
+        Parameter::PumpDelay(0) => "fit-delay1",
+        Parameter::PumpDelay(_) => "fit-delay2",
+        Parameter::StartLevel(0) => "fit-start1",
+        Parameter::StartLevel(1) => "fit-start2",
+        Parameter::StartLevel(2) => "fit-start3",
+        Parameter::StartLevel(_) => "fit-start4",
     }
 }
 
@@ -159,11 +165,12 @@ fn search(shown: RwSignal<Option<Shown>, LocalStorage>) {
 fn found(session: Session, shown: &Shown) -> impl IntoView + use<> {
     let lab = session.lab;
     let (report, rig) = (shown.fit.report(), shown.before.setup.plant());
+    let first = shown.fit.levels_before();
     let rows = {
         let report = report.clone();
         move || {
             let row = |estimate: &Estimate| {
-                let before = value(session, estimate.parameter, estimate.parameter.of(&rig));
+                let before = value(session, estimate.parameter, estimate.parameter.of(&rig, &first));
                 let bound =
                     if estimate.is_at_bound { format!(" ({})", tr!(lab, record.fit_bound)) } else { String::new() };
                 let after = format!("{}{bound}", value(session, estimate.parameter, estimate.value));
@@ -238,7 +245,8 @@ fn value(session: Session, parameter: Parameter, value: f64) -> String {
         Parameter::Valve(_) => style.significant(value, 3),
         Parameter::PumpGain(_) => format!("{}\u{a0}cm³/(s\u{a0}V)", style.significant(1e6 * value, 4)),
         Parameter::OutletArea(_) => format!("{}\u{a0}cm²", style.significant(1e4 * value, 4)),
-        Parameter::LevelOffset(_) => length(session, value),
+        Parameter::LevelOffset(_) | Parameter::StartLevel(_) => length(session, value),
+        Parameter::PumpDelay(_) => format!("{}\u{a0}s", style.significant(value, 3)),
     }
 }
 
@@ -248,5 +256,7 @@ fn name(lab: Lab, parameter: Parameter) -> String {
         Parameter::PumpGain(index) => tr!(lab, record.p_k, number = index + 1),
         Parameter::OutletArea(index) => tr!(lab, record.p_a, number = index + 1),
         Parameter::LevelOffset(index) => tr!(lab, record.p_offset, number = index + 1),
+        Parameter::PumpDelay(index) => tr!(lab, record.p_delay, number = index + 1),
+        Parameter::StartLevel(index) => tr!(lab, record.p_start, number = index + 1),
     }
 }

@@ -106,6 +106,14 @@ fn summary(session: Session) -> String {
     session
         .throttled
         .with_analysis(|a| {
+            if a.closed_loop.has_dead_time {
+                return tr!(
+                    lab,
+                    zeros.summary_delayed,
+                    poles = list(&mut a.linear.poles.iter().copied()),
+                    zeros = list(&mut a.linear.zeros.iter().flatten().map(|z| z.value))
+                );
+            }
             tr!(
                 lab,
                 zeros.summary,

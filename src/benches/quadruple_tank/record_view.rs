@@ -333,6 +333,7 @@ fn signal_name(lab: Lab, signal: Recorded) -> String {
         Recorded::Level(tank) => tr!(lab, record.level, number = tank + 1),
         Recorded::Reference(level) => tr!(lab, record.reference, number = level + 1),
         Recorded::PumpVoltage(pump) => tr!(lab, record.pump, number = pump + 1),
+        Recorded::Inflow(tank) => tr!(lab, record.inflow, number = tank + 1),
     }
 }
 

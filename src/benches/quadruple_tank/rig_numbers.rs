@@ -78,7 +78,7 @@ const TANKS: [RigNumber; 6] = [
     },
 ];
 
-const PUMPS: [RigNumber; 6] = [
+const PUMPS: [RigNumber; 7] = [
     RigNumber {
         ids: &["rig-gain1", "rig-gain2"],
         label: |lab| tr!(lab, rig.gain),
@@ -127,6 +127,14 @@ const PUMPS: [RigNumber; 6] = [
         // Where nothing but the voltage limits the flow, what the curve gives at the highest voltage is the most there is.
         get: |rig, k| rig.pumps[k].flow(rig.pumps[k].voltage_max),
         put: |rig, k, value| rig.pumps[k] = rig.pumps[k].limited_to(value),
+    },
+    RigNumber {
+        ids: &["rig-delay1", "rig-delay2"],
+        label: |lab| tr!(lab, rig.delay),
+        path: "plant.parameters.rig.pumps[].delay_s",
+        shown_per_unit: 1.0,
+        get: |rig, k| rig.pumps[k].delay_s,
+        put: |rig, k, value| rig.pumps[k].delay_s = value,
     },
 ];
 

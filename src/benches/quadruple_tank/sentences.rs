@@ -115,6 +115,11 @@ pub fn of_stability(session: Session) -> (String, bool) {
             let slowest = analysis.closed_loop.slowest();
             let number = |z: Complex| style.significant(z.re, 2);
             match (analysis.closed_loop.stability, slowest) {
+                (Stability::Stable, _) if analysis.closed_loop.has_dead_time => {
+                    let peak = analysis.closed_loop.sensitivity_peak.map_or(f64::NAN, |peak| peak.value);
+                    (tr!(lab, pi.stable_delayed, peak = style.significant(peak, 3)), false)
+                }
+                (Stability::Unstable, _) if analysis.closed_loop.has_dead_time => (tr!(lab, pi.unstable_delayed), true),
                 (Stability::Stable, Some(pole)) => {
                     let time = style.significant(1.0 / pole.re.abs(), 3);
                     let text = match analysis.closed_loop.sensitivity_peak {

@@ -140,3 +140,26 @@ pub fn PumpControls() -> impl IntoView {
         <p class="remark" hidden=move || !is_by_hand()>{say!(lab, experiment.pumps_remark)}</p>
     }
 }
+
+/// How many steps of measured inflows the document holds, and a button that takes them out.
+#[component]
+pub fn InflowSteps() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let count = session.part(|s| s.experiment.inflow_steps.len());
+    let remove = move |_| session.edit(|s| s.experiment.inflow_steps.clear());
+    view! {
+        <p class="remark" hidden=move || count.get() == 0 data-testid="inflow-steps">
+            {say!(lab, experiment.inflows, count = count.get())} " "
+            <button
+                type="button"
+                class="button small"
+                data-testid="inflow-remove"
+                disabled=lab.locks(locks::EXPERIMENT)
+                on:click=remove
+            >
+                {say!(lab, experiment.inflows_remove)}
+            </button>
+        </p>
+    }
+}

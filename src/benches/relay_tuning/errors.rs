@@ -20,6 +20,10 @@ pub fn sentence(lab: Lab, error: &TuningError) -> String {
         TuningError::UnstablePlant { real_part } => {
             tr!(lab, relay.error_unstable, real = number(real_part))
         }
+        TuningError::NoOwnGain { number, other_pairing } => {
+            let lead = tr!(lab, relay.error_no_gain, number = number);
+            if other_pairing { format!("{lead} {}", tr!(lab, relay.error_other_pairing)) } else { lead }
+        }
         TuningError::Linear(LinearError::SingularGain { .. }) => tr!(lab, relay.error_singular),
         TuningError::Linear(error) => tr!(lab, relay.error_plant, reason = error),
     }

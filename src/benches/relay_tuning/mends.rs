@@ -7,7 +7,7 @@ use super::pictures::short_name;
 use super::session::{Session, use_session};
 use crate::session::Lock;
 use crate::texts::tr;
-use quadtank::study::relay_tuning::{Mend, Tested, TuningPlant};
+use quadtank::study::relay_tuning::{Mend, Tested, TuningPlant, mend_pairing};
 
 /// A change that is offered.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,6 +63,11 @@ pub fn of_test(session: Session) -> Vec<Offer> {
 pub fn of_curve(session: Session) -> Vec<Offer> {
     let has_point = session.throttled.with_design(|design| design.critical.is_some());
     let lacks_point = has_point != Some(true);
+    let pairing = session.throttled.study.with(|study| study.as_ref().as_ref().err().and_then(mend_pairing));
+    if let Some(mend) = pairing {
+        let text = tr!(session.lab, mend.pairing);
+        return vec![Offer { id: "mend-pairing", text, lock: locks::PLANT, change: Change::Known(mend) }];
+    }
     lacks_point.then(|| dead_time(session, "mend-curve")).flatten().into_iter().collect()
 }
 

@@ -29,7 +29,8 @@ pub struct RecordOptions {
     /// Compare with the experiment of the scenario, not with that of the record
     #[arg(long)]
     own_experiment: bool,
-    /// Fit this parameter of the rig to the record; may be repeated: gamma1, gamma2, k1, k2, a1 to a4, offset1, offset2
+    /// Fit this parameter of the rig to the record; may be repeated: gamma1, gamma2, k1, k2, a1 to a4, offset1, offset2,
+    /// delay1, delay2 (of the hoses), start1 to start4 (levels at the beginning)
     #[arg(long = "fit", value_name = "PARAMETER", conflicts_with = "own_experiment", value_parser = parameter_of)]
     parameters: Vec<Parameter>,
     /// Write the scenario that was compared, with the fitted rig
@@ -75,7 +76,7 @@ fn parameter_of(name: &str) -> Result<Parameter, String> {
 
 /// `2=level1:mm`
 fn column_of(text: &str) -> Result<(usize, Option<ColumnMeaning>), String> {
-    const HOW: &str = "a number of a column from 1, =, and time, level1 to level4, reference1, reference2, pump1, pump2 or none, \
+    const HOW: &str = "a number of a column from 1, =, and time, level1 to level4, reference1, reference2, pump1, pump2, inflow1 to inflow4 or none, \
                        with : and a unit if need be";
     let (column, meaning) = text.split_once('=').ok_or(HOW)?;
     let column = column.parse().ok().filter(|&column| column > 0).ok_or(HOW)?;
@@ -106,13 +107,13 @@ pub fn execute(options: &RecordOptions) -> Result<(), Failure> {
     let wrong = |error| RecordFault::Record { file: file_name(&options.record), error };
     let record = Record::of(&table, &mapping, scenario.setup.plant().sensor.gain).map_err(wrong)?;
     let mut found = None;
+    if !options.own_experiment {
+        scenario.setup = replay(&record, &scenario.setup).map_err(wrong)?;
+    }
     if !options.parameters.is_empty() {
         let fit = fitted(&scenario.setup, &record, &options.parameters).map_err(wrong)?;
         scenario.setup = fit.setup(&scenario.setup);
         found = Some(fit.report());
-    }
-    if !options.own_experiment {
-        scenario.setup = replay(&record, &scenario.setup).map_err(wrong)?;
     }
     let run = nonlinear(&options.source.file, &scenario.setup)?;
     if let Some(out) = &options.scenario {

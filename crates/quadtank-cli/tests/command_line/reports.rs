@@ -156,7 +156,7 @@ fn reports_about_relay_tuning_are_what_their_schemas_say() {
         with(&case, &[("/tuning/plant", elements([0.0, 1.0, 1.0, 0.0]))]).to_string().as_bytes(),
     );
     let report = parsed(&stdout(&report));
-    assert_eq!(report["critical_curve"]["error"], json!("singular-gain"));
+    assert_eq!(report["critical_curve"]["error"], json!("no-own-gain"));
     assert_eq!(fault(&schema("analyse", 2).unwrap(), &report, ""), None);
 }
 

@@ -185,7 +185,7 @@ fn what_relay_tuning_refuses_is_said() {
     let greedy = json!(20);
     assert!(refused(&|t| (t["test"]["passes"], t["test"]["step"]) = (greedy.clone(), json!(0.004))).contains("passes"));
     // No way from pump 1 to level 1: nothing to tune with this pairing.
-    assert!(refused(&|t| t["plant"] = tank(json!({ "valves": [0.0, 0.6] }))).contains("singular"));
+    assert!(refused(&|t| t["plant"] = tank(json!({ "valves": [0.0, 0.6] }))).contains("in the other pairing"));
     let run_of_the_tank = preset(PresetId::JohanssonMinimumPhase);
     let output = pipe(&["tune", "-"], run_of_the_tank.as_bytes());
     assert_eq!(output.status.code(), Some(2));

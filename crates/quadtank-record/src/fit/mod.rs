@@ -15,6 +15,8 @@ use crate::{Record, RecordError, replay};
 
 /// Times that the solver may go through all parameters before it shows where it stands.
 const PATIENCE: usize = 2;
+/// First step at most, as a share of the size of the scaled coordinates: a longer one may leave the valley of a delay.
+const STEP_BOUND: f64 = 1.0;
 /// Most such rounds.
 const MOST_ROUNDS: usize = 40;
 /// A value this near to a bound, as a share of the range, is at it.
@@ -27,6 +29,8 @@ const SURE: f64 = 0.02;
 const SINGULAR: f64 = 1e-7;
 /// Standard error over the value from which on the record does not tell a parameter.
 const VAGUE: f64 = 0.25;
+/// The same for a delay or a level, which may be 0, as a share of the range in which it is sought.
+const VAGUE_SHARE: f64 = 0.05;
 
 /// A fitted parameter.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -80,7 +84,7 @@ impl Fit {
     pub fn new(setup: &Setup, record: &Record, parameters: &[Parameter]) -> Result<Self, RecordError> {
         let rig = setup.plant();
         let free = parameters.iter().map(|&parameter| Free { parameter, bounds: parameter.bounds(&rig) }).collect();
-        let problem = Problem::new(replay(record, setup)?, record, free);
+        let mut problem = Problem::new(replay(record, setup)?, record, free);
         if parameters.is_empty() || problem.count() == 0 {
             return Err(RecordError::NothingToFit);
         }
@@ -88,6 +92,7 @@ impl Fit {
             return Err(RecordError::TooFewValues { values: problem.count(), parameters: parameters.len() });
         }
         let first_rmse = rmse(&problem).ok_or(RecordError::CannotRun)?;
+        problem.place_delays();
         Ok(Self { problem, first_rmse, rounds: 0, converged: false, over: false })
     }
 
@@ -96,7 +101,11 @@ impl Fit {
         if self.over {
             return;
         }
-        let solver = LevenbergMarquardt::new().with_patience(PATIENCE).with_ftol(1e-10).with_xtol(1e-8);
+        let solver = LevenbergMarquardt::new()
+            .with_patience(PATIENCE)
+            .with_ftol(1e-10)
+            .with_xtol(1e-8)
+            .with_stepbound(STEP_BOUND);
         let (problem, report) = solver.minimize(self.problem.clone());
         self.problem = problem;
         self.rounds += 1;
@@ -115,14 +124,31 @@ impl Fit {
         rmse(&self.problem).unwrap_or(self.first_rmse)
     }
 
-    /// The setup with what has been found, in its own experiment. Where that is the experiment of the record, levels that were not
-    /// recorded begin at the rest of the rig that was found.
+    /// The levels that the fit began with (m): the first recorded ones, at rest where one was not recorded.
+    pub fn levels_before(&self) -> [f64; 4] {
+        self.problem.levels_before()
+    }
+
+    /// The setup with what has been found, in its own experiment. Where that is the experiment of the record, it begins at the levels that
+    /// were found, and levels that were neither sought nor recorded begin at the rest of the rig that was found.
     pub fn setup(&self, setup: &Setup) -> Setup {
         let found = self.problem.setup_with(&self.problem.values());
         let fitted = Setup { plant: found.plant, valves: found.valves, ..setup.clone() };
         let replayed = |setup: &Setup| replay(self.problem.record(), setup).ok();
         let is_of_record = replayed(setup).is_some_and(|replayed| replayed.experiment == setup.experiment);
-        if is_of_record { replayed(&fitted).unwrap_or(fitted) } else { fitted }
+        if !is_of_record {
+            return fitted;
+        }
+        let mut fitted = replayed(&fitted).unwrap_or(fitted);
+        let sought = self.problem.free.iter().zip(self.problem.values());
+        if let Some(levels) = &mut fitted.experiment.initial_levels {
+            for (free, value) in sought {
+                if let Parameter::StartLevel(tank) = free.parameter {
+                    levels[tank] = value;
+                }
+            }
+        }
+        fitted
     }
 
     /// What the record says, as far as the search has come.
@@ -148,7 +174,9 @@ impl Fit {
         });
         FitReport {
             alike: correlation.as_deref().map(|correlation| alike(correlation, &estimates)).unwrap_or_default(),
-            vague: (0..estimates.len()).filter(|&index| is_vague(&estimates[index])).collect(),
+            vague: (0..estimates.len())
+                .filter(|&index| is_vague(&estimates[index], self.problem.free[index].bounds))
+                .collect(),
             estimates,
             correlation,
             rmse: [self.first_rmse, self.rmse()],
@@ -191,9 +219,14 @@ fn alike(correlation: &[Vec<f64>], estimates: &[Estimate]) -> Vec<[usize; 2]> {
     pairs.filter(|&[i, j]| correlation[i][j].abs() > ALIKE && !(is_sure(i) && is_sure(j))).collect()
 }
 
-fn is_vague(estimate: &Estimate) -> bool {
-    let is_offset = matches!(estimate.parameter, Parameter::LevelOffset(_));
-    estimate.standard_error.is_none_or(|error| !is_offset && error > VAGUE * estimate.value.abs())
+/// Whether the standard error is a large share of the value, or, of what may well be 0, of the range of the search.
+fn is_vague(estimate: &Estimate, [low, high]: [f64; 2]) -> bool {
+    let least_told = match estimate.parameter {
+        Parameter::LevelOffset(_) => f64::INFINITY,
+        Parameter::PumpDelay(_) | Parameter::StartLevel(_) => VAGUE_SHARE * (high - low),
+        _ => VAGUE * estimate.value.abs(),
+    };
+    estimate.standard_error.is_none_or(|error| error > least_told)
 }
 
 #[cfg(test)]

@@ -1,5 +1,9 @@
 use quadtank::plant::QuadrupleTank;
+use quadtank_scenario::limits;
 use serde::{Deserialize, Serialize};
+
+/// The longest delay of a hose that is always sought (s).
+const LEAST_LONGEST_DELAY_S: f64 = 60.0;
 
 /// A parameter of a rig that can be fitted to a record.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -13,11 +17,15 @@ pub enum Parameter {
     OutletArea(usize),
     /// What the sensor of a lower tank (index 0 or 1) shows too much (m).
     LevelOffset(usize),
+    /// Transport delay θ of the hose behind a pump (index 0 or 1; s).
+    PumpDelay(usize),
+    /// Level of a tank at the beginning of the record (index 0 to 3; m), in the place of the recorded one or of the one at rest.
+    StartLevel(usize),
 }
 
 impl Parameter {
     /// All of them.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 16] = [
         Self::Valve(0),
         Self::Valve(1),
         Self::PumpGain(0),
@@ -28,15 +36,23 @@ impl Parameter {
         Self::OutletArea(3),
         Self::LevelOffset(0),
         Self::LevelOffset(1),
+        Self::PumpDelay(0),
+        Self::PumpDelay(1),
+        Self::StartLevel(0),
+        Self::StartLevel(1),
+        Self::StartLevel(2),
+        Self::StartLevel(3),
     ];
 
-    /// Its name on the command line and in reports: `gamma1`, `k2`, `a3`, `offset1`.
+    /// Its name on the command line and in reports: `gamma1`, `k2`, `a3`, `offset1`, `delay2`, `start4`.
     pub fn name(self) -> String {
         let (word, index) = match self {
             Self::Valve(index) => ("gamma", index),
             Self::PumpGain(index) => ("k", index),
             Self::OutletArea(index) => ("a", index),
             Self::LevelOffset(index) => ("offset", index),
+            Self::PumpDelay(index) => ("delay", index),
+            Self::StartLevel(index) => ("start", index),
         };
         format!("{word}{}", index + 1)
     }
@@ -52,37 +68,47 @@ impl Parameter {
             Self::Valve(_) => "1",
             Self::PumpGain(_) => "m³/(s V)",
             Self::OutletArea(_) => "m²",
-            Self::LevelOffset(_) => "m",
+            Self::LevelOffset(_) | Self::StartLevel(_) => "m",
+            Self::PumpDelay(_) => "s",
         }
     }
 
-    /// Its value on a rig; an offset begins at nothing.
-    pub const fn of(self, rig: &QuadrupleTank) -> f64 {
+    /// Its value on a rig whose water begins at the levels `first` (m); an offset begins at nothing.
+    pub const fn of(self, rig: &QuadrupleTank, first: &[f64; 4]) -> f64 {
         match self {
             Self::Valve(index) => rig.valves[index],
             Self::PumpGain(index) => rig.pumps[index].gain,
             Self::OutletArea(index) => rig.tanks[index].outlet.area,
             Self::LevelOffset(_) => 0.0,
+            Self::PumpDelay(index) => rig.pumps[index].delay_s,
+            Self::StartLevel(index) => first[index],
         }
     }
 
-    /// Puts a value on a rig; an offset is no part of it.
+    /// Puts a value on a rig; offsets and levels are no part of it.
     pub const fn put(self, rig: &mut QuadrupleTank, value: f64) {
         match self {
             Self::Valve(index) => rig.valves[index] = value,
             Self::PumpGain(index) => rig.pumps[index].gain = value,
             Self::OutletArea(index) => rig.tanks[index].outlet.area = value,
-            Self::LevelOffset(_) => {}
+            Self::PumpDelay(index) => rig.pumps[index].delay_s = value,
+            Self::LevelOffset(_) | Self::StartLevel(_) => {}
         }
     }
 
     /// Where it is sought: a valve over almost all of its travel, gains and areas from a fifth to five times of what they are, an offset
-    /// within a fifth of the wall.
+    /// within a fifth of the wall, a delay up to a minute or five times of what it is, a level within the walls.
     pub fn bounds(self, rig: &QuadrupleTank) -> [f64; 2] {
+        let five_times = |value: f64| [0.2 * value, 5.0 * value];
         match self {
             Self::Valve(_) => [0.01, 0.99],
-            Self::PumpGain(_) | Self::OutletArea(_) => [0.2 * self.of(rig), 5.0 * self.of(rig)],
+            Self::PumpGain(index) => five_times(rig.pumps[index].gain),
+            Self::OutletArea(index) => five_times(rig.tanks[index].outlet.area),
             Self::LevelOffset(index) => [-0.2 * rig.tanks[index].height, 0.2 * rig.tanks[index].height],
+            Self::PumpDelay(index) => {
+                [0.0, limits::PUMP_DELAY_S.clamp(f64::max(LEAST_LONGEST_DELAY_S, 5.0 * rig.pumps[index].delay_s))]
+            }
+            Self::StartLevel(index) => [0.0, rig.tanks[index].height],
         }
     }
 }

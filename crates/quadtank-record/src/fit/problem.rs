@@ -15,6 +15,9 @@ const SCALE: f64 = 0.01;
 /// Step of a numerical derivative, as a share of the range of the parameter.
 const STEP: f64 = 1e-5;
 
+/// Delays of a hose that are tried before the search.
+const PLACES: u32 = 10;
+
 /// A parameter with its bounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Free {
@@ -49,7 +52,7 @@ impl Free {
 #[derive(Clone, Debug)]
 pub struct Problem {
     pub free: Vec<Free>,
-    /// The experiment of the record, with the rig as it was.
+    /// The experiment of the record, with the rig as it was; it begins at the levels of [`first_levels`].
     setup: Setup,
     record: Record,
     /// Compared values: tank, row.
@@ -67,8 +70,43 @@ impl Problem {
         let compared =
             rows.flat_map(|row| (0..4).map(move |tank| (tank, row))).filter(|&(tank, row)| has(tank, row)).collect();
         let rig = setup.plant();
-        let at = DVector::from_iterator(free.len(), free.iter().map(|free| free.coordinate(free.parameter.of(&rig))));
+        let first = setup.experiment.initial_levels.unwrap_or_default();
+        let start = free.iter().map(|free| free.coordinate(free.parameter.of(&rig, &first)));
+        let at = DVector::from_iterator(free.len(), start);
         Self { free, setup, record: record.clone(), compared, at }
+    }
+
+    /// Begins with the best of some delays, one pump after the other: beyond the next move of a pump the sum of squares has other minima.
+    /// What the other parameters can explain, to first order, is not counted against a delay.
+    pub fn place_delays(&mut self) {
+        for index in 0..self.free.len() {
+            let free = self.free[index];
+            if !matches!(free.parameter, Parameter::PumpDelay(_)) {
+                continue;
+            }
+            let explained = self.slopes(&self.values()).map(|slopes| slopes.remove_column(index).qr().q());
+            let unexplained = |problem: &Self| {
+                let all = problem.differences(&problem.values())?;
+                let part = explained.as_ref().map_or(0.0, |basis| basis.tr_mul(&all).norm_squared());
+                Some(all.norm_squared() - part)
+            };
+            let shares = (0..PLACES).map(|k| (f64::from(k) + 0.5) / f64::from(PLACES));
+            let places = shares.map(|share| free.coordinate(free.bounds[0] + share * free.width()));
+            let mut best = (f64::INFINITY, self.at[index]);
+            for at in std::iter::once(self.at[index]).chain(places) {
+                self.at[index] = at;
+                let size = unexplained(self).unwrap_or(f64::INFINITY);
+                if size < best.0 {
+                    best = (size, at);
+                }
+            }
+            self.at[index] = best.1;
+        }
+    }
+
+    /// The levels that it began with (m).
+    pub fn levels_before(&self) -> [f64; 4] {
+        self.setup.experiment.initial_levels.unwrap_or_default()
     }
 
     pub fn record(&self) -> &Record {
@@ -97,6 +135,23 @@ impl Problem {
         setup
     }
 
+    /// The levels that a run begins at (m). Levels that were not recorded begin at the rest of the setup, and the water stood lower than
+    /// a sensor says that shows too much.
+    pub fn first_levels(&self, setup: &Setup, values: &[f64]) -> Option<[f64; 4]> {
+        let heights = setup.plant().tanks.map(|tank| tank.height);
+        let offsets = self.offsets(values);
+        let mut levels = first_levels(&self.record, setup)?;
+        for tank in 0..4 {
+            levels[tank] -= offsets[tank];
+        }
+        for (free, &value) in self.free.iter().zip(values) {
+            if let Parameter::StartLevel(tank) = free.parameter {
+                levels[tank] = value;
+            }
+        }
+        Some([0, 1, 2, 3].map(|tank| levels[tank].clamp(0.0, heights[tank])))
+    }
+
     fn offsets(&self, values: &[f64]) -> [f64; 4] {
         let mut offsets = [0.0; 4];
         for (free, &value) in self.free.iter().zip(values) {
@@ -111,11 +166,7 @@ impl Problem {
     pub fn differences(&self, values: &[f64]) -> Option<DVector<f64>> {
         let offsets = self.offsets(values);
         let mut setup = self.setup_with(values);
-        let heights = setup.plant().tanks.map(|tank| tank.height);
-        // Levels that were not recorded begin at the rest of these parameters, and the water stood lower than a sensor says that shows
-        // too much.
-        setup.experiment.initial_levels = first_levels(&self.record, &setup)
-            .map(|levels| [0, 1, 2, 3].map(|tank| (levels[tank] - offsets[tank]).clamp(0.0, heights[tank])));
+        setup.experiment.initial_levels = self.first_levels(&setup, values);
         let run = run(&setup).ok()?.nonlinear;
         let difference = |&(tank, row): &(usize, usize)| {
             let simulated = self.simulated(&run, tank, row)? + offsets[tank];

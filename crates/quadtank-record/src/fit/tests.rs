@@ -117,3 +117,64 @@ fn without_levels_or_parameters_there_is_nothing_to_fit() {
     let error = Fit::new(&setup, &short, &[Parameter::Valve(0), Parameter::Valve(1)]).unwrap_err();
     assert_eq!(error, RecordError::TooFewValues { values: 2, parameters: 2 });
 }
+
+/// A number from −1 to 1 for each place, by a sequence that is fixed.
+fn drawn(place: u32) -> f64 {
+    2.0 * (f64::from(place) * 0.618_033_988_749_895).fract() - 1.0
+}
+
+#[test]
+fn dead_times_and_first_levels_are_found_with_their_errors() {
+    for trial in 0..2 {
+        let draw = |k: u32| drawn(10 * trial + k + 1);
+        let delays = [12.0 + 8.0 * draw(0), 9.0 + 7.0 * draw(1)];
+        let starts = [0.03 + 0.02 * draw(2), 0.035 + 0.02 * draw(3)];
+        let valve = 0.65 + 0.1 * draw(4);
+        let mut setup = setup_of(PresetId::JohanssonMinimumPhase);
+        setup.experiment.duration_s = 800.0;
+        setup.experiment.set_point_steps.clear();
+        setup.experiment.pump_voltage_steps = binary_moves([2.5, 2.5], [3.5, 3.5], 40.0, 800.0);
+        let mut truth = setup.clone();
+        let mut rig = truth.plant();
+        for (pump, delay) in rig.pumps.iter_mut().zip(delays) {
+            pump.delay_s = delay;
+        }
+        truth.valves[0] = valve;
+        truth.plant = PlantSpec::Parameters { rig, display_unit: setup.plant.display_unit() };
+        truth.experiment.initial_levels = Some([0.11, 0.14, starts[0], starts[1]]);
+        let run = run(&truth).unwrap().nonlinear;
+        let signs: Vec<bool> = quadtank::sim::BinarySequence::from_bit(11).take(127).collect();
+        let noisy = |tank: usize| -> Vec<f64> {
+            let sign = |row: usize| if signs[(7 * row + 31 * tank) % 127] { 1.0 } else { -1.0 };
+            run.levels[tank].iter().enumerate().map(|(row, level)| level + 2e-4 * sign(row)).collect()
+        };
+        let record = Record {
+            levels: [noisy(0), noisy(1), vec![], vec![]],
+            pump_voltage: run.pump_voltage.clone(),
+            time_s: run.time_s.clone(),
+            ..Record::default()
+        };
+        let names = ["gamma1", "delay1", "delay2", "start3", "start4"];
+        let report = fitted(&record, &setup, &names);
+        assert!(report.converged && report.vague.is_empty() && report.alike.is_empty(), "{report:?}");
+        let truths = [valve, delays[0], delays[1], starts[0], starts[1]];
+        for (estimate, truth) in report.estimates.iter().zip(truths) {
+            let error = estimate.standard_error.unwrap();
+            // The first recorded levels are noisy, and the run begins at them: what that moves is not in the standard errors.
+            let slack = if matches!(estimate.parameter, Parameter::PumpDelay(_)) { 0.3 } else { 1.5e-3 };
+            assert!((estimate.value - truth).abs() < 4.0 * error + slack, "{truth}: {report:?}");
+        }
+        assert!(report.rmse[1] < 3e-4 && report.rmse[0] > 10.0 * report.rmse[1], "{:?}", report.rmse);
+    }
+}
+
+#[test]
+fn first_levels_that_were_found_are_those_of_the_experiment() {
+    let (record, setup) = recorded(|_| (), 0.0);
+    let setup = replay(&record, &setup).unwrap();
+    let mut fit = Fit::new(&setup, &record, &[Parameter::StartLevel(2)]).unwrap();
+    fit.advance();
+    let found = fit.setup(&setup).experiment.initial_levels.unwrap();
+    assert_eq!(found[2], fit.report().estimates[0].value);
+    assert_eq!(found[3], setup.operating_point().unwrap().levels[3]);
+}

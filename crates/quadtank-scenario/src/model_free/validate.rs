@@ -6,6 +6,10 @@ use quadtank::study::model_free::ModelFreeSetup;
 /// Checks what has to hold between the numbers of the setup at a path.
 pub fn setup(setup: &ModelFreeSetup, at: &str) -> Result<(), ScenarioError> {
     validate::plant(&setup.plant, &format!("{at}.plant"))?;
+    // What the law knows of its loop has no dead time.
+    validate::each(&setup.plant.rig().pumps, &format!("{at}.plant.parameters.rig.pumps"), |pump, at| {
+        Limits::new(0.0, 0.0).check(&format!("{at}.delay_s"), pump.delay_s)
+    })?;
     validate::each(&setup.valves, &format!("{at}.valves"), validate::valve)?;
     validate::law(&setup.controller, &format!("{at}.controller"))?;
     let sampling_time_s = setup.controller.sampling_time_s;

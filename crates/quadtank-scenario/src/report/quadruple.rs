@@ -79,7 +79,9 @@ pub struct ByPairing {
 pub struct ClosedLoopReport {
     /// Whether it is stable.
     pub stability: Stability,
-    /// Poles in the z-plane (no unit), by falling modulus.
+    /// Whether a hose delays a pump. Such a loop has a pole more for each sample of the delay: none is listed.
+    pub has_dead_time: bool,
+    /// Poles in the z-plane (no unit), by falling modulus; empty with dead time.
     pub poles_z: Vec<ComplexNumber>,
     /// The same mapped to the s-plane, ln(z)/Ts (1/s); a pole at z = 0 has no image and is left out.
     pub poles_s: Vec<ComplexNumber>,
@@ -130,6 +132,7 @@ impl From<&ClosedLoop> for ClosedLoopReport {
     fn from(closed_loop: &ClosedLoop) -> Self {
         Self {
             stability: closed_loop.stability,
+            has_dead_time: closed_loop.has_dead_time,
             poles_z: complex_numbers(&closed_loop.poles_z),
             poles_s: complex_numbers(&closed_loop.poles_s),
             sensitivity_peak: closed_loop.sensitivity_peak.map(|peak| peak.value),

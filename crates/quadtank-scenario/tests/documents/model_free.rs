@@ -80,3 +80,13 @@ fn an_old_link_still_opens() {
     assert_eq!(to_link(&scenario).as_deref(), Ok(link));
     assert_eq!(document_from_link(link), Ok(Document::ModelFree(scenario)));
 }
+
+#[test]
+fn a_hose_that_delays_is_refused_by_name() {
+    let document = include_str!("../data/everything-acts-model-free.json");
+    let mut document: serde_json::Value = serde_json::from_str(document).unwrap();
+    let pump = "/model_free/plant/parameters/rig/pumps/1";
+    document.pointer_mut(pump).unwrap()["delay_s"] = serde_json::json!(3.5);
+    let error = quadtank_scenario::document_from_json(&document.to_string()).unwrap_err().to_string();
+    assert_eq!(error, "model_free.plant.parameters.rig.pumps[1].delay_s: 3.5 is outside 0 to 0");
+}

@@ -9,7 +9,7 @@ use quadtank::control::{
 };
 use quadtank::literature::{DisplayUnit, PresetId};
 use quadtank::plant::{CrossSection, Outlet, Pump, QuadrupleTank, Sensor, Tank, ValveSchedule};
-use quadtank::sim::{Experiment, Load, LoadStep, Measurement, PumpVoltageStep, SetPointStep};
+use quadtank::sim::{Experiment, InflowStep, Load, LoadStep, Measurement, PumpVoltageStep, SetPointStep};
 use quadtank::study::model_free::{ModelFreeSetup, StartSpec};
 use quadtank::study::quadruple_tank::{OperatingPointSpec, PlantSpec, Setup};
 use quadtank_scenario::model_free::ModelFreeScenario;
@@ -50,9 +50,10 @@ fn tank() -> impl Strategy<Value = Tank> {
 
 fn pump() -> impl Strategy<Value = Pump> {
     let curve = (0.0..1.0_f64, 0.0..1.0_f64, prop::option::of(0.0..1.0_f64));
-    (within(limits::PUMP_GAIN), pair(limits::PUMP_VOLTAGE), prop::option::of(curve)).prop_map(
-        |(gain, [one, other], curve)| {
-            let straight = Pump::proportional(gain, one.min(other), one.max(other));
+    let delay = prop_oneof![Just(0.0), within(limits::PUMP_DELAY_S)];
+    (within(limits::PUMP_GAIN), pair(limits::PUMP_VOLTAGE), prop::option::of(curve), delay).prop_map(
+        |(gain, [one, other], curve, delay_s)| {
+            let straight = Pump { delay_s, ..Pump::proportional(gain, one.min(other), one.max(other)) };
             let Some((start, lost, most)) = curve else { return straight };
             let start_voltage = start * straight.voltage_max;
             let offset = -lost * gain * start_voltage;
@@ -135,13 +136,16 @@ fn experiment(steps: usize) -> impl Strategy<Value = Experiment> {
     // Every tank is that high.
     let level = Limits { max: limits::TANK_HEIGHT.min, ..limits::LEVEL };
     let flow_noise = prop_oneof![Just(0.0), within(limits::PUMP_FLOW_NOISE_STD)];
-    let start = (prop::option::of(prop::array::uniform4(within(level))), vec(by_hand, 0..=steps), flow_noise);
+    let inflow = (0..4_usize, within(limits::TIME_S), within(limits::INFLOW))
+        .prop_map(|(tank, time_s, flow)| InflowStep { tank, time_s, flow });
+    let own_levels = prop::option::of(prop::array::uniform4(within(level)));
+    let start = (own_levels, vec(by_hand, 0..=steps), vec(inflow, 0..=steps), flow_noise);
     let load = (within(limits::TIME_S), load).prop_map(|(time_s, load)| LoadStep { time_s, load });
     let measurement = (within(limits::NOISE_STD), any::<u32>(), any::<bool>())
         .prop_map(|(noise_std, seed, quantised)| Measurement { noise_std, seed, quantised });
     (within(limits::DURATION_S), vec(set_point, 0..=steps), vec(load, 0..=steps), measurement, start).prop_map(
         |(duration_s, set_point_steps, load_steps, measurement, start)| {
-            let (initial_levels, pump_voltage_steps, pump_flow_noise_std) = start;
+            let (initial_levels, pump_voltage_steps, inflow_steps, pump_flow_noise_std) = start;
             Experiment {
                 duration_s,
                 set_point_steps,
@@ -149,6 +153,7 @@ fn experiment(steps: usize) -> impl Strategy<Value = Experiment> {
                 measurement,
                 initial_levels,
                 pump_voltage_steps,
+                inflow_steps,
                 pump_flow_noise_std,
             }
         },
@@ -259,11 +264,18 @@ fn law() -> impl Strategy<Value = ModelFree> {
     )
 }
 
+/// Without hoses that delay, which the model-free bench does not know.
+fn without_delay(plant: &PlantSpec) -> PlantSpec {
+    let PlantSpec::Parameters { rig, display_unit } = *plant else { return *plant };
+    let pumps = rig.pumps.map(|pump| Pump { delay_s: 0.0, ..pump });
+    PlantSpec::Parameters { rig: QuadrupleTank { pumps, ..rig }, display_unit }
+}
+
 pub fn model_free_setup(steps: usize) -> impl Strategy<Value = ModelFreeSetup> {
     let start = prop_oneof![Just(StartSpec::Empty), pair(limits::LEVEL).prop_map(StartSpec::Rest)];
     (plant(), [valve(), valve()], start, law(), prop::option::of(controller()), experiment(steps)).prop_map(
         |(plant, valves, start, controller, compare, experiment)| ModelFreeSetup {
-            plant,
+            plant: without_delay(&plant),
             valves: valves.map(|valve| turning_within(valve, limits::valve_frequency(experiment.duration_s))),
             start,
             controller,

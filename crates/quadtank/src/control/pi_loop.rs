@@ -3,23 +3,31 @@
 use nalgebra::{DMatrix, Matrix2, Matrix4, Matrix4x2};
 
 use super::{DecentralisedPi, PiSettings};
-use crate::linear::{ClosedLoop, Complex, LinearError, ZeroOrderHold};
+use crate::linear::{Arithmetic, ClosedLoop, Complex, DelayedLoop, LinearError, ZeroOrderHold};
 use crate::plant::Jacobian;
 
 /// Poles, verdict and sensitivity peak of the sampled linear loop: the plant of `jacobian` under zero-order hold with
 /// the two PI laws by Tustin's rule (Cocota 2009, eq. 4.2), both in automatic mode and away from their limits.
 ///
 /// One state per tank that is not quasi-steady and one per loop. A loop with gain 0 does not act and its integral is left out.
-/// `power_gain` is that of the power module (V/V).
+/// `power_gain` is that of the power module (V/V). Hoses that delay the inputs are met exactly, also where a delay is no whole number of
+/// samples; such a loop has no list of poles.
 ///
 /// # Errors
-/// [`LinearError::NoConvergence`] when an entry of the closed-loop matrix is not finite.
+/// [`LinearError::NoConvergence`] when an entry of the closed-loop matrix is not finite; [`LinearError::OutOfRange`] where a delay turns
+/// the loop too often to be followed.
 pub fn closed_loop(
     jacobian: &Jacobian,
     controller: &DecentralisedPi,
     power_gain: f64,
 ) -> Result<ClosedLoop, LinearError> {
     let pi_loop = PiLoop::new(jacobian, controller, power_gain);
+    let delay_s = jacobian.input_delay_s[0].max(jacobian.input_delay_s[1]);
+    if delay_s > 0.0 {
+        let slowest = pi_loop.slowest_rate(jacobian);
+        let scales = (controller.sampling_time_s, slowest, delay_s);
+        return ClosedLoop::with_dead_time(&pi_loop, |z| pi_loop.return_ratio(z), scales);
+    }
     let matrix = pi_loop.state_matrix(jacobian.quasi_steady);
     ClosedLoop::new(&matrix, controller.sampling_time_s, |z| pi_loop.return_ratio(z))
 }
@@ -30,8 +38,12 @@ pub struct PiLoop<'a> {
     controller: &'a DecentralisedPi,
     /// State transition of the plant over one sample.
     transition: Matrix4<f64>,
-    /// What a controller output held for one sample does to the levels (m/V).
+    /// What a controller output held for one sample does to the levels within the sample in which it arrives (m/V).
     input: Matrix4x2<f64>,
+    /// What it does within the next one, where it arrives between two samples (m/V).
+    late: Matrix4x2<f64>,
+    /// Whole samples until it arrives.
+    delay: [i32; 2],
     /// Gain of the level sensors; 0 for a tank that is dry (V/m).
     sensor: [f64; 2],
 }
@@ -43,7 +55,37 @@ impl<'a> PiLoop<'a> {
         let by_pump = hold.response * jacobian.b * power_gain;
         let input = Matrix4x2::from_fn(|tank, i| by_pump[(tank, controller.pairing.pump_of(i))]);
         let sensor = [jacobian.c[(0, 0)], jacobian.c[(1, 1)]];
-        Self { controller, transition: hold.transition, input, sensor }
+        let (late, delay) = (Matrix4x2::zeros(), [0; 2]);
+        let mut pi_loop = Self { controller, transition: hold.transition, input, late, delay, sensor };
+        for i in 0..2 {
+            pi_loop.delay_input(i, jacobian, power_gain);
+        }
+        pi_loop
+    }
+
+    /// Takes the hose of the pump of a loop into account: `u(t − θ)` with `θ = d Ts + τ` is `u[k − d − 1]` until τ after a sample, and
+    /// `u[k − d]` from then on (Åström and Wittenmark 1997, §2.3).
+    #[expect(clippy::cast_possible_truncation, reason = "the number of samples in a delay")]
+    fn delay_input(&mut self, i: usize, jacobian: &Jacobian, power_gain: f64) {
+        let (pump, sampling_time_s) = (self.controller.pairing.pump_of(i), self.controller.sampling_time_s);
+        let delay_s = jacobian.input_delay_s[pump];
+        let samples = (delay_s / sampling_time_s + WHOLE).floor();
+        let rest_s = delay_s - samples * sampling_time_s;
+        self.delay[i] = samples as i32;
+        if rest_s > WHOLE * sampling_time_s {
+            let [before, after] = [rest_s, sampling_time_s - rest_s].map(|time| ZeroOrderHold::new(&jacobian.a, time));
+            let flow = jacobian.b.column(pump) * power_gain;
+            self.input.set_column(i, &(after.response * flow));
+            self.late.set_column(i, &(after.transition * (before.response * flow)));
+        }
+    }
+
+    /// The slowest rate of the plant and of the integrals (1/s).
+    fn slowest_rate(&self, jacobian: &Jacobian) -> f64 {
+        let plant = jacobian.a.diagonal();
+        let integrals = self.controller.loops.iter().map(|settings| settings.integral_time_s.recip());
+        let rates = plant.iter().map(|rate| rate.abs()).filter(|&rate| rate > 0.0).chain(integrals);
+        rates.fold(f64::INFINITY, f64::min)
     }
 
     /// State matrix of the closed loop without the tanks that are `quasi_steady`. States are levels (m), then one integral per
@@ -77,12 +119,52 @@ impl<'a> PiLoop<'a> {
     fn return_ratio(&self, z: Complex) -> Matrix2<Complex> {
         let settings = &self.controller.loops;
         let law = settings.map(|settings| tustin_pi(&settings, self.controller.sampling_time_s, z));
+        let (earlier, delay) = (z.inv(), self.delay.map(|samples| z.powi(-samples)));
         Matrix2::from_fn(|lower, input| {
             let upper = lower + 2;
-            let above = self.input[(upper, input)] / (z - self.transition[(upper, upper)]);
-            let flow = above * self.transition[(lower, upper)] + self.input[(lower, input)];
-            flow * self.sensor[lower] / (z - self.transition[(lower, lower)]) * law[input]
+            let arriving = |tank: usize| earlier * self.late[(tank, input)] + self.input[(tank, input)];
+            let above = arriving(upper) / (z - self.transition[(upper, upper)]);
+            let flow = above * self.transition[(lower, upper)] + arriving(lower);
+            flow * self.sensor[lower] / (z - self.transition[(lower, lower)]) * law[input] * delay[input]
         })
+    }
+
+    /// An element of the plant over the delay of its input, as a function of w = 1/z. A dry tank has none: its sensor is left out.
+    fn element<T: Arithmetic>(&self, lower: usize, input: usize, w: T) -> T {
+        let upper = lower + 2;
+        let lag = |tank: usize| w.over(T::real(1.0) + -(T::real(self.transition[(tank, tank)]) * w));
+        let arriving = |tank: usize| T::real(self.input[(tank, input)]) + T::real(self.late[(tank, input)]) * w;
+        if self.sensor[lower] == 0.0 {
+            return T::real(0.0);
+        }
+        let fall = self.transition[(lower, upper)];
+        let from_above = if fall == 0.0 { T::real(0.0) } else { arriving(upper) * lag(upper) * T::real(fall) };
+        (from_above + arriving(lower)) * lag(lower) * T::real(self.sensor[lower])
+    }
+}
+
+/// A delay that is a whole number of samples to this share of one is a whole number.
+const WHOLE: f64 = 1e-9;
+
+/// `det(I + L)` times `1 − w` for each loop that acts, whose law has its pole there: with `L = G K`, columns by loops.
+impl DelayedLoop for PiLoop<'_> {
+    fn terms<T: Arithmetic>(&self, w: T) -> [T; 4] {
+        let difference = T::real(1.0) + -w;
+        let parts = self.controller.loops.map(|settings| {
+            let integral = self.controller.sampling_time_s / (2.0 * settings.integral_time_s);
+            // Tustin's rule, (z + 1)/(z − 1) = (1 + w)/(1 − w).
+            let law = (difference + (T::real(1.0) + w) * T::real(integral)) * T::real(settings.gain);
+            if settings.gain == 0.0 { (T::real(1.0), T::real(0.0)) } else { (difference, law) }
+        });
+        let [(own_1, law_1), (own_2, law_2)] = parts;
+        let g = [0, 1].map(|lower| [0, 1].map(|input| self.element(lower, input, w)));
+        let determinant = g[0][0] * g[1][1] + -(g[0][1] * g[1][0]);
+        [own_1 * own_2, g[0][0] * law_1 * own_2, g[1][1] * law_2 * own_1, determinant * law_1 * law_2]
+    }
+
+    fn delays(&self) -> [f64; 4] {
+        let [first, second] = self.delay.map(f64::from);
+        [0.0, first, second, first + second]
     }
 }
 
@@ -98,7 +180,7 @@ mod tests {
 
     use super::*;
     use crate::control::{AntiWindup, LoopMode, Pairing, PiSettings};
-    use crate::linear::{Stability, StateSpace, singular_values};
+    use crate::linear::{LoopGains, Stability, StateSpace, singular_values};
     use crate::literature::PresetId;
 
     fn law(pairing: Pairing, gains: [f64; 2], integral_times: [f64; 2]) -> DecentralisedPi {
@@ -202,5 +284,110 @@ mod tests {
             assert_relative_eq!(peak, expected, max_relative = 1e-5);
             assert!(peak >= 1.0);
         }
+    }
+
+    /// Moduli of the poles of the sampled loop by its state matrix, with each output of the last samples as a state.
+    fn moduli_by_brute_force(jacobian: &Jacobian, controller: &DecentralisedPi, power_gain: f64) -> f64 {
+        let ts = controller.sampling_time_s;
+        let model = |duration: f64| {
+            let (a, b, c) = jacobian.reduced();
+            StateSpace::strictly_proper(a, b, c).unwrap().sampled(duration).unwrap()
+        };
+        let whole =
+            jacobian.input_delay_s.map(|delay| (1..=1000_u32).take_while(|&k| f64::from(k) * ts <= delay).count());
+        let rest = [0, 1].map(|pump: usize| jacobian.input_delay_s[pump] - whole[pump] as f64 * ts);
+        let steps = whole.map(|samples| samples + 1);
+        let tanks = model(ts).a.nrows();
+        let n = tanks + 2 + steps[0] + steps[1];
+        let mut matrix = DMatrix::<f64>::zeros(n, n);
+        matrix.view_mut((0, 0), (tanks, tanks)).copy_from(&model(ts).a);
+        let c = model(ts).c;
+        let mut place = tanks + 2;
+        for pump in 0..2 {
+            let lp = (0..2).find(|&i| controller.pairing.pump_of(i) == pump).unwrap();
+            let settings = controller.loops[lp];
+            let share = ts / settings.integral_time_s;
+            // u = K (1 + Ts/(2 Ti)) e + s, s+ = s + K Ts/Ti e, e = −C x.
+            let mut output = DMatrix::<f64>::zeros(1, n);
+            for state in 0..tanks {
+                output[(0, state)] = -settings.gain * (1.0 + share / 2.0) * c[(lp, state)];
+                matrix[(tanks + lp, state)] = -settings.gain * share * c[(lp, state)];
+            }
+            output[(0, tanks + lp)] = 1.0;
+            matrix[(tanks + lp, tanks + lp)] = 1.0;
+            // u[k − 1] … u[k − d − 1] at place …; u[k − d] is the output itself for d = 0.
+            let d = steps[pump] - 1;
+            let held = |age: usize| -> DMatrix<f64> {
+                if age == 0 {
+                    return output.clone();
+                }
+                let mut row = DMatrix::zeros(1, n);
+                row[(0, place + age - 1)] = 1.0;
+                row
+            };
+            let (early, late) = (model(ts - rest[pump]), model(rest[pump].max(1e-12)));
+            let first = early.b.column(pump) * power_gain;
+            let second = &early.a * late.b.column(pump) * power_gain;
+            let fed = first * held(d) + second * held(d + 1) * f64::from(u8::from(rest[pump] > 0.0));
+            let mut rows = matrix.view_mut((0, 0), (tanks, n));
+            rows += fed;
+            matrix.row_mut(place).copy_from(&output.row(0));
+            for age in 1..steps[pump] {
+                matrix[(place + age, place + age - 1)] = 1.0;
+            }
+            place += steps[pump];
+        }
+        crate::linear::eigenvalues(&matrix).unwrap().iter().map(|z| z.norm()).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn a_delayed_loop_is_judged_as_by_all_its_poles() {
+        let mut seen = [0, 0];
+        for (id, delays, gains, sampling_time_s) in [
+            (PresetId::JohanssonMinimumPhase, [3.0, 7.5], [1.0, 3.0], 1.0),
+            (PresetId::JohanssonMinimumPhase, [40.0, 0.0], [0.1, 2.0], 2.0),
+            (PresetId::JohanssonMinimumPhase, [0.0, 61.3], [0.3, 3.0], 3.0),
+            (PresetId::CocotaMinimumPhase, [12.0, 12.0], [0.3, 4.0], 1.5),
+            (PresetId::JohanssonNonMinimumPhase, [25.0, 10.0], [0.3, 3.0], 5.0),
+        ] {
+            let mut preset = id.preset();
+            for (pump, delay) in preset.plant.pumps.iter_mut().zip(delays) {
+                pump.delay_s = delay;
+            }
+            let jacobian = preset.plant.linearise(&preset.plant.free_equilibrium(preset.pump_voltage));
+            for step in 0..=16 {
+                let gain = gains[0] + (gains[1] - gains[0]) * f64::from(step) / 16.0;
+                let gains = preset.pi.gains.map(|own| own * gain);
+                let controller =
+                    DecentralisedPi { sampling_time_s, ..law(preset.pi.pairing, gains, preset.pi.integral_times_s) };
+                let radius = moduli_by_brute_force(&jacobian, &controller, preset.plant.power_gain);
+                let found = closed_loop(&jacobian, &controller, preset.plant.power_gain).unwrap();
+                let expected = if radius < 1.0 { Stability::Stable } else { Stability::Unstable };
+                assert_eq!(found.stability, expected, "{id:?} {delays:?} {gain}: {radius}");
+                seen[usize::from(radius < 1.0)] += 1;
+                let Some(peak) = found.sensitivity_peak else { continue };
+                let pi_loop = PiLoop::new(&jacobian, &controller, preset.plant.power_gain);
+                let nyquist = std::f64::consts::PI / sampling_time_s;
+                let dense =
+                    (1..=40_000).map(|k| LoopGains::of(&pi_loop.at(nyquist * f64::from(k) / 40_000.0)).sensitivity[0]);
+                // A grid of 40,000 points finds the peak to some 1e-6, the search to 1e-5.
+                assert_relative_eq!(peak.value, dense.fold(0.0, f64::max), max_relative = 1e-4);
+            }
+        }
+        assert!(seen[0] > 10 && seen[1] > 10, "{seen:?}");
+    }
+
+    #[test]
+    fn a_delay_that_vanishes_changes_nothing() {
+        let preset = PresetId::JohanssonMinimumPhase.preset();
+        let mut jacobian = preset.plant.linearise(&preset.plant.free_equilibrium(preset.pump_voltage));
+        let controller = law(preset.pi.pairing, preset.pi.gains, preset.pi.integral_times_s);
+        let without = closed_loop(&jacobian, &controller, 1.0).unwrap();
+        jacobian.input_delay_s = [1e-7; 2];
+        let with = closed_loop(&jacobian, &controller, 1.0).unwrap();
+        assert!(with.has_dead_time && with.poles_z.is_empty());
+        assert_eq!(with.stability, without.stability);
+        let [with, without] = [with, without].map(|closed| closed.sensitivity_peak.unwrap().value);
+        assert_relative_eq!(with, without, max_relative = 1e-5);
     }
 }

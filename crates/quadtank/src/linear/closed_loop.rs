@@ -2,12 +2,16 @@
 
 use nalgebra::{DMatrix, Matrix2};
 
-use super::sensitivity::sensitivity_peak;
+use super::delayed_loop::{self, DelayedLoop};
+use super::sensitivity::{delayed_sensitivity_peak, sensitivity_peak};
 use super::{Complex, LinearError, LoopPeak, Stability, UNIT_CIRCLE_TOLERANCE, eigenvalues, s_from_z};
 
 /// The poles of a sampled linear closed loop.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ClosedLoop {
+    /// Whether a hose delays an input. Such a loop has a pole more for each sample of the delay; its poles are not computed, and both
+    /// lists of them are empty.
+    pub has_dead_time: bool,
     /// Poles of the sampled loop (z-plane), by falling modulus.
     pub poles_z: Vec<Complex>,
     /// The same mapped to the s-plane, `s = ln(z)/Ts` (1/s); a pole at z = 0 has no image and is left
@@ -44,7 +48,24 @@ impl ClosedLoop {
         let poles_s: Vec<Complex> = poles_z.iter().filter_map(image).collect();
         let sensitivity_peak =
             (stability == Stability::Stable).then(|| sensitivity_peak(return_ratio, &poles_s, sampling_time_s));
-        Ok(Self { poles_z, poles_s, stability, sensitivity_peak })
+        Ok(Self { has_dead_time: false, poles_z, poles_s, stability, sensitivity_peak })
+    }
+
+    /// Verdict and sensitivity peak of a loop whose inputs are delayed, without its poles. `slowest` is a rate (1/s) below which nothing
+    /// happens, `delay_s` the longest delay (s), `return_ratio` L(z) with its delays.
+    ///
+    /// # Errors
+    /// [`LinearError::OutOfRange`] where the delay turns the loop too often to be followed around the unit circle.
+    pub(crate) fn with_dead_time(
+        of: &impl DelayedLoop,
+        return_ratio: impl Fn(Complex) -> Matrix2<Complex>,
+        (sampling_time_s, slowest, delay_s): (f64, f64, f64),
+    ) -> Result<Self, LinearError> {
+        let stability =
+            delayed_loop::stability(of).ok_or(LinearError::OutOfRange { field: "delay_s", value: delay_s })?;
+        let sensitivity_peak = (stability == Stability::Stable)
+            .then(|| delayed_sensitivity_peak(return_ratio, sampling_time_s, slowest, delay_s));
+        Ok(Self { has_dead_time: true, poles_z: Vec::new(), poles_s: Vec::new(), stability, sensitivity_peak })
     }
 
     /// The pole that decides how fast the loop forgets or grows: the one with the largest real part (1/s).

@@ -3,6 +3,7 @@
 
 mod closed_loop;
 mod delayed;
+mod delayed_loop;
 mod discrete;
 mod encirclements;
 mod ends;
@@ -32,6 +33,7 @@ mod zeros;
 pub use crate::numeric::Complex;
 pub use closed_loop::ClosedLoop;
 pub use delayed::{DelayedPlant, SignalPath};
+pub(crate) use delayed_loop::DelayedLoop;
 pub use discrete::DiscreteStateSpace;
 pub use encirclements::LoopStability;
 pub(crate) use encirclements::least_real_part;
@@ -48,6 +50,7 @@ pub use single_loop::SingleLoop;
 pub use spectrum::{eigenvalues, singular_values};
 pub use stability::{Stability, UNIT_CIRCLE_TOLERANCE, s_from_z};
 pub use state_space::StateSpace;
+pub(crate) use taylor_model::Arithmetic;
 pub use transfer::{TransferFunction, TransferMatrix};
 pub(crate) use zero_order_hold::ZeroOrderHold;
 pub use zeros::{TransmissionZero, place_nearest_at_origin, transmission_zeros};

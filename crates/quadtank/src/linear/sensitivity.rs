@@ -59,6 +59,41 @@ pub(super) fn sensitivity_peak(
     refine(sensitivity, highest, ratio, nyquist)
 }
 
+/// Phase (rad) by which the longest delay turns from one frequency of the grid to the next, as long as the loop matters.
+const TURN: f64 = 0.1;
+/// Size of L from which on down a turn of its phase moves S by no more than that share.
+const SMALL: f64 = 0.02;
+/// Most frequencies of a grid.
+const MOST_POINTS: u32 = 20_000;
+
+/// The same for a stable loop whose inputs are delayed by up to `delay_s` (s); `slowest` is a rate (1/s) below which nothing happens.
+pub(super) fn delayed_sensitivity_peak(
+    return_ratio: impl Fn(Complex) -> Matrix2<Complex>,
+    sampling_time_s: f64,
+    slowest: f64,
+    delay_s: f64,
+) -> LoopPeak {
+    let at = |w: f64| return_ratio(Complex::cis(w * sampling_time_s));
+    let sensitivity = |w: f64| largest_singular_value_of_inverse(&(Matrix2::identity() + at(w)));
+    let nyquist = std::f64::consts::PI / sampling_time_s;
+    let mut w = BELOW_SLOWEST * slowest.min(delay_s.recip()).min(nyquist);
+    let ratio = (nyquist / w).powf(1.0 / f64::from(GRID));
+    let (mut best, mut spacing) = ((sensitivity(nyquist), nyquist), ratio);
+    for _ in 0..MOST_POINTS {
+        if w >= nyquist {
+            break;
+        }
+        let matters = at(w).norm() > SMALL;
+        let step = if matters { ratio.min(1.0 + TURN / (delay_s * w)) } else { ratio };
+        let value = sensitivity(w);
+        if value > best.0 {
+            (best, spacing) = ((value, w), step);
+        }
+        w *= step;
+    }
+    refine(sensitivity, best, spacing, nyquist)
+}
+
 /// Golden-section search on a logarithmic axis, one point of the grid to either side of the best frequency.
 fn refine(sensitivity: impl Fn(f64) -> f64, highest: (f64, f64), ratio: f64, nyquist: f64) -> LoopPeak {
     let (value, best) = highest;

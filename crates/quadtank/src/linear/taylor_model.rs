@@ -26,9 +26,37 @@ impl Cell {
     }
 }
 
+/// Numbers that a characteristic function is computed with: values of it, or enclosures over a cell.
+pub(crate) trait Arithmetic: Copy + Add<Output = Self> + Mul<Output = Self> + Neg<Output = Self> {
+    /// A constant.
+    fn real(value: f64) -> Self;
+    /// The quotient.
+    fn over(self, divisor: Self) -> Self;
+}
+
+impl Arithmetic for Complex {
+    fn real(value: f64) -> Self {
+        Self::from(value)
+    }
+
+    fn over(self, divisor: Self) -> Self {
+        self / divisor
+    }
+}
+
+impl Arithmetic for TaylorModel {
+    fn real(value: f64) -> Self {
+        Self::constant(Complex::from(value))
+    }
+
+    fn over(self, divisor: Self) -> Self {
+        Self::over(self, divisor)
+    }
+}
+
 /// A complex function over a cell: within `rest` of `value + slope x`, where x goes from −1 to 1 across the cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct TaylorModel {
+pub(crate) struct TaylorModel {
     pub value: Complex,
     pub slope: Complex,
     pub rest: f64,

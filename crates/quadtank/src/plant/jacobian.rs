@@ -11,8 +11,8 @@ const QUASI_STEADY: f64 = 1e-8;
 /// the slope of the outflow, `∝ 1/√h`, would leave the range of numbers.
 const DRY_LEVEL_M: f64 = 1e-60;
 
-/// The linear model `dx/dt = A x + B u`, `y = C x` of the plant around an operating point, in deviations: `x` levels
-/// (m), `u` pump voltages (V), `y` measured signals (V).
+/// The linear model `dx/dt = A x + B u(t − θ)`, `y = C x` of the plant around an operating point, in deviations: `x` levels
+/// (m), `u` pump voltages (V), each delayed by its own hose, `y` measured signals (V).
 ///
 /// A tank without water at the operating point is dry: its √-slope is infinite, so it follows its inflow at once. An upper
 /// tank with so little water that its time constant is below 1e-8 of the longest is taken to do so too. Such tanks are
@@ -28,6 +28,8 @@ pub struct Jacobian {
     pub c: Matrix2x4<f64>,
     /// Which tanks follow their inflow at once and have no state.
     pub quasi_steady: [bool; 4],
+    /// Transport delay θ of each input (s).
+    pub input_delay_s: [f64; 2],
 }
 
 impl Jacobian {
@@ -60,7 +62,13 @@ impl QuadrupleTank {
         let quasi_steady = self.quasi_steady(&levels);
         let above = complements(self.valves);
 
-        let mut jacobian = Jacobian { a: Matrix4::zeros(), b: Matrix4x2::zeros(), c: Matrix2x4::zeros(), quasi_steady };
+        let mut jacobian = Jacobian {
+            a: Matrix4::zeros(),
+            b: Matrix4x2::zeros(),
+            c: Matrix2x4::zeros(),
+            quasi_steady,
+            input_delay_s: self.pumps.map(|pump| pump.delay_s),
+        };
         for (j, rate) in rates.into_iter().enumerate() {
             jacobian.a[(j, j)] = if quasi_steady[j] { 0.0 } else { -rate.unwrap_or(0.0) };
         }

@@ -24,6 +24,9 @@ pub struct Pump {
     /// Largest flow (m³/s); absent where the voltage alone limits it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub flow_max: Option<f64>,
+    /// Transport delay θ of the hose behind the pump (s): what its voltage does to the flow reaches the tanks that much later.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub delay_s: f64,
 }
 
 /// Whether a number is left out of a document.
@@ -35,7 +38,7 @@ fn is_zero(number: &f64) -> bool {
 impl Pump {
     /// A pump whose flow is `gain × voltage` at any voltage (m³/(s V); limits in V).
     pub const fn proportional(gain: f64, voltage_min: f64, voltage_max: f64) -> Self {
-        Self { gain, voltage_min, voltage_max, offset: 0.0, start_voltage: 0.0, flow_max: None }
+        Self { gain, voltage_min, voltage_max, offset: 0.0, start_voltage: 0.0, flow_max: None, delay_s: 0.0 }
     }
 
     /// Flow at `voltage` (m³/s, V).

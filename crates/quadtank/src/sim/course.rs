@@ -4,6 +4,7 @@ use crate::control::{DecentralisedPi, Pairing, RunningPi};
 use crate::plant::{Disturbance, OperatingPoint, QuadrupleTank};
 
 use super::experiment::{Experiment, Load, LoadStep, PumpVoltageStep, SetPointStep};
+use super::hoses::Hoses;
 use super::noise::{FlowNoise, Noise};
 use super::trajectory::{Event, EventKind, Trajectory};
 use super::walls::Watch;
@@ -261,6 +262,11 @@ pub(super) struct Sampled<'a> {
     pub(super) sampling_time_s: f64,
 }
 
+/// The earlier of two times, where there is any.
+fn earlier(one: Option<f64>, other: Option<f64>) -> Option<f64> {
+    one.into_iter().chain(other).min_by(f64::total_cmp)
+}
+
 /// Runs an experiment from the operating point on; see [`super::simulate`] for what happens when.
 pub(super) fn run(
     process: &mut dyn Process,
@@ -273,11 +279,13 @@ pub(super) fn run(
     let axis = TimeAxis::new(experiment.duration_s, sampling_time_s);
     let slack = TIME_SLACK * axis.sampling_time_s;
     let mut references = References::new([op.levels[0], op.levels[1]], &experiment.set_point_steps);
-    let mut loads = Loads::new(&experiment.load_steps);
+    let steps = experiment.all_loads(plant.inflow);
+    let mut loads = Loads::new(&steps);
     let mut hand_moved = HandMoved::new(experiment, op);
     let mut loops = Loops::new(plant, pairing, law);
     let mut noise = Noise::new(&experiment.measurement);
     let mut flow_noise = FlowNoise::new(experiment);
+    let mut hoses = Hoses::new(plant, op, experiment);
     let mut events = Events::default();
     let mut trajectory = Trajectory::with_rows(axis.rows);
     let (mut output, mut voltage) = ([0.0; 2], [0.0; 2]);
@@ -292,9 +300,10 @@ pub(super) fn run(
             let by_hand = hand_moved.at(time + slack);
             output = loops.step(Sample { time, reference, measured }, by_hand, &mut events);
             voltage = loops.pump_voltage(output);
+            hoses.send(time, voltage);
             flow_noise.draw();
         }
-        process.set_inputs(&voltage, &flow_noise.on(&loads.acting));
+        process.set_inputs(&hoses.at(time + slack), &flow_noise.on(&loads.acting));
         trajectory.set(row, time, process.levels(), references.value, output, voltage);
         if row + 1 == axis.rows {
             break;
@@ -306,9 +315,9 @@ pub(super) fn run(
         }
         let end = axis.time(row + 1);
         let mut now = time;
-        while let Some(begin) = loads.next_before(end - slack) {
+        while let Some(begin) = earlier(loads.next_before(end - slack), hoses.next_before(end - slack)) {
             process.advance(now, begin - now, &mut events);
-            process.set_inputs(&voltage, &flow_noise.on(loads.at(begin)));
+            process.set_inputs(&hoses.at(begin), &flow_noise.on(loads.at(begin)));
             now = begin;
         }
         process.advance(now, end - now, &mut events);

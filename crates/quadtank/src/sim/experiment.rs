@@ -124,6 +124,19 @@ pub struct PumpVoltageStep {
     pub voltage: f64,
 }
 
+/// A step of the flow that a tank receives from outside, as it was measured.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct InflowStep {
+    /// Index of the tank, 0 to 3.
+    pub tank: usize,
+    /// When (s): exactly then.
+    pub time_s: f64,
+    /// The flow from then on (m³/s).
+    pub flow: f64,
+}
+
 /// What the sensors add to the true level.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -157,6 +170,10 @@ pub struct Experiment {
     /// until its first step it keeps the voltage of the operating point.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub pump_voltage_steps: Vec<PumpVoltageStep>,
+    /// Steps of the flow into tanks from outside, as a measured disturbance. From its first step on it takes the place of the constant
+    /// inflow of the rig; loads add to either.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub inflow_steps: Vec<InflowStep>,
     /// Process noise: standard deviation of the white Gaussian noise on the flow of each pump (m³/s), drawn anew at each sample
     /// and held until the next, from the same seed as the noise of the sensors.
     #[serde(default, skip_serializing_if = "is_zero")]
@@ -179,6 +196,7 @@ impl Experiment {
             measurement: Measurement { noise_std: 0.0, seed: 0, quantised: false },
             initial_levels: None,
             pump_voltage_steps: Vec::new(),
+            inflow_steps: Vec::new(),
             pump_flow_noise_std: 0.0,
         }
     }
@@ -204,6 +222,7 @@ impl Experiment {
         !self.load_steps.is_empty()
             || self.initial_levels.is_some()
             || !self.pump_voltage_steps.is_empty()
+            || !self.inflow_steps.is_empty()
             || self.is_noisy()
             || self.measurement.quantised
     }
@@ -258,7 +277,21 @@ impl Experiment {
     }
 
     fn changes_s(&self) -> impl Iterator<Item = f64> {
-        self.load_changes_s().chain(self.pump_voltage_steps.iter().map(|step| step.time_s))
+        let inflows = self.inflow_steps.iter().map(|step| step.time_s);
+        self.load_changes_s().chain(self.pump_voltage_steps.iter().map(|step| step.time_s)).chain(inflows)
+    }
+
+    /// The steps of loads and of measured inflows as changes of what acts, where the rig has this constant inflow (m³/s), by time.
+    pub fn all_loads(&self, inflow: [f64; 4]) -> Vec<LoadStep> {
+        let mut flow = inflow;
+        let mut steps = self.load_steps.clone();
+        let mut measured: Vec<&InflowStep> = self.inflow_steps.iter().filter(|step| step.tank < 4).collect();
+        measured.sort_by(|one, other| one.time_s.total_cmp(&other.time_s));
+        for &InflowStep { tank, time_s, flow: next } in measured {
+            steps.push(LoadStep { time_s, load: Load::TankFlow { tank, flow: next - flow[tank] } });
+            flow[tank] = next;
+        }
+        steps
     }
 
     /// When loads change (s), those left out that cancel or have no size.

@@ -1,6 +1,7 @@
 //! Runs of the linear model with the same sampled controllers.
 
 use std::array::from_fn;
+use std::collections::VecDeque;
 
 use nalgebra::{Vector2, Vector4};
 
@@ -15,6 +16,12 @@ use super::trajectory::Trajectory;
 
 /// Durations that differ by less than this fraction are the same, up to the rounding of times.
 const SAME_DURATION: f64 = 1e-9;
+/// Holds that are remembered: more than two delays cut a row into.
+const PIECES: usize = 6;
+
+fn is_same(duration: f64, known: f64) -> bool {
+    (duration - known).abs() <= SAME_DURATION * known
+}
 
 /// The linear model with its state, in deviations from the operating point.
 struct LinearModel<'a> {
@@ -26,6 +33,8 @@ struct LinearModel<'a> {
     forcing: Vector4<f64>,
     hold: ZeroOrderHold,
     hold_duration: f64,
+    /// Holds for pieces between rows, which come again where a hose delays by no whole number of rows; the oldest first.
+    pieces: VecDeque<(f64, ZeroOrderHold)>,
     /// `Ψ forcing` (m).
     push: Vector4<f64>,
 }
@@ -46,8 +55,21 @@ impl<'a> LinearModel<'a> {
             forcing: Vector4::zeros(),
             hold: ZeroOrderHold::new(&jacobian.a, duration),
             hold_duration: duration,
+            pieces: VecDeque::new(),
             push: Vector4::zeros(),
         }
+    }
+
+    fn hold_for(&mut self, duration: f64) -> ZeroOrderHold {
+        if let Some((_, hold)) = self.pieces.iter().find(|(known, _)| is_same(duration, *known)) {
+            return *hold;
+        }
+        if self.pieces.len() == PIECES {
+            self.pieces.pop_front();
+        }
+        let hold = ZeroOrderHold::new(&self.jacobian.a, duration);
+        self.pieces.push_back((duration, hold));
+        hold
     }
 
     /// What the loads bring to each tank (m³/s), to first order around the operating point: a change of a flow that follows the
@@ -99,10 +121,10 @@ impl Process for LinearModel<'_> {
     }
 
     fn advance(&mut self, _time: f64, duration: f64, _events: &mut Events) {
-        if (duration - self.hold_duration).abs() <= SAME_DURATION * self.hold_duration {
+        if is_same(duration, self.hold_duration) {
             self.deviation = self.hold.pass(&self.deviation, &self.push);
         } else {
-            let hold = ZeroOrderHold::new(&self.jacobian.a, duration);
+            let hold = self.hold_for(duration);
             self.deviation = hold.pass(&self.deviation, &hold.push(&self.forcing));
         }
     }

@@ -8,6 +8,7 @@ mod experiment;
 mod explicit;
 mod gaussian;
 mod held_tank;
+mod hoses;
 mod hydraulics;
 mod implicit;
 mod integrate;
@@ -28,7 +29,7 @@ mod zero_dynamics;
 
 pub use binary_sequence::{BinarySequence, binary_moves};
 pub use course::{MAX_JUDGED_WORK, MAX_ROWS, MAX_RUN_WORK};
-pub use experiment::{Experiment, Load, LoadStep, Measurement, PumpVoltageStep, SetPointStep};
+pub use experiment::{Experiment, InflowStep, Load, LoadStep, Measurement, PumpVoltageStep, SetPointStep};
 pub use held_tank::HeldTank;
 pub use linear::simulate_linear;
 pub use metrics::{LoopMetrics, loop_metrics, loop_metrics_judging};

@@ -154,7 +154,8 @@ fn true_values(
     run: &Trajectory,
     rows_per_sample: usize,
 ) -> [Vec<f64>; 2] {
-    let mut loads = Loads::new(&experiment.load_steps);
+    let steps = experiment.all_loads(plant.inflow);
+    let mut loads = Loads::new(&steps);
     let slack = TIME_SLACK * law.sampling_time_s;
     let mut values: [Vec<f64>; 2] = Default::default();
     for row in (0..run.time_s.len()).step_by(rows_per_sample) {

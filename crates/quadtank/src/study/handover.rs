@@ -2,6 +2,7 @@
 //! without a model.
 
 use crate::control::{ModelFree, Pairing, ParallelPid, smallest_model_gain};
+use crate::linear::LinearError;
 use crate::plant::ValveSchedule;
 
 use super::StudyError;
@@ -53,10 +54,13 @@ const MODEL_GAIN_MARGIN: f64 = 1.5;
 /// for α̂, which is as far from the limit of stability as there; where no α̂ makes the loop stable it is the published one too.
 ///
 /// # Errors
-/// [`StudyError`] as [`quadruple_tank::Setup::operating_point`].
+/// [`StudyError`] as [`quadruple_tank::Setup::operating_point`], and at `plant` where a hose delays a pump: that bench knows no dead time.
 pub fn model_free_on(rig: &quadruple_tank::Setup) -> Result<ModelFreeSetup, StudyError> {
     let point = rig.operating_point()?;
     let plant = rig.plant();
+    if let Some(value) = plant.pumps.iter().map(|pump| pump.delay_s).find(|&delay_s| delay_s > 0.0) {
+        return Err(LinearError::OutOfRange { field: "delay_s", value }.into());
+    }
     let jacobian = plant.linearise(&point);
     let mut law = ModelFree { pairing: rig.controller.pairing, ..ModelFree::PUBLISHED };
     if let Ok(Some(smallest)) = smallest_model_gain(&jacobian, &law, plant.power_gain) {

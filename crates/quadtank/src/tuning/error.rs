@@ -23,6 +23,17 @@ pub enum TuningError {
         /// Real part of the pole.
         real_part: f64,
     },
+    /// A loop whose input does not move its own output at rest: no relay knows the sign of its feedback, and nothing can be normalised.
+    #[error(
+        "loop {number} has no gain of its own at rest, g{number}{number}(0) = 0{}",
+        if *other_pairing { "; in the other pairing, with the inputs swapped, both loops have one" } else { "" }
+    )]
+    NoOwnGain {
+        /// Number of the loop.
+        number: usize,
+        /// Whether both loops have a gain of their own when the inputs are swapped.
+        other_pairing: bool,
+    },
     /// What is wrong with the plant itself.
     #[error(transparent)]
     #[serde(untagged)]

@@ -3,26 +3,30 @@ use crate::plant::Jacobian;
 
 /// The linear model of the quadruple tank as transfer functions, from pump voltages (V) to measured levels (V), in seconds:
 /// one lag where a pump feeds a lower tank, two where its water passes an upper one (Johansson 2000, eq. 2). The
-/// outflow of a quasi-steady tank equals its inflow.
+/// outflow of a quasi-steady tank equals its inflow. The hose of each pump is a dead time.
 ///
 /// # Errors
 /// None for a model of a plant; the type is that of [`TransferFunction::new`].
 pub fn tank_transfer_matrix(jacobian: &Jacobian) -> Result<TransferMatrix, LinearError> {
-    let Jacobian { a, b, c, quasi_steady } = jacobian;
+    let Jacobian { a, b, c, quasi_steady, input_delay_s: delay } = jacobian;
     let time = |tank: usize| -1.0 / a[(tank, tank)];
     let none = || TransferFunction::lags(0.0, &[], 0.0);
     let own = |i: usize| {
-        if quasi_steady[i] { none() } else { TransferFunction::lags(c[(i, i)] * b[(i, i)] * time(i), &[time(i)], 0.0) }
+        if quasi_steady[i] {
+            none()
+        } else {
+            TransferFunction::lags(c[(i, i)] * b[(i, i)] * time(i), &[time(i)], delay[i])
+        }
     };
     let across = |i: usize| {
         let (upper, other) = (i + 2, 1 - i);
         if quasi_steady[i] {
             none()
         } else if quasi_steady[upper] {
-            TransferFunction::lags(c[(i, i)] * b[(i, other)] * time(i), &[time(i)], 0.0)
+            TransferFunction::lags(c[(i, i)] * b[(i, other)] * time(i), &[time(i)], delay[other])
         } else {
             let gain = c[(i, i)] * a[(i, upper)] * b[(upper, other)] * time(i) * time(upper);
-            TransferFunction::lags(gain, &[time(i), time(upper)], 0.0)
+            TransferFunction::lags(gain, &[time(i), time(upper)], delay[other])
         }
     };
     Ok(TransferMatrix([[own(0)?, across(0)?], [across(1)?, own(1)?]]))

@@ -3,7 +3,7 @@
 mod design;
 mod test;
 
-use quadtank::linear::{LinearError, MatrixPolesAndZeros, TransferFunction};
+use quadtank::linear::{MatrixPolesAndZeros, TransferFunction};
 use quadtank::study::relay_tuning::{PlantStudy, SteadyState, Tuning, TuningSetup};
 use quadtank::tuning::{Corner, CurvePoint, GainLimit, TuningError};
 use serde::Serialize;
@@ -49,9 +49,9 @@ pub struct TuningAnalysisReport {
     pub zeros: Option<Vec<ComplexNumber>>,
     /// The boundary of the stable gains of two proportional loops, from loop 1 alone to loop 2 alone; an error where a loop has
     /// no gain of its own.
-    pub critical_curve: Answer<Vec<CurvePointReport>>,
+    pub critical_curve: Answer<Vec<CurvePointReport>, TuningError>,
     /// Corners of that curve, in the same order.
-    pub corners: Answer<Vec<CornerReport>>,
+    pub corners: Answer<Vec<CornerReport>, TuningError>,
     /// What the session may not have been meant to say.
     pub warnings: Vec<TuningWarning>,
 }
@@ -131,7 +131,7 @@ impl TuningAnalysisReport {
         let roots = MatrixPolesAndZeros::of(&matrix)?;
         let curve = match PlantStudy::of(&setup.plant) {
             // A loop without a gain of its own: the axes of the curve have no unit.
-            Err(TuningError::Linear(error @ LinearError::SingularGain { .. })) => Err(error),
+            Err(error @ TuningError::NoOwnGain { .. }) => Err(error),
             study => Ok(study?.curve),
         };
         Ok(Self {

@@ -10,7 +10,7 @@ use quadtank::linear::TransferFunction;
 use quadtank::literature::campestrini::PublishedPlant;
 use quadtank::literature::{DisplayUnit, PresetId};
 use quadtank::plant::{CrossSection, Outlet, Pump, QuadrupleTank, Sensor, Tank, ValveSchedule};
-use quadtank::sim::{Experiment, Load, LoadStep, Measurement, PumpVoltageStep, SetPointStep};
+use quadtank::sim::{Experiment, InflowStep, Load, LoadStep, Measurement, PumpVoltageStep, SetPointStep};
 use quadtank::study::model_free::{ModelFreeSetup, StartSpec};
 use quadtank::study::quadruple_tank::{OperatingPointSpec, PlantSpec, Setup};
 use quadtank::study::relay_tuning::{
@@ -83,7 +83,10 @@ impl Draw {
 
     fn pump(&mut self) -> Pump {
         let [one, other] = self.pair(limits::PUMP_VOLTAGE);
-        let straight = Pump::proportional(self.number(limits::PUMP_GAIN), one.min(other), one.max(other));
+        let mut straight = Pump::proportional(self.number(limits::PUMP_GAIN), one.min(other), one.max(other));
+        if self.one_in(4) {
+            straight.delay_s = self.number(limits::PUMP_DELAY_S);
+        }
         if !self.one_in(4) {
             return straight;
         }
@@ -173,10 +176,16 @@ impl Draw {
             time_s: draw.number(limits::TIME_S),
             voltage: draw.number(limits::PUMP_VOLTAGE),
         };
+        let inflow = |draw: &mut Self| InflowStep {
+            tank: draw.index(4),
+            time_s: draw.number(limits::TIME_S),
+            flow: draw.number(limits::INFLOW),
+        };
         // Every tank is that high.
         let level = Limits { max: limits::TANK_HEIGHT.min, ..limits::LEVEL };
         let most_by_hand = if self.one_in(20) { limits::MAX_PUMP_STEPS } else { 40 };
         let steps_by_hand = if self.one_in(2) { 0 } else { self.index(most_by_hand) };
+        let inflows = if self.one_in(2) { 0 } else { self.index(most_by_hand) };
         let [set_points, loads] = [self.index(limits::MAX_STEPS + 1), self.index(limits::MAX_STEPS + 1)];
         Experiment {
             duration_s,
@@ -189,6 +198,7 @@ impl Draw {
             },
             initial_levels: self.one_in(4).then(|| std::array::from_fn(|_| self.number(level))),
             pump_voltage_steps: (0..steps_by_hand).map(|_| by_hand(self)).collect(),
+            inflow_steps: (0..inflows).map(|_| inflow(self)).collect(),
             pump_flow_noise_std: if self.one_in(4) { self.number(limits::PUMP_FLOW_NOISE_STD) } else { 0.0 },
         }
     }

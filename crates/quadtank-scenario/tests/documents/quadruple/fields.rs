@@ -3,7 +3,7 @@
 use quadtank::control::LoopMode;
 use quadtank::literature::PresetId;
 use quadtank::plant::Pump;
-use quadtank::sim::{Load, PumpVoltageStep};
+use quadtank::sim::{InflowStep, Load, PumpVoltageStep};
 use quadtank::study::quadruple_tank::{OperatingPointSpec, PlantSpec, setup_of};
 use quadtank_scenario::{DOCUMENT_LIMIT, Scenario, ScenarioError, View, from_json, limits, to_json, to_link};
 use serde_json::{Value, json};
@@ -24,9 +24,10 @@ pub fn full() -> Value {
     setup.experiment.initial_levels = Some([0.02, 0.01, 0.08, 0.03]);
     setup.experiment.pump_voltage_steps =
         [0, 1].map(|pump| PumpVoltageStep { pump, time_s: 100.0, voltage: 3.0 }).to_vec();
+    setup.experiment.inflow_steps = vec![InflowStep { tank: 3, time_s: 60.0, flow: 1e-6 }];
     if let PlantSpec::Parameters { rig, .. } = &mut setup.plant {
         rig.inflow = [0.0, 0.0, 1e-6, 2e-6];
-        rig.pumps[0] = Pump { offset: -1e-6, start_voltage: 0.5, flow_max: Some(1e-3), ..rig.pumps[0] };
+        rig.pumps[0] = Pump { offset: -1e-6, start_voltage: 0.5, flow_max: Some(1e-3), delay_s: 2.5, ..rig.pumps[0] };
     }
     let mut pinned = setup_of(PresetId::JohanssonMinimumPhase);
     pinned.operating_point = OperatingPointSpec::Levels([0.1, 0.12]);
@@ -36,7 +37,7 @@ pub fn full() -> Value {
 }
 
 /// Fields (by the path that an error gives, and by JSON pointer) and a number that is out of their range.
-pub const LEAVES: [(&str, &str, f64); 56] = [
+pub const LEAVES: [(&str, &str, f64); 59] = [
     (
         "setup.plant.parameters.rig.tanks[2].section.area_at_empty",
         "/setup/plant/parameters/rig/tanks/2/section/area_at_empty",
@@ -61,6 +62,7 @@ pub const LEAVES: [(&str, &str, f64); 56] = [
     ("setup.plant.parameters.rig.pumps[0].offset", "/setup/plant/parameters/rig/pumps/0/offset", 2.0),
     ("setup.plant.parameters.rig.pumps[0].start_voltage", "/setup/plant/parameters/rig/pumps/0/start_voltage", 999.0),
     ("setup.plant.parameters.rig.pumps[0].flow_max", "/setup/plant/parameters/rig/pumps/0/flow_max", 0.0),
+    ("setup.plant.parameters.rig.pumps[0].delay_s", "/setup/plant/parameters/rig/pumps/0/delay_s", 601.0),
     ("setup.plant.parameters.rig.valves[0]", "/setup/plant/parameters/rig/valves/0", 1.1),
     ("setup.plant.parameters.rig.power_gain", "/setup/plant/parameters/rig/power_gain", 0.0),
     ("setup.plant.parameters.rig.sensor.gain", "/setup/plant/parameters/rig/sensor/gain", 0.0),
@@ -107,6 +109,8 @@ pub const LEAVES: [(&str, &str, f64); 56] = [
     ("setup.experiment.initial_levels[0]", "/setup/experiment/initial_levels/0", -0.01),
     ("setup.experiment.pump_voltage_steps[1].time_s", "/setup/experiment/pump_voltage_steps/1/time_s", -1.0),
     ("setup.experiment.pump_voltage_steps[0].voltage", "/setup/experiment/pump_voltage_steps/0/voltage", -1.0),
+    ("setup.experiment.inflow_steps[0].time_s", "/setup/experiment/inflow_steps/0/time_s", -1.0),
+    ("setup.experiment.inflow_steps[0].flow", "/setup/experiment/inflow_steps/0/flow", -1e-6),
     ("setup.experiment.measurement.noise_std", "/setup/experiment/measurement/noise_std", -0.1),
     ("pinned[0].valves[0]", "/pinned/0/valves/0", 7.0),
     ("pinned[0].operating_point.levels[1]", "/pinned/0/operating_point/levels/1", 70.0),
@@ -158,6 +162,7 @@ fn an_index_beyond_its_list_names_itself() {
         ("setup.experiment.load_steps[5].load.valve.valve", "/setup/experiment/load_steps/5/load/valve/valve"),
         ("setup.experiment.load_steps[6].load.outlet.tank", "/setup/experiment/load_steps/6/load/outlet/tank"),
         ("setup.experiment.pump_voltage_steps[1].pump", "/setup/experiment/pump_voltage_steps/1/pump"),
+        ("setup.experiment.inflow_steps[0].tank", "/setup/experiment/inflow_steps/0/tank"),
     ] {
         let mut document = full();
         *document.pointer_mut(pointer).unwrap() = json!(4);
@@ -172,6 +177,7 @@ fn too_many_entries_are_counted() {
         ("setup.experiment.set_point_steps", "/setup/experiment/set_point_steps", 9, limits::MAX_STEPS),
         ("setup.experiment.load_steps", "/setup/experiment/load_steps", 30, limits::MAX_STEPS),
         ("setup.experiment.pump_voltage_steps", "/setup/experiment/pump_voltage_steps", 4001, limits::MAX_PUMP_STEPS),
+        ("setup.experiment.inflow_steps", "/setup/experiment/inflow_steps", 4001, limits::MAX_PUMP_STEPS),
         ("pinned", "/pinned", Scenario::MAX_PINNED + 1, Scenario::MAX_PINNED),
     ] {
         let mut document = full();

@@ -2,7 +2,7 @@
 
 use crate::control::PidMatrix;
 use crate::linear::{Complex, LoopStability};
-use crate::tuning::{Action, Design, RelayVerdict, TuningRule, propose};
+use crate::tuning::{Action, Design, RelayVerdict, TuningError, TuningRule, propose};
 
 use super::start::DEAD_TIME_S;
 use super::{Designed, PlantStudy, SeriesElement, Tested, TuningPlant, TuningSetup, rule_targets};
@@ -20,6 +20,8 @@ pub enum Mend {
     Hysteresis([f64; 2]),
     /// The rig gets the dead time that it begins with (s), on its linear model.
     DeadTime(f64),
+    /// Each loop drives the other input.
+    OtherPairing,
 }
 
 impl Mend {
@@ -32,6 +34,11 @@ impl Mend {
                 }
             }
             Self::Hysteresis(half_widths) => setup.test.hysteresis = half_widths,
+            Self::OtherPairing => match &mut setup.plant {
+                TuningPlant::QuadrupleTank { pairing, .. } => *pairing = pairing.other(),
+                TuningPlant::Elements(rows) => rows.iter_mut().for_each(|row| row.swap(0, 1)),
+                TuningPlant::Published(_) => {}
+            },
             Self::DeadTime(time_s) => {
                 if let TuningPlant::QuadrupleTank { dead_time_s, nonlinear, .. } = &mut setup.plant {
                     (*dead_time_s, *nonlinear) = (time_s, false);
@@ -47,6 +54,11 @@ impl TuningSetup {
         let TuningPlant::QuadrupleTank { dead_time_s, .. } = self.plant else { return None };
         (dead_time_s == 0.0).then_some(Mend::DeadTime(DEAD_TIME_S))
     }
+}
+
+/// The pairing with which both loops have a gain of their own, where one of them has none.
+pub fn mend_pairing(error: &TuningError) -> Option<Mend> {
+    matches!(error, TuningError::NoOwnGain { other_pairing: true, .. }).then_some(Mend::OtherPairing)
 }
 
 impl Tested {
@@ -112,6 +124,7 @@ impl PlantStudy {
 mod tests {
     use super::*;
     use crate::literature::PresetId;
+    use crate::study::relay_tuning::tune;
 
     fn study(setup: &TuningSetup) -> PlantStudy {
         PlantStudy::of(&setup.plant).unwrap()
@@ -148,5 +161,35 @@ mod tests {
             mend.unwrap().apply(&mut mended);
             assert!(!is_chattering(&mended), "{mend:?}");
         }
+    }
+
+    #[test]
+    fn loops_without_a_gain_of_their_own_are_tuned_in_the_other_pairing() {
+        let element = |gain: f64| crate::study::relay_tuning::Element {
+            numerator: vec![gain],
+            denominator: vec![1.0, 3.0, 3.0, 1.0],
+            dead_time: 0.2,
+        };
+        let rig = TuningPlant::QuadrupleTank {
+            preset: crate::literature::PresetId::JohanssonNonMinimumPhase,
+            valves: Some([0.0, 0.3]),
+            pairing: crate::control::Pairing::Diagonal,
+            dead_time_s: 5.0,
+            lag_s: 0.0,
+            nonlinear: false,
+        };
+        let cross = TuningPlant::Elements([[element(0.0), element(2.0)], [element(1.0), element(0.5)]]);
+        for plant in [rig, cross] {
+            let mut setup = TuningSetup::on(plant);
+            let error = PlantStudy::of(&setup.plant).unwrap_err();
+            assert_eq!(error, TuningError::NoOwnGain { number: 1, other_pairing: true });
+            mend_pairing(&error).unwrap().apply(&mut setup);
+            let found = tune(&setup).unwrap();
+            let design = found.design.unwrap();
+            assert!(design.at_work().controllers.iter().all(|pid| pid.proportional != 0.0), "{design:?}");
+        }
+        let none = TuningPlant::Elements([[element(0.0), element(0.0)], [element(1.0), element(0.5)]]);
+        let error = PlantStudy::of(&none).unwrap_err();
+        assert_eq!((error, mend_pairing(&error)), (TuningError::NoOwnGain { number: 1, other_pairing: false }, None));
     }
 }

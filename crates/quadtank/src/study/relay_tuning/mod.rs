@@ -26,7 +26,7 @@ pub use design_spec::{CriticalSpec, DecouplerSpec, DesignSpec};
 pub use details::{LoopPeaks, PlacedLoci, Recovered};
 pub use element::{Element, ElementFault};
 pub use given_pid::{FormFault, GivenPid, PidForm};
-pub use mend::Mend;
+pub use mend::{Mend, mend_pairing};
 pub use plant::TuningPlant;
 pub use plant_study::{FoundPoint, PlantStudy, Tested, Tuning, tune};
 pub use printed::{PrintedFigure, printed_figures, rule_targets};

@@ -1,7 +1,7 @@
 use nalgebra::Matrix2;
 
 use crate::control::{PidMatrix, Relay};
-use crate::linear::{Complex, DelayedPlant, LinearError, TransferMatrix};
+use crate::linear::{Complex, DelayedPlant, TransferMatrix};
 use crate::tuning::{
     CriticalCurve, CriticalSearch, CurveDistance, RelayTest, SequentialStep, TestAndSettings, TestTime, TuningError,
     check_stable, distance_from_curve, frequency_range, independent_tuning, relay_test, sequential_tuning,
@@ -81,14 +81,16 @@ impl PlantStudy {
     /// Studies a plant.
     ///
     /// # Errors
-    /// [`TuningError::UnstablePlant`], or what is wrong with the plant.
+    /// [`TuningError::UnstablePlant`], [`TuningError::NoOwnGain`], or what is wrong with the plant.
     pub fn of(plant: &TuningPlant) -> Result<Self, TuningError> {
         let plant = plant.transfer_matrix()?;
         check_stable(&plant)?;
         let SteadyState { rest_gain, rga_11, .. } = SteadyState::of(&plant);
         // Importance, signs and normalised gains all rest on the diagonal of the gains at rest.
-        if rest_gain.diagonal().iter().any(|&g| g == 0.0 || !g.is_finite()) {
-            return Err(LinearError::SingularGain { reciprocal_condition: 0.0 }.into());
+        let is_none = |gain: f64| gain == 0.0 || !gain.is_finite();
+        if let Some(index) = (0..2).find(|&i| is_none(rest_gain[(i, i)])) {
+            let other_pairing = !is_none(rest_gain[(0, 1)]) && !is_none(rest_gain[(1, 0)]);
+            return Err(TuningError::NoOwnGain { number: index + 1, other_pairing });
         }
         let (low, high) = frequency_range(&plant)?;
         let search = CriticalSearch::new(&plant, low, high);
