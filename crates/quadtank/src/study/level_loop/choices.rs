@@ -4,7 +4,7 @@ use crate::literature::andreis::{
     Tuning,
 };
 use crate::plant::level::{LevelPlant, OutflowLaw};
-use crate::sim::level::{LevelController, LevelExperiment};
+use crate::sim::level::{InflowSignal, LevelController, LevelExperiment};
 use crate::tuning::{CostMeasure, ModelRule, ProcessModel};
 
 use super::{LevelLoopSetup, LevelPlantSpec, Objective, PiTuning, PlantAnswer};
@@ -18,6 +18,34 @@ pub struct PublishedTuning {
     pub objective: PublishedObjective,
     /// The tuning.
     pub tuning: PiTuning,
+}
+
+/// A disturbance of one's own, by its kind alone.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OwnDisturbance {
+    /// A step of the inflow.
+    Step,
+    /// A sine.
+    Sine,
+    /// Random numbers.
+    Random,
+    /// None.
+    None,
+}
+
+impl OwnDisturbance {
+    /// All kinds.
+    pub const ALL: [Self; 4] = [Self::Step, Self::Sine, Self::Random, Self::None];
+
+    /// The kind of a signal.
+    pub const fn of(signal: &InflowSignal) -> Self {
+        match signal {
+            InflowSignal::None => Self::None,
+            InflowSignal::Step { .. } => Self::Step,
+            InflowSignal::Sine { .. } => Self::Sine,
+            InflowSignal::SimulinkNormal { .. } | InflowSignal::Normal { .. } => Self::Random,
+        }
+    }
 }
 
 impl From<Tuning> for PiTuning {
@@ -126,6 +154,23 @@ impl LevelLoopSetup {
         let start = &self.experiment;
         self.experiment = LevelExperiment { level: start.level, inflow: start.inflow, ..disturbance.experiment() };
         self.set_objective(self.objective);
+    }
+
+    /// Takes a disturbance of one's own up, as large as a tenth of the outflow at the level of the start with the valve open, with the
+    /// reference that belongs to it. It acts as long as the one before, and all the time where that did not act.
+    pub fn set_own_disturbance(&mut self, kind: OwnDisturbance) {
+        let tenth = 0.1 * self.plant().flows(self.experiment.level, 1.0)[1];
+        let experiment = &mut self.experiment;
+        experiment.disturbance.signal = match kind {
+            OwnDisturbance::Step => InflowSignal::Step { size: tenth },
+            OwnDisturbance::Sine => InflowSignal::Sine { amplitude: tenth, period_s: 60.0 },
+            OwnDisturbance::Random => InflowSignal::Normal { std: tenth, sample_time_s: 1.0, seed: 1 },
+            OwnDisturbance::None => InflowSignal::None,
+        };
+        if experiment.disturbance.until_s <= experiment.disturbance.from_s {
+            (experiment.disturbance.from_s, experiment.disturbance.until_s) = (0.0, experiment.duration_s);
+        }
+        self.take_reference();
     }
 
     /// Changes the plant. One that is as a published plant is that, by its name.
