@@ -162,8 +162,8 @@ fn instruments(lab: Lab, plant: &LevelPlant, signals: &LevelSignals, valve_y: f6
     view! {
         <circle class="instrument" cx="300" cy=LINE_Y r="15" />
         <text class="tag" x="300" y=LINE_Y + 4.0 text-anchor="middle">"LC"</text>
-        <text x="300" y=LINE_Y + 30.0 text-anchor="middle">{with_unit(signals.output, output_unit(plant))}</text>
-        <text x="208" y=LINE_Y + 30.0 text-anchor="middle">
+        <text x="304" y=LINE_Y + 30.0 text-anchor="middle">{with_unit(signals.output, output_unit(plant))}</text>
+        <text x="214" y=LINE_Y + 30.0 text-anchor="middle">
             {with_unit(signals.measured, unit_of(plant.transmitter.signal.unit))}
         </text>
         <text x="376" y=LINE_Y + 48.0 text-anchor="end">{pressure}</text>

@@ -13,8 +13,8 @@ use quadtank::study::level_loop::{
 use super::flags::{locks, panels};
 use super::pictures::method_name;
 use super::sentences::{short_variance, variance};
-use super::session::{load, use_session};
-use super::summary_table::Summary;
+use super::session::{Session, load, use_session};
+use super::summary_table::summary_table;
 use crate::lab::Lab;
 use crate::texts::{say, tr};
 use crate::widgets::{Card, Choice, Row, Select, TableContent};
@@ -34,8 +34,9 @@ pub fn PublishedCard() -> impl IntoView {
         tables.iter().map(|&table| Choice::new(table, table.to_string(), table_name(lab, table))).collect::<Vec<_>>()
     });
     let content = move || {
-        let numbers = numbers.get().map(|found| view! { <Numbers found /> });
-        let summary = summary.get().map(|found| view! { <Summary found /> });
+        // Functions in place of components: they are worked out here, so that the language is followed.
+        let numbers = numbers.get().map(|found| number_table(session, &found));
+        let summary = summary.get().map(|found| summary_table(lab, &found));
         (numbers, summary)
     };
     let remarks = move || {
@@ -62,9 +63,7 @@ pub fn PublishedCard() -> impl IntoView {
     }
 }
 
-#[component]
-fn Numbers(found: ComparedTable) -> impl IntoView {
-    let session = use_session();
+fn number_table(session: Session, found: &ComparedTable) -> impl IntoView + use<> {
     let lab = session.lab;
     let headings = [
         tr!(lab, level.column_disturbance),
@@ -76,10 +75,7 @@ fn Numbers(found: ComparedTable) -> impl IntoView {
         tr!(lab, level.column_deviation),
     ];
     let table = found.table;
-    let rows = found.numbers.iter().map(|row| {
-        let (row, quantity, setup) = (*row, found.quantity, found.setup_of(row));
-        view! { <NumberRow row quantity setup /> }
-    });
+    let rows = found.numbers.iter().map(|row| number_row(session, *row, found.quantity, found.setup_of(row)));
     let rows = rows.collect_view();
     let headings = headings.map(|text| view! { <th scope="col">{text}</th> });
     view! {
@@ -89,9 +85,7 @@ fn Numbers(found: ComparedTable) -> impl IntoView {
     }
 }
 
-#[component]
-fn NumberRow(row: Compared, quantity: ComparedQuantity, setup: LevelLoopSetup) -> impl IntoView {
-    let session = use_session();
+fn number_row(session: Session, row: Compared, quantity: ComparedQuantity, setup: LevelLoopSetup) -> impl IntoView {
     let lab = session.lab;
     let style = lab.number_style();
     let number = |value: f64| match quantity {

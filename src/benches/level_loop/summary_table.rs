@@ -6,15 +6,12 @@ use quadtank::literature::andreis::{PublishedModel, PublishedObjective};
 use quadtank::study::level_loop::{ComparedSummary, SummaryEntry};
 
 use super::published::{disturbance_name, table_name};
-use super::session::use_session;
 use crate::lab::Lab;
 use crate::texts::tr;
 use crate::widgets::{Row, TableContent};
 
 /// The content of such a table.
-#[component]
-pub fn Summary(found: ComparedSummary) -> impl IntoView {
-    let lab = use_session().lab;
+pub fn summary_table(lab: Lab, found: &ComparedSummary) -> impl IntoView + use<> {
     let rows = found.rows.iter().map(|row| {
         let objective = match row.objective {
             PublishedObjective::Tight => tr!(lab, level.tight),
