@@ -237,6 +237,31 @@ mod tests {
         assert_eq!(setup, LevelLoopSetup::default());
     }
 
+    /// The open valve lets 0.0301 m³/s through at 1 m (Andreis 2017, Eq. 84, with Table 4.2).
+    #[test]
+    fn a_disturbance_of_ones_own_is_a_tenth_of_the_largest_outflow_and_acts_when_the_one_before_did() {
+        let mut setup = LevelLoopSetup::default();
+        for kind in OwnDisturbance::ALL {
+            setup.set_own_disturbance(kind);
+            assert_eq!(OwnDisturbance::of(&setup.experiment.disturbance.signal), kind);
+            assert_eq!((setup.experiment.disturbance.from_s, setup.experiment.disturbance.until_s), (50.0, 150.0));
+        }
+        setup.set_own_disturbance(OwnDisturbance::Step);
+        let InflowSignal::Step { size } = setup.experiment.disturbance.signal else { panic!() };
+        assert!((size - 0.1 * 2.40153e-5 * 400.0 * 9.8_f64.sqrt()).abs() < 1e-7, "{size}");
+    }
+
+    #[test]
+    fn only_steps_of_the_set_point_within_the_run_count() {
+        let mut setup = LevelLoopSetup::default();
+        assert!(!setup.steps_set_point());
+        let step = |time_s, size| crate::sim::level::SignalStep { time_s, size };
+        for (step, counts) in [(step(301.0, 0.1), false), (step(0.0, 0.0), false), (step(0.0, 0.1), true)] {
+            setup.experiment.set_point_steps = vec![step];
+            assert_eq!(setup.steps_set_point(), counts);
+        }
+    }
+
     #[test]
     fn the_controller_does_not_change_the_problem_of_a_search_but_the_objective_does() {
         let setup = LevelLoopSetup::default();
