@@ -55,7 +55,7 @@ pub struct ComparedSummary {
 pub fn compare_summary(table: u32) -> Result<ComparedSummary, LevelRunError> {
     let rows = match table {
         15 => CHANGES.iter().map(compare_change).collect::<Result<_, _>>()?,
-        16 => VERDICTS.iter().map(compare_verdict).collect::<Result<_, _>>()?,
+        16 => VERDICTS.into_iter().map(compare_verdict).collect::<Result<_, _>>()?,
         _ => Vec::new(),
     };
     Ok(ComparedSummary { table, rows, remarks: remarks_on_table(table) })
@@ -140,8 +140,8 @@ fn compare_change(printed: &PublishedChange) -> Result<SummaryRow, LevelRunError
 }
 
 /// By the index of the gradient search, from which that of the genetic one hardly differs.
-fn compare_verdict(printed: &PublishedVerdict) -> Result<SummaryRow, LevelRunError> {
-    let PublishedVerdict { disturbance, objective, model, verdict } = *printed;
+fn compare_verdict(printed: PublishedVerdict) -> Result<SummaryRow, LevelRunError> {
+    let PublishedVerdict { disturbance, objective, model, verdict } = printed;
     let tuning = tuning_of(disturbance, objective, PublishedMethod::Gradient, model);
     let reference = variance(disturbance, objective, model, tuning)?;
     let actual = variance(disturbance, objective, PublishedModel::Nominal, CURRENT_TUNING)?;
