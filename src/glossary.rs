@@ -20,7 +20,7 @@ pub struct Term {
 }
 
 /// All words, in the order of the benches.
-pub const TERMS: [Term; 70] = [
+pub const TERMS: [Term; 74] = [
     Term { key: "gamma", text: terms::gamma, lesson: 1 },
     Term { key: "minimum_phase", text: terms::minimum_phase, lesson: 1 },
     Term { key: "zero", text: terms::zero, lesson: 1 },
@@ -91,6 +91,10 @@ pub const TERMS: [Term; 70] = [
     Term { key: "step_size", text: terms::step_size, lesson: 12 },
     Term { key: "level_windup", text: terms::level_windup, lesson: 7 },
     Term { key: "level_costs", text: terms::level_costs, lesson: 11 },
+    Term { key: "sine", text: terms::sine, lesson: 11 },
+    Term { key: "search_box", text: terms::search_box, lesson: 12 },
+    Term { key: "move_penalty", text: terms::move_penalty, lesson: 11 },
+    Term { key: "amigo", text: terms::amigo, lesson: 12 },
 ];
 
 impl Term {

@@ -9,7 +9,7 @@ use quadtank_lesson::{
     Answer, Feedback, Lesson, Of, Progress, Record, Step, Task, TaskKind, Tongue, Values, Verdict, check, start_of,
     with_settings,
 };
-use quadtank_scenario::{Document, Quantities};
+use quadtank_scenario::{Difference, Document, Quantities};
 
 use super::course;
 use super::kept;
@@ -41,6 +41,8 @@ pub struct State {
     pub at_end: RwSignal<bool>,
     /// What was said last about each task of the open step.
     pub said: RwSignal<Vec<(String, Option<Feedback>, bool)>>,
+    /// What the open step has set otherwise than the bench stood before.
+    pub changed: RwSignal<Vec<Difference>>,
     /// The state with which the step began.
     start: StoredValue<Option<Document>>,
     /// The states with which the steps began so far, by their places.
@@ -77,6 +79,7 @@ impl Classroom {
             progress: RwSignal::new(None),
             at_end: RwSignal::new(false),
             said: RwSignal::new(Vec::new()),
+            changed: RwSignal::new(Vec::new()),
             start: StoredValue::new(None),
             starts: StoredValue::new(BTreeMap::new()),
             before: StoredValue::new(None),
@@ -144,11 +147,14 @@ impl Classroom {
                 progress.step = index;
             }
         });
+        let document = || (self.lab.bench.get_untracked().document)(self.lab);
+        let before = kept.then(document);
         if let Some(document) = start {
             self.lab.open(Ok(document));
         }
         self.lab.large.set(None);
-        let present = (self.lab.bench.get_untracked().document)(self.lab);
+        let present = document();
+        self.changed.set(before.map(|before| before.differences(&present)).unwrap_or_default());
         self.starts.update_value(|starts| {
             starts.insert(index, present.clone());
         });

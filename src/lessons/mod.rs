@@ -2,6 +2,7 @@
 
 mod answers;
 mod catalogue;
+mod changed;
 mod classroom;
 mod course;
 mod finish;

@@ -8,6 +8,7 @@ use leptos::html::H2;
 use leptos::prelude::*;
 use quadtank_lesson::{Answer, Lesson, Step, Task, TaskKind};
 
+use super::changed::WhatWasSet;
 use super::classroom::{Classroom, tongue, use_classroom};
 use super::finish::Finish;
 use super::prose::{Prose, Still};
@@ -89,6 +90,7 @@ fn StepPanel(lesson: Arc<Lesson>, step: Step, index: usize) -> impl IntoView {
                 <h2 tabindex="-1" node_ref=heading data-testid="step-title">
                     {move || tr!(lab, lesson.step, number = index + 1, title = title.get())}
                 </h2>
+                <WhatWasSet />
                 <Prose text />
                 {tasks.collect_view()}
                 {after}

@@ -108,6 +108,37 @@ for (const [width, height] of [[1440, 900], [1920, 1080]]) {
   }
 }
 
+test('the five steps of the level loop are on one screen in every language', async ({ lab, page }) => {
+  await page.setViewportSize({ width: 1440, height: 900 });
+  for (const lang of ['en', 'pt-BR', 'es']) {
+    await lab.open(`bench=level-loop&lang=${lang}`);
+    const cards = ['process', 'experiment', 'course', 'step-test', 'trade-off', 'tuning', 'assessment'];
+    for (const card of cards) {
+      const box = await page.locator(`section.card.${card}`).boundingBox();
+      expect(box.y + box.height, `${lang}: ${card}`).toBeLessThanOrEqual(900);
+    }
+    expect(await cutOff(page)).toEqual([]);
+  }
+  await lab.axe();
+});
+
+test('on a phone the text of a lesson scrolls with the page, and the picture that matters stays in sight', async ({ lab, page }) => {
+  await page.setViewportSize({ width: 390, height: 844 });
+  await page.goto(`${lab.origin}/?lesson=two-valves-one-zero&step=2&lang=en`);
+  await lab.ready();
+  const picture = page.locator('section.card.responses');
+  for (const place of ['top', 'bottom']) {
+    await page.evaluate((end) => window.scrollTo(0, end ? document.documentElement.scrollHeight : 0), place === 'bottom');
+    const box = await picture.boundingBox();
+    expect(box.y, place).toBeGreaterThan(0);
+    expect(box.y, place).toBeLessThan(600);
+  }
+  // Nothing of the text is behind a scroll bar of its own.
+  expect(await page.evaluate(() => { const text = document.querySelector('.lesson-text'); return text.scrollHeight - text.clientHeight; })).toBeLessThanOrEqual(1);
+  await expect(lab.id('lesson-next')).toBeInViewport();
+  await lab.axe();
+});
+
 test('on a phone the responses stand between the valves and the controller, and are seen while the point moves', async ({ lab, page }) => {
   await page.setViewportSize({ width: 390, height: 844 });
   await lab.open();

@@ -154,7 +154,7 @@ enum Command {
         /// Name of a case
         #[arg(value_parser = case_of)]
         name: Option<Case>,
-        /// A table of Andreis (2017), 5.1 to 5.6, 5.9, 5.10, 5.12, 5.13, 5.17 or 5.18: every printed number beside the computed one
+        /// A table of Andreis (2017), 5.1 to 5.18: every printed number beside the computed one
         #[arg(long, value_name = "NUMBER", conflicts_with = "name", value_parser = andreis::table_of)]
         table: Option<TableNumber>,
     },

@@ -40,7 +40,7 @@ pub(super) fn extent(values: &[f64]) -> Option<(f64, f64)> {
 }
 
 /// The part of a column at times inside the window.
-fn part<'a>(time_s: &[f64], column: &'a [f64], (from, to): (f64, f64)) -> &'a [f64] {
+pub(super) fn part<'a>(time_s: &[f64], column: &'a [f64], (from, to): (f64, f64)) -> &'a [f64] {
     let first = time_s.partition_point(|&time| time < from);
     let end = time_s.partition_point(|&time| time <= to).max(first);
     column.get(first..end.min(column.len())).unwrap_or_default()

@@ -1,7 +1,7 @@
 //! The words that a lesson can link to. The page holds their explanations, in each of its languages.
 
 /// All words of the glossary, as links name them: `[zero](glossary:zero)`.
-pub const TERMS: [&str; 70] = [
+pub const TERMS: [&str; 74] = [
     "gamma",
     "minimum_phase",
     "zero",
@@ -72,6 +72,10 @@ pub const TERMS: [&str; 70] = [
     "step_size",
     "level_windup",
     "level_costs",
+    "sine",
+    "search_box",
+    "move_penalty",
+    "amigo",
 ];
 
 #[cfg(test)]

@@ -9,6 +9,7 @@ pub mod answers;
 mod codec;
 mod csv;
 mod csv_style;
+mod difference;
 mod document;
 mod entries;
 mod error;
@@ -38,6 +39,7 @@ pub use codec::{
 };
 pub use csv::{frequency_to_csv, roots_to_csv, run_to_csv, valve_map_to_csv};
 pub use csv_style::{CsvStyle, DecimalSign, Separator, TwoCommas};
+pub use difference::Difference;
 pub use document::{BenchDocument, Scenario, View};
 pub use entries::{Entry, EntryValue, entries};
 pub use error::{ScenarioError, runs_backwards};

@@ -47,6 +47,7 @@ pub fn AssessCard() -> impl IntoView {
     let lab = session.lab;
     let found = Memo::new(move |_| sentences::of_index(session));
     let quality = Memo::new(move |_| sentences::of_quality(session));
+    let steps = lab.throttled(session.part(LevelLoopSetup::steps_set_point));
     let take_reference = move |_| session.edit(|s| s.set_pi_tuning(s.reference));
     let make_reference = move |_| {
         session.edit(|s| {
@@ -61,6 +62,9 @@ pub fn AssessCard() -> impl IntoView {
                 {move || marked(&found.get().1)}
             </Verdict>
             <Figures name="level-indices" caption=say!(lab, level.indices)>{move || indices(session)}</Figures>
+            <p class="remark" data-testid="level-index-step" hidden=move || !steps.get()>
+                {move || marked(&tr!(lab, level.step_in_index))}
+            </p>
             <Sentence
                 id="level-quality"
                 warm=Signal::derive(move || !quality.get().0)

@@ -135,7 +135,7 @@ fn drawing(
         </text>
         <text class="alarm" x=left + width / 2.0 y=top + 22.0 text-anchor="middle">{alarm}</text>
         <text class="value" x="12" y="36">{format!("q_in {}", flow(signals.inflow))}</text>
-        <text class="value" x="342" y="270">{format!("q_out {}", flow(signals.outflow))}</text>
+        <text class="value" x="320" y="291" text-anchor="end">{format!("q_out {}", flow(signals.outflow))}</text>
         {(!in_outlet).then(|| view! { <text class="value" x="340" y="50">{flow(signals.valve_flow)}</text> })}
         {signal_lines(plant, valve_y)}
         {instruments(lab, plant, signals, valve_y)}
@@ -162,12 +162,12 @@ fn instruments(lab: Lab, plant: &LevelPlant, signals: &LevelSignals, valve_y: f6
     view! {
         <circle class="instrument" cx="300" cy=LINE_Y r="15" />
         <text class="tag" x="300" y=LINE_Y + 4.0 text-anchor="middle">"LC"</text>
-        <text x="300" y=LINE_Y + 30.0 text-anchor="middle">{with_unit(signals.output, output_unit(plant))}</text>
-        <text x="208" y=LINE_Y + 30.0 text-anchor="middle">
+        <text x="304" y=LINE_Y + 30.0 text-anchor="middle">{with_unit(signals.output, output_unit(plant))}</text>
+        <text x="214" y=LINE_Y + 30.0 text-anchor="middle">
             {with_unit(signals.measured, unit_of(plant.transmitter.signal.unit))}
         </text>
-        <text x="376" y=LINE_Y + 30.0 text-anchor="end">{pressure}</text>
-        <text x=VALVE_X - 20.0 y=valve_y - 24.0 text-anchor="end">{format!("X {}", style.fixed(signals.travel, 3))}</text>
+        <text x="376" y=LINE_Y + 48.0 text-anchor="end">{pressure}</text>
+        <text x=VALVE_X + 20.0 y=valve_y - 34.0>{format!("X {}", style.fixed(signals.travel, 3))}</text>
         <text x=VALVE_X y=valve_y + 24.0 text-anchor="middle">{format!("f {}", style.fixed(signals.opening, 3))}</text>
     }
 }

@@ -3,7 +3,7 @@
 use leptos::prelude::*;
 use quadtank::literature::andreis::PublishedDisturbance;
 use quadtank::sim::level::{InflowSignal, SetPointScale, SignalStep};
-use quadtank::study::level_loop::LevelLoopSetup;
+use quadtank::study::level_loop::{LevelLoopSetup, OwnDisturbance};
 use quadtank_scenario::Limits;
 
 use super::flags::{locks, panels};
@@ -115,7 +115,7 @@ const SET_POINT: ParamControl<LevelLoopSetup> = ParamControl {
 };
 
 /// The words of the card that explain themselves.
-const TERMS: &[Text] = &[terms::disturbance, terms::random, terms::reference];
+const TERMS: &[Text] = &[terms::disturbance, terms::sine, terms::random, terms::reference];
 
 /// The disturbance and the set-point.
 #[component]
@@ -171,10 +171,7 @@ fn scale_remark(lab: Lab) -> String {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
     Published(PublishedDisturbance),
-    Step,
-    Sine,
-    Random,
-    None,
+    Own(OwnDisturbance),
 }
 
 impl Kind {
@@ -182,12 +179,7 @@ impl Kind {
         if let Some(known) = setup.published_disturbance() {
             return Self::Published(known);
         }
-        match setup.experiment.disturbance.signal {
-            InflowSignal::None => Self::None,
-            InflowSignal::Step { .. } => Self::Step,
-            InflowSignal::Sine { .. } => Self::Sine,
-            InflowSignal::SimulinkNormal { .. } | InflowSignal::Normal { .. } => Self::Random,
-        }
+        Self::Own(OwnDisturbance::of(&setup.experiment.disturbance.signal))
     }
 
     fn choice(self, lab: Lab) -> Choice<Self> {
@@ -195,30 +187,19 @@ impl Kind {
             Self::Published(PublishedDisturbance::SineL) => ("sine-l", tr!(lab, level.sine_l)),
             Self::Published(PublishedDisturbance::SineH) => ("sine-h", tr!(lab, level.sine_h)),
             Self::Published(PublishedDisturbance::Random) => ("random", tr!(lab, level.random)),
-            Self::Step => ("step", tr!(lab, level.inflow_step)),
-            Self::Sine => ("sine", tr!(lab, level.own_sine)),
-            Self::Random => ("own-random", tr!(lab, level.own_random)),
-            Self::None => ("none", tr!(lab, level.no_disturbance)),
+            Self::Own(OwnDisturbance::Step) => ("step", tr!(lab, level.inflow_step)),
+            Self::Own(OwnDisturbance::Sine) => ("sine", tr!(lab, level.own_sine)),
+            Self::Own(OwnDisturbance::Random) => ("own-random", tr!(lab, level.own_random)),
+            Self::Own(OwnDisturbance::None) => ("none", tr!(lab, level.no_disturbance)),
         };
         Choice::new(self, name, text)
     }
 
-    /// Makes the experiment one with such a disturbance, of a tenth of the outflow where it is one's own.
     fn take_up(self, setup: &mut LevelLoopSetup) {
-        let tenth = 0.1 * setup.plant().flows(setup.experiment.level, 1.0)[1];
-        let signal = match self {
-            Self::Published(known) => return setup.set_published_disturbance(known),
-            Self::Step => InflowSignal::Step { size: tenth },
-            Self::Sine => InflowSignal::Sine { amplitude: tenth, period_s: 60.0 },
-            Self::Random => InflowSignal::Normal { std: tenth, sample_time_s: 1.0, seed: 1 },
-            Self::None => InflowSignal::None,
-        };
-        let experiment = &mut setup.experiment;
-        experiment.disturbance.signal = signal;
-        if experiment.disturbance.until_s <= experiment.disturbance.from_s {
-            (experiment.disturbance.from_s, experiment.disturbance.until_s) = (0.0, experiment.duration_s);
+        match self {
+            Self::Published(known) => setup.set_published_disturbance(known),
+            Self::Own(kind) => setup.set_own_disturbance(kind),
         }
-        setup.take_reference();
     }
 }
 
@@ -229,7 +210,7 @@ fn DisturbanceSelect() -> impl IntoView {
     let chosen = session.part(Kind::of);
     let choices = Signal::derive(move || {
         let published = PublishedDisturbance::ALL.map(Kind::Published);
-        let all = published.into_iter().chain([Kind::Step, Kind::Sine, Kind::Random, Kind::None]);
+        let all = published.into_iter().chain(OwnDisturbance::ALL.map(Kind::Own));
         all.map(|kind| kind.choice(lab)).collect::<Vec<_>>()
     });
     view! {

@@ -46,7 +46,15 @@ const PENALTY: ParamControl<LevelLoopSetup> = ParamControl {
 const USUAL_PEAK: f64 = 1.7;
 
 /// The words of the card that explain themselves.
-const TERMS: &[Text] = &[terms::cost_map, terms::gradient, terms::simplex, terms::genetic, terms::peak];
+const TERMS: &[Text] = &[
+    terms::cost_map,
+    terms::search_box,
+    terms::move_penalty,
+    terms::gradient,
+    terms::simplex,
+    terms::genetic,
+    terms::peak,
+];
 
 /// The map and the searches.
 #[component]

@@ -18,6 +18,7 @@ mod published;
 mod rules;
 mod sentences;
 mod session;
+mod summary_table;
 mod test;
 mod trade_off;
 mod tuning;

@@ -2,18 +2,19 @@
 
 use leptos::prelude::*;
 use quadtank::literature::LevelPresetId;
-use quadtank::literature::andreis::{AndreisRemark, PublishedDisturbance, PublishedModel};
+use quadtank::literature::andreis::{AndreisRemark, PublishedDisturbance, PublishedModel, remarks_on_table};
 use quadtank::literature::level_slides;
 use quadtank::sim::level::LevelController;
 use quadtank::study::level_loop::{
-    COMPARED_TABLES, Compared, ComparedFeatures, ComparedQuantity, ComparedTable, LevelLoopSetup, compare_features,
-    compare_table, published_setup,
+    COMPARED_TABLES, Compared, ComparedFeatures, ComparedQuantity, ComparedTable, LevelLoopSetup, SUMMARY_TABLES,
+    compare_features, compare_summary, compare_table, published_setup,
 };
 
 use super::flags::{locks, panels};
 use super::pictures::method_name;
 use super::sentences::{short_variance, variance};
-use super::session::{load, use_session};
+use super::session::{Session, load, use_session};
+use super::summary_table::summary_table;
 use crate::lab::Lab;
 use crate::texts::{say, tr};
 use crate::widgets::{Card, Choice, Row, Select, TableContent};
@@ -25,13 +26,21 @@ pub fn PublishedCard() -> impl IntoView {
     let lab = session.lab;
     let table = RwSignal::new(COMPARED_TABLES[0]);
     // No published case is refused.
-    let found = Memo::new(move |_| compare_table(table.get()).ok());
+    let numbers = Memo::new(move |_| compare_table(table.get()).ok().filter(|found| !found.numbers.is_empty()));
+    let summary = Memo::new(move |_| compare_summary(table.get()).ok().filter(|found| !found.rows.is_empty()));
     let choices = Signal::derive(move || {
-        COMPARED_TABLES.map(|table| Choice::new(table, table.to_string(), table_name(lab, table))).to_vec()
+        let mut tables = [&COMPARED_TABLES[..], &SUMMARY_TABLES].concat();
+        tables.sort_unstable();
+        tables.iter().map(|&table| Choice::new(table, table.to_string(), table_name(lab, table))).collect::<Vec<_>>()
     });
-    let content = move || found.get().map(|found| view! { <Numbers found /> });
+    let content = move || {
+        // Functions in place of components: they are worked out here, so that the language is followed.
+        let numbers = numbers.get().map(|found| number_table(session, &found));
+        let summary = summary.get().map(|found| summary_table(lab, &found));
+        (numbers, summary)
+    };
     let remarks = move || {
-        let remarks = found.with(|found| found.as_ref().map_or(&[][..], |found| found.remarks));
+        let remarks = remarks_on_table(table.get());
         remarks.iter().map(|remark| view! { <li>{remark_text(lab, *remark)}</li> }).collect_view()
     };
     view! {
@@ -54,9 +63,7 @@ pub fn PublishedCard() -> impl IntoView {
     }
 }
 
-#[component]
-fn Numbers(found: ComparedTable) -> impl IntoView {
-    let session = use_session();
+fn number_table(session: Session, found: &ComparedTable) -> impl IntoView + use<> {
     let lab = session.lab;
     let headings = [
         tr!(lab, level.column_disturbance),
@@ -68,10 +75,7 @@ fn Numbers(found: ComparedTable) -> impl IntoView {
         tr!(lab, level.column_deviation),
     ];
     let table = found.table;
-    let rows = found.numbers.iter().map(|row| {
-        let (row, quantity, setup) = (*row, found.quantity, found.setup_of(row));
-        view! { <NumberRow row quantity setup /> }
-    });
+    let rows = found.numbers.iter().map(|row| number_row(session, *row, found.quantity, found.setup_of(row)));
     let rows = rows.collect_view();
     let headings = headings.map(|text| view! { <th scope="col">{text}</th> });
     view! {
@@ -81,14 +85,21 @@ fn Numbers(found: ComparedTable) -> impl IntoView {
     }
 }
 
-#[component]
-fn NumberRow(row: Compared, quantity: ComparedQuantity, setup: LevelLoopSetup) -> impl IntoView {
-    let session = use_session();
+fn number_row(session: Session, row: Compared, quantity: ComparedQuantity, setup: LevelLoopSetup) -> impl IntoView {
     let lab = session.lab;
     let style = lab.number_style();
     let number = |value: f64| match quantity {
         ComparedQuantity::Index => style.fixed(value, 4),
         ComparedQuantity::LevelVariance | ComparedQuantity::OutflowVariance => variance(lab, value),
+        ComparedQuantity::Hundredths => style.fixed(value, 2),
+        ComparedQuantity::Ticks if value == 0.0 => "×".to_owned(),
+        ComparedQuantity::Ticks => style.fixed(value, 0),
+    };
+    let difference = row.computed - row.printed;
+    let deviation = match quantity {
+        ComparedQuantity::Ticks => style.fixed(difference, 0),
+        ComparedQuantity::Hundredths => style.fixed(difference, 2),
+        _ => format!("{} %", style.fixed(100.0 * row.deviation(), 3)),
     };
     let disturbance = disturbance_name(row.disturbance);
     let model = match row.model {
@@ -112,7 +123,7 @@ fn NumberRow(row: Compared, quantity: ComparedQuantity, setup: LevelLoopSetup) -
             <td>{tuning}</td>
             <td>{number(row.printed)}</td>
             <td>{number(row.computed)}</td>
-            <td>{format!("{} %", style.fixed(100.0 * row.deviation(), 3))}</td>
+            <td>{deviation}</td>
             <td>
                 <button type="button" class="button small" disabled=lab.locks(locks::GAINS) on:click=show>
                     {say!(lab, free.show)}
@@ -122,7 +133,7 @@ fn NumberRow(row: Compared, quantity: ComparedQuantity, setup: LevelLoopSetup) -
     }
 }
 
-const fn disturbance_name(disturbance: PublishedDisturbance) -> &'static str {
+pub(super) const fn disturbance_name(disturbance: PublishedDisturbance) -> &'static str {
     match disturbance {
         PublishedDisturbance::SineL => "Sine L",
         PublishedDisturbance::SineH => "Sine H",
@@ -130,10 +141,14 @@ const fn disturbance_name(disturbance: PublishedDisturbance) -> &'static str {
     }
 }
 
-fn table_name(lab: Lab, table: u32) -> String {
+pub(super) fn table_name(lab: Lab, table: u32) -> String {
     let what = match table {
         1 | 3 | 5 => tr!(lab, level.table_tight),
         2 | 4 | 6 => tr!(lab, level.table_averaging),
+        7 | 8 => tr!(lab, level.table_ticks),
+        11 | 14 => tr!(lab, level.table_hundredths),
+        15 => tr!(lab, level.table_change),
+        16 => tr!(lab, level.table_needed),
         9 | 10 => tr!(lab, level.table_index_tight),
         12 | 13 => tr!(lab, level.table_index_averaging),
         _ => tr!(lab, level.table_wrong_index),
@@ -159,6 +174,8 @@ fn remark_text(lab: Lab, remark: AndreisRemark) -> String {
         AndreisRemark::DoubleGain => tr!(lab, level.remark_double_gain),
         AndreisRemark::SimcCondition => tr!(lab, level.remark_simc),
         AndreisRemark::LambdaWithoutBound => tr!(lab, level.remark_lambda),
+        AndreisRemark::RoundedDown => tr!(lab, level.remark_rounded),
+        AndreisRemark::VerdictsByTheText => tr!(lab, level.remark_verdicts),
     }
 }
 

@@ -72,7 +72,7 @@ fn tunings(session: Session) -> Vec<(String, PiTuning)> {
     let lab = session.lab;
     let setup = session.throttled.setup.get();
     let published = setup.published_tunings().into_iter().map(|one| (published_name(lab, one), one.tuning));
-    let rules = suggested(session).into_iter().map(|(name, tuning)| (name.to_owned(), tuning));
+    let rules = suggested(session).into_iter().map(|(name, tuning)| (ruled_name(lab, name), tuning));
     let reference = std::iter::once((tr!(lab, level.reference_point), setup.reference));
     published.chain(rules).chain(reference).fold(Vec::new(), |mut known: Vec<(String, PiTuning)>, next| {
         if known.iter().all(|(_, tuning)| *tuning != next.1) {
@@ -84,12 +84,24 @@ fn tunings(session: Session) -> Vec<(String, PiTuning)> {
 
 /// How a published tuning was found and what for: the source has some methods for either objective, and the rules have their names.
 fn published_name(lab: Lab, PublishedTuning { method, objective, .. }: PublishedTuning) -> String {
-    let name = method_name(lab, method);
+    let name = match method {
+        PublishedMethod::Skogestad | PublishedMethod::Lambda => {
+            tr!(lab, level.printed_tuning, name = method_name(lab, method))
+        }
+        _ => method_name(lab, method),
+    };
     match (method, objective) {
         (PublishedMethod::Current, _) => name,
         (_, PublishedObjective::Tight) => format!("{name}, {}", tr!(lab, level.tight)),
         (_, PublishedObjective::Averaging) => format!("{name}, {}", tr!(lab, level.averaging)),
     }
+}
+
+/// The name of what a rule suggests, told from the printed tunings by the rule of the same name.
+fn ruled_name(lab: Lab, name: &str) -> String {
+    let is_printed_too =
+        [PublishedMethod::Skogestad, PublishedMethod::Lambda].iter().any(|&method| method_name(lab, method) == name);
+    if is_printed_too { tr!(lab, level.ruled_tuning, name = name) } else { name.to_owned() }
 }
 
 fn entries(found: &TradeOff, names: &[(String, PiTuning)]) -> Vec<TradeOffEntry> {

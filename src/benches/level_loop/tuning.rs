@@ -127,6 +127,8 @@ const TERMS: &[Text] = &[
     terms::level_windup,
     terms::simc,
     terms::lambda,
+    terms::amigo,
+    terms::search_box,
 ];
 
 /// Objective and tuning.

@@ -11,6 +11,7 @@ use crate::lessons::classroom::tongue;
 use crate::lessons::prose::inline;
 use crate::tables::style;
 use crate::texts::{say, tr};
+use crate::widgets::TableContent;
 
 /// What a code holds, or why it holds nothing.
 type Found = Result<Report, ReportError>;
@@ -90,24 +91,18 @@ fn detail(lab: Lab, lessons: Lessons, report: Report) -> impl IntoView {
                 <td>{task.hints}</td>
             </tr>
         }
+        .into_any()
     });
-    let rows = rows.collect_view();
+    let rows = rows.collect();
+    let title = title_of(lab, lessons, &report.lesson);
+    let columns =
+        vec![tr!(lab, lesson.task), tr!(lab, lesson.points), tr!(lab, lesson.wrong_answers), tr!(lab, lesson.hints)];
     view! {
         <p>
-            <b>{report.name}</b> " · " {title_of(lab, lessons, &report.lesson)} " · "
+            <b>{report.name}</b> " · " {title.clone()} " · "
             {tr!(lab, lesson.report_line, score = report.score, time = time(report.seconds), seed = report.seed)}
         </p>
-        <table class="plain">
-            <thead>
-                <tr>
-                    <th scope="col">{tr!(lab, lesson.task)}</th>
-                    <th scope="col">{tr!(lab, lesson.points)}</th>
-                    <th scope="col">{tr!(lab, lesson.wrong_answers)}</th>
-                    <th scope="col">{tr!(lab, lesson.hints)}</th>
-                </tr>
-            </thead>
-            <tbody>{rows}</tbody>
-        </table>
+        <table class="plain"><TableContent caption=title columns rows /></table>
     }
 }
 
@@ -136,20 +131,9 @@ fn class_table(lab: Lab, lessons: Lessons, found: &[Found]) -> impl IntoView + u
         }
         .into_any()
     });
-    let rows = rows.collect_view();
-    view! {
-        <table class="plain">
-            <thead>
-                <tr>
-                    <th scope="col">{tr!(lab, lesson.student)}</th>
-                    <th scope="col">{tr!(lab, lesson.lesson)}</th>
-                    <th scope="col">{tr!(lab, lesson.of_hundred)}</th>
-                    <th scope="col">{tr!(lab, lesson.time)}</th>
-                </tr>
-            </thead>
-            <tbody>{rows}</tbody>
-        </table>
-    }
+    let columns =
+        vec![tr!(lab, lesson.student), tr!(lab, lesson.lesson), tr!(lab, lesson.of_hundred), tr!(lab, lesson.time)];
+    view! { <table class="plain"><TableContent caption=tr!(lab, lesson.report) columns rows=rows.collect() /></table> }
 }
 
 /// The reports as values with this separator, with names as in files, not as on the screen.

@@ -1,4 +1,4 @@
-use super::super::range::{extent, join, range};
+use super::super::range::{extent, join, part, range};
 use super::super::{Axis, Chart, Course, Entry, Layer, Name, Pen, Role, Sample, Series};
 
 /// Heights of the three charts beside each other.
@@ -10,6 +10,9 @@ const LITRES: f64 = 1000.0;
 const BAND_ROOM: f64 = 0.03;
 /// An axis never shows less than this share of the largest value, so that noise does not look like a step.
 const LEAST_SHARE: f64 = 0.01;
+
+/// How many times as wide as the run what is shown may become by pinned runs: beyond, the run would only look like a line.
+const WIDEST: f64 = 30.0;
 
 /// One run of the loop; all columns have the rows of `time_s`.
 #[derive(Clone, Copy, Debug)]
@@ -69,7 +72,7 @@ type Column = for<'a> fn(&LevelRunColumns<'a>) -> &'a [f64];
 
 /// Three charts with one time axis: the level with its reference, the flows, the output of the controller.
 ///
-/// Ranges are those of the run; pinned runs may stretch them once over to either side, and leave the chart beyond.
+/// Ranges are those of the run and the pinned runs, but a pinned run that would make a line of the run leaves the chart.
 pub fn level_loop<'a>(spec: &LevelLoopCharts<'a>) -> [Chart<'a>; 3] {
     let mut charts = [level_chart(spec), flow_chart(spec), output_chart(spec)];
     for (chart, weight) in charts.iter_mut().zip(WEIGHTS) {
@@ -148,7 +151,10 @@ fn range_of(spec: &LevelLoopCharts, column: Column, also: &[f64], limits: (f64, 
     let main = [column(&spec.run), also];
     let (low, high) = main.into_iter().filter_map(extent).reduce(join).unwrap_or_default();
     let beside = spec.pinned.iter().map(|run| (run.time_s, [column(run)]));
-    range(spec.window_s, time_s, main.into_iter(), beside, limits, LEAST_SHARE * high.abs().max(low.abs()))
+    let shown = range(spec.window_s, time_s, main.into_iter(), beside, limits, LEAST_SHARE * high.abs().max(low.abs()));
+    let pinned = spec.pinned.iter().filter_map(|run| extent(part(run.time_s, column(run), spec.window_s)));
+    let all = pinned.fold(shown, |all, (low, high)| join(all, (low.max(limits.0), high.min(limits.1))));
+    if all.1 - all.0 <= WIDEST * (shown.1 - shown.0) { all } else { shown }
 }
 
 fn series<'a>(name: &'a str, role: Role, pen: Pen, course: Course, (x, y): (&'a [f64], &'a [f64])) -> Series<'a> {
@@ -228,6 +234,9 @@ mod tests {
         assert!(shows(&alone[0], 100.0) && shows(&alone[0], 130.0), "centimetres: {:?}", alone[0].y);
         assert!(shows(&alone[1], 1000.0) && shows(&alone[1], 1300.0), "litres per second: {:?}", alone[1].y);
         let calm = level_loop(&spec(&level, &[&[1.1; 4]]));
+        // A tight run with an averaging one beside it, whose level moves twelve times as far.
+        let averaging = level_loop(&spec(&level, &[&[0.5, 1.0, 4.1, 2.0]]));
+        assert!(shows(&averaging[0], 50.0) && shows(&averaging[0], 410.0), "{:?}", averaging[0].y);
         let wild = level_loop(&spec(&level, &[&[1.0, 1.5, -1e9, 1e9]]));
         for k in 0..3 {
             assert_eq!(alone[k].y.range, calm[k].y.range);

@@ -7,6 +7,7 @@ wasm_bindgen_test::wasm_bindgen_test_configure!(run_in_browser);
 
 mod andreis_indices;
 mod andreis_plant;
+mod andreis_summaries;
 mod andreis_tuning;
 mod andreis_variances;
 mod campestrini_loops;

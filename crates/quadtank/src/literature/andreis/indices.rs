@@ -115,13 +115,17 @@ pub enum AndreisRemark {
     SimcCondition,
     /// λ = 1 s is no recommendation of the rule: without dead time it has no lower bound.
     LambdaWithoutBound,
+    /// The mean change of Random and averaging control is printed as 14 %; the printed variances give 14.6 %.
+    RoundedDown,
+    /// The verdicts are those of the text; the signs of the table itself are not legible.
+    VerdictsByTheText,
 }
 
 /// The remarks on a table of chapter 5 (1 to 20 for 5.1 to 5.20).
 pub fn remarks_on_table(table: u32) -> &'static [AndreisRemark] {
     use AndreisRemark::{
         CutToBox, FlatIntegralTime, GradientValuesInPlace, LevelVariancesInPlace, LimitOfStability, NoLevelConstraint,
-        RandomSequence, SkogestadIsBetterOnce, UnitOfLevelVariance, WrongRanking,
+        RandomSequence, RoundedDown, SkogestadIsBetterOnce, UnitOfLevelVariance, VerdictsByTheText, WrongRanking,
     };
     match table {
         1 => &[UnitOfLevelVariance, LimitOfStability, FlatIntegralTime],
@@ -130,9 +134,12 @@ pub fn remarks_on_table(table: u32) -> &'static [AndreisRemark] {
         5 => &[UnitOfLevelVariance, RandomSequence, FlatIntegralTime],
         6 => &[CutToBox, NoLevelConstraint, RandomSequence, FlatIntegralTime],
         7 => &[WrongRanking],
-        9 | 10 | 17 | 18 => &[RandomSequence],
+        8 => &[CutToBox],
+        9 | 10 | 11 | 14 | 17 | 18 => &[RandomSequence],
         12 => &[LevelVariancesInPlace, RandomSequence],
         13 => &[GradientValuesInPlace, RandomSequence],
+        15 => &[RoundedDown],
+        16 => &[VerdictsByTheText],
         _ => &[],
     }
 }

@@ -6,6 +6,7 @@ mod disturbances;
 mod features;
 mod indices;
 mod rig;
+mod summaries;
 mod tables;
 
 pub use commercial::{COMMERCIAL_CONTROLLERS, CommercialController};
@@ -19,4 +20,5 @@ pub use rig::{
     CURRENT_TUNING, NOMINAL_INFLOW, NOMINAL_LEVEL, STEP_TEST_INFLOW, Tuning, UNCERTAIN_AREA,
     UNCERTAIN_VALVE_COEFFICIENT, VALVE_COEFFICIENT, plant, uncertain_plant,
 };
+pub use summaries::{CHANGES, PublishedChange, PublishedRanks, PublishedVerdict, RANKS, VERDICTS};
 pub use tables::{PublishedMethod, PublishedModel, PublishedObjective, PublishedVariance, VARIANCES};

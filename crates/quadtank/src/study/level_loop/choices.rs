@@ -4,7 +4,7 @@ use crate::literature::andreis::{
     Tuning,
 };
 use crate::plant::level::{LevelPlant, OutflowLaw};
-use crate::sim::level::{LevelController, LevelExperiment};
+use crate::sim::level::{InflowSignal, LevelController, LevelExperiment};
 use crate::tuning::{CostMeasure, ModelRule, ProcessModel};
 
 use super::{LevelLoopSetup, LevelPlantSpec, Objective, PiTuning, PlantAnswer};
@@ -18,6 +18,34 @@ pub struct PublishedTuning {
     pub objective: PublishedObjective,
     /// The tuning.
     pub tuning: PiTuning,
+}
+
+/// A disturbance of one's own, by its kind alone.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OwnDisturbance {
+    /// A step of the inflow.
+    Step,
+    /// A sine.
+    Sine,
+    /// Random numbers.
+    Random,
+    /// None.
+    None,
+}
+
+impl OwnDisturbance {
+    /// All kinds.
+    pub const ALL: [Self; 4] = [Self::Step, Self::Sine, Self::Random, Self::None];
+
+    /// The kind of a signal.
+    pub const fn of(signal: &InflowSignal) -> Self {
+        match signal {
+            InflowSignal::None => Self::None,
+            InflowSignal::Step { .. } => Self::Step,
+            InflowSignal::Sine { .. } => Self::Sine,
+            InflowSignal::SimulinkNormal { .. } | InflowSignal::Normal { .. } => Self::Random,
+        }
+    }
 }
 
 impl From<Tuning> for PiTuning {
@@ -128,6 +156,23 @@ impl LevelLoopSetup {
         self.set_objective(self.objective);
     }
 
+    /// Takes a disturbance of one's own up, as large as a tenth of the outflow at the level of the start with the valve open, with the
+    /// reference that belongs to it. It acts as long as the one before, and all the time where that did not act.
+    pub fn set_own_disturbance(&mut self, kind: OwnDisturbance) {
+        let tenth = 0.1 * self.plant().flows(self.experiment.level, 1.0)[1];
+        let experiment = &mut self.experiment;
+        experiment.disturbance.signal = match kind {
+            OwnDisturbance::Step => InflowSignal::Step { size: tenth },
+            OwnDisturbance::Sine => InflowSignal::Sine { amplitude: tenth, period_s: 60.0 },
+            OwnDisturbance::Random => InflowSignal::Normal { std: tenth, sample_time_s: 1.0, seed: 1 },
+            OwnDisturbance::None => InflowSignal::None,
+        };
+        if experiment.disturbance.until_s <= experiment.disturbance.from_s {
+            (experiment.disturbance.from_s, experiment.disturbance.until_s) = (0.0, experiment.duration_s);
+        }
+        self.take_reference();
+    }
+
     /// Changes the plant. One that is as a published plant is that, by its name.
     pub fn edit_plant(&mut self, change: impl FnOnce(&mut LevelPlant)) {
         let mut plant = self.plant();
@@ -190,6 +235,31 @@ mod tests {
         assert_eq!(setup.reference, PiTuning { gain: 0.2, integral_time_s: 2999.7 });
         setup.set_objective(Objective::Tight);
         assert_eq!(setup, LevelLoopSetup::default());
+    }
+
+    /// The open valve lets 0.0301 m³/s through at 1 m (Andreis 2017, Eq. 84, with Table 4.2).
+    #[test]
+    fn a_disturbance_of_ones_own_is_a_tenth_of_the_largest_outflow_and_acts_when_the_one_before_did() {
+        let mut setup = LevelLoopSetup::default();
+        for kind in OwnDisturbance::ALL {
+            setup.set_own_disturbance(kind);
+            assert_eq!(OwnDisturbance::of(&setup.experiment.disturbance.signal), kind);
+            assert_eq!((setup.experiment.disturbance.from_s, setup.experiment.disturbance.until_s), (50.0, 150.0));
+        }
+        setup.set_own_disturbance(OwnDisturbance::Step);
+        let InflowSignal::Step { size } = setup.experiment.disturbance.signal else { panic!() };
+        assert!((size - 0.1 * 2.40153e-5 * 400.0 * 9.8_f64.sqrt()).abs() < 1e-7, "{size}");
+    }
+
+    #[test]
+    fn only_steps_of_the_set_point_within_the_run_count() {
+        let mut setup = LevelLoopSetup::default();
+        assert!(!setup.steps_set_point());
+        let step = |time_s, size| crate::sim::level::SignalStep { time_s, size };
+        for (step, counts) in [(step(301.0, 0.1), false), (step(0.0, 0.0), false), (step(0.0, 0.1), true)] {
+            setup.experiment.set_point_steps = vec![step];
+            assert_eq!(setup.steps_set_point(), counts);
+        }
     }
 
     #[test]

@@ -14,10 +14,11 @@ mod search;
 mod setup;
 mod step_test;
 mod suggestions;
+mod summaries;
 mod trade_off;
 
 pub use answer::{LevelLoopAnswer, LevelLoopFault, run_level_loop};
-pub use choices::PublishedTuning;
+pub use choices::{OwnDisturbance, PublishedTuning};
 pub use contour::{ContourMap, ContourSettings};
 pub use element::{Element, ElementCurve};
 pub use findings::Finding;
@@ -34,4 +35,5 @@ pub use setup::{
 };
 pub use step_test::{ModelMatch, StepTestAnswer, StepTestFault, run_step_test};
 pub use suggestions::{SuggestedRule, Suggestion, suggest};
+pub use summaries::{ComparedSummary, SUMMARY_TABLES, SummaryEntry, SummaryRow, compare_summary};
 pub use trade_off::{TradeOff, TradeOffPoint, trade_off};

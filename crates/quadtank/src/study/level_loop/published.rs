@@ -11,6 +11,7 @@ use crate::sim::level::{
 };
 use crate::tuning::{CostMeasure, ReactionMethod};
 
+use super::summaries::{compare_hundredths, compare_ticks};
 use super::{
     Harris, LevelLoopSetup, LevelPlantSpec, ModelError, ModelSource, Objective, PiTuning, SearchSpec, StepTestSpec,
 };
@@ -48,6 +49,10 @@ pub enum ComparedQuantity {
     OutflowVariance,
     /// Indices: ratios of variances.
     Index,
+    /// Indices in hundredths, printed without decimals.
+    Hundredths,
+    /// Ticks: 4 for the best method, one less for each better one, 0 for what is worse than the current tuning.
+    Ticks,
 }
 
 /// A published table, every number beside the computed one.
@@ -66,9 +71,9 @@ pub struct ComparedTable {
 }
 
 /// The tables that [`compare_table`] computes, 1 for 5.1.
-pub const COMPARED_TABLES: [u32; 12] = [1, 2, 3, 4, 5, 6, 9, 10, 12, 13, 17, 18];
+pub const COMPARED_TABLES: [u32; 16] = [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 17, 18];
 
-/// Computes a table of chapter 5 of Andreis (2017) anew: 1 to 6, 9, 10, 12, 13, 17 and 18. Others are empty.
+/// Computes a table of chapter 5 of Andreis (2017) anew, one of [`COMPARED_TABLES`]. Others are empty.
 ///
 /// # Errors
 /// [`LevelRunError`], which no published case has.
@@ -90,17 +95,23 @@ pub fn compare_table(table: u32) -> Result<ComparedTable, LevelRunError> {
             })
         })
     });
-    let numbers = variances.chain(indices).chain(wrong).collect::<Result<_, _>>()?;
+    let mut numbers = variances.chain(indices).chain(wrong).collect::<Result<Vec<_>, _>>()?;
+    numbers.extend(compare_ticks(table)?);
+    numbers.extend(compare_hundredths(table)?);
     let (objective, quantity) = kind_of_table(table);
     Ok(ComparedTable { table, objective, quantity, numbers, remarks: remarks_on_table(table) })
 }
 
 /// The objective of the tunings of a table, and what its numbers are.
 const fn kind_of_table(table: u32) -> (PublishedObjective, ComparedQuantity) {
-    use ComparedQuantity::{Index, LevelVariance, OutflowVariance};
+    use ComparedQuantity::{Hundredths, Index, LevelVariance, OutflowVariance, Ticks};
     use PublishedObjective::{Averaging, Tight};
     match table {
         2 | 4 | 6 => (Averaging, OutflowVariance),
+        7 => (Tight, Ticks),
+        8 => (Averaging, Ticks),
+        11 => (Tight, Hundredths),
+        14 => (Averaging, Hundredths),
         9 | 10 => (Tight, Index),
         12 | 13 => (Averaging, Index),
         17 => (Tight, OutflowVariance),
@@ -126,7 +137,7 @@ impl ComparedTable {
     }
 }
 
-fn plant_of(model: PublishedModel) -> LevelPlant {
+pub(super) fn plant_of(model: PublishedModel) -> LevelPlant {
     match model {
         PublishedModel::Nominal => andreis::plant(),
         PublishedModel::Uncertain => andreis::uncertain_plant(),
@@ -134,7 +145,11 @@ fn plant_of(model: PublishedModel) -> LevelPlant {
 }
 
 /// Variances of level and outflow.
-fn variances(plant: &LevelPlant, disturbance: PublishedDisturbance, tuning: Tuning) -> Result<[f64; 2], LevelRunError> {
+pub(super) fn variances(
+    plant: &LevelPlant,
+    disturbance: PublishedDisturbance,
+    tuning: Tuning,
+) -> Result<[f64; 2], LevelRunError> {
     let experiment = disturbance.experiment();
     let controller = LevelController::pi(tuning.gain, tuning.integral_time_s);
     let log = LevelSimulation::new(plant, &experiment)?.run(&controller)?;
@@ -163,7 +178,7 @@ fn compare_variance(row: &PublishedVariance) -> Result<Compared, LevelRunError> 
 }
 
 /// The index with a model, 0 or 1; the current loop is always the plant.
-fn compare_index(row: &PublishedIndex, model: usize) -> Result<Compared, LevelRunError> {
+pub(super) fn compare_index(row: &PublishedIndex, model: usize) -> Result<Compared, LevelRunError> {
     let is_tight = row.objective == PublishedObjective::Tight;
     let current = variances(&andreis::plant(), row.disturbance, CURRENT_TUNING)?;
     let number = |level: f64, outflow: f64| if is_tight { level / current[0] } else { outflow / current[1] };
@@ -322,7 +337,7 @@ mod tests {
                 let computed = match found.quantity {
                     ComparedQuantity::LevelVariance => figures.level.variance,
                     ComparedQuantity::OutflowVariance => figures.outflow.variance,
-                    ComparedQuantity::Index => continue,
+                    _ => continue,
                 };
                 assert_eq!(computed, row.computed, "{table}: {row:?}");
             }

@@ -234,6 +234,13 @@ impl LevelLoopSetup {
         }
     }
 
+    /// Whether the set-point steps within the run. The variance of the level then counts the move that was asked for, and an index
+    /// of it rewards a loop that stops short of the new set-point.
+    pub fn steps_set_point(&self) -> bool {
+        let experiment = &self.experiment;
+        experiment.set_point_steps.iter().any(|step| step.size != 0.0 && step.time_s <= experiment.duration_s)
+    }
+
     /// The same controller and reference in the experiment, on the plant and the model of another setup: how a pinned setup is
     /// compared.
     #[must_use]
