@@ -1,6 +1,7 @@
 //! The page of scenes: their order and titles, and how they leave the browser.
 
 use leptos::prelude::*;
+use leptos::wasm_bindgen::JsCast;
 use quadtank_scenario::{Document, Label};
 
 use super::{bench_of, change, show};
@@ -55,17 +56,30 @@ fn SceneRow(index: usize, moved: RwSignal<u32>) -> impl IntoView {
     let bench = move || read(&|document| bench_of(lab, document).map(|bench| (bench.title)(lab)).unwrap_or_default());
     let rename = move |event| {
         let name: String = event_target_value(&event).chars().take(Label::MAX_NAME).collect();
-        change(lab, |documents| documents[index].label_mut().name = name);
+        change(lab, |documents| {
+            if let Some(document) = documents.get_mut(index) {
+                document.label_mut().name = name;
+            }
+        });
     };
     let rearrange = move |rearrange: &dyn Fn(&mut Vec<Document>)| {
+        leave_field();
         change(lab, rearrange);
         moved.update(|times| *times += 1);
     };
-    let swap_with_next = move |first: usize| rearrange(&|documents| documents.swap(first, first + 1));
+    let swap_with_next = move |first: usize| {
+        rearrange(&|documents| {
+            if first + 1 < documents.len() {
+                documents.swap(first, first + 1);
+            }
+        });
+    };
     let remove = move |_| {
         let former = lab.scenes.get_untracked();
-        rearrange(&|documents| drop(documents.remove(index)));
-        lab.notice.set(Some(Notice::SceneRemoved(former)));
+        if index < former.documents.len() {
+            rearrange(&|documents| drop(documents.remove(index)));
+            lab.notice.set(Some(Notice::SceneRemoved(former)));
+        }
     };
     let is_last = move || lab.scenes.with(|scenes| index + 1 >= scenes.documents.len());
     let number = index + 1;
@@ -116,6 +130,14 @@ fn SceneRow(index: usize, moved: RwSignal<u32>) -> impl IntoView {
                 "✕"
             </button>
         </li>
+    }
+}
+
+/// Leaves the field that is typed into, which takes up its text. A field that went with its row would give it to the scene that
+/// has the place by then.
+fn leave_field() {
+    if let Some(field) = document().active_element().and_then(|e| e.dyn_into::<web_sys::HtmlElement>().ok()) {
+        let _ = field.blur();
     }
 }
 

@@ -59,6 +59,11 @@ test('a lecture of two scenes is collected, put in order, shown by keys, and com
   await expect(lab.id('scene-2')).toHaveCount(0);
   await lab.id('bring-back').click();
   await expect(lab.id('scene-title-2')).toHaveValue('The easy side');
+  // The field of a scene that goes is left once more, with what was typed into it.
+  await lab.id('scene-title-1').fill('Gone');
+  await lab.id('scene-remove-1').dispatchEvent('click');
+  await expect(lab.id('scene-2')).toHaveCount(0);
+  await expect(lab.id('scene-title-1')).toHaveValue('The easy side');
 });
 
 test('scenes leave as a file and as a link, and those that were there are not lost', async ({ lab, page, context }) => {

@@ -115,7 +115,7 @@ const PANELS = { process: 'process', valves: 'plane', zeros: 'zeros', rga: 'rga'
 test('a menu closes with Escape, with a press elsewhere, and when another opens', async ({ lab, page }) => {
   await lab.open();
   const menu = lab.id('file-menu');
-  for (const close of [() => page.keyboard.press('Escape'), () => page.locator('h1').click(), () => page.locator('.about > summary').click()]) {
+  for (const close of [() => page.keyboard.press('Escape'), () => page.locator('.top h1').click(), () => page.locator('.about > summary').click()]) {
     await menu.locator('summary').click();
     await expect(menu).toHaveAttribute('open', '');
     await close();
@@ -174,7 +174,7 @@ const LOCKS = {
   pairing: ['pairing-diagonal', 'pairing-swapped', 'try-advised'],
   gains: ['gain1', 'gain1-number', 'gain2', 'gain2-number', 'integral1', 'integral1-number', 'integral2', 'integral2-number', 'sign1', 'sign2', 'try-advised'],
   sampling: ['antiwindup', 'manual1', 'manual2', 'sampling', 'sampling-number', 'tracking', 'tracking-number', 'weight', 'weight-number'],
-  experiment: ['duration', 'duration-number', 'flow-noise', 'flow-noise-number', 'load-kind', 'noise', 'noise-number', 'pumps-kind', 'quantised', 'start-kind', 'step-add', ...[1, 2].flatMap((k) => [`step-level-${k}`, `step-remove-${k}`, `step-size-${k}`, `step-time-${k}`]), 'step1', 'step1-number', 'step1-time', 'step2', 'step2-number', 'step2-time'],
+  experiment: ['duration', 'duration-number', 'flow-noise', 'flow-noise-number', 'inflow-remove', 'load-kind', 'noise', 'noise-number', 'pumps-kind', 'quantised', 'start-kind', 'step-add', ...[1, 2].flatMap((k) => [`step-level-${k}`, `step-remove-${k}`, `step-size-${k}`, `step-time-${k}`]), 'step1', 'step1-number', 'step1-time', 'step2', 'step2-number', 'step2-time'],
 };
 test('each lock disables its controls and no other', async ({ lab, page }) => {
   const disabled = () =>

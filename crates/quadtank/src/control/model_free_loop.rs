@@ -283,7 +283,7 @@ mod tests {
             a[(i, i)] = -drains[i];
             b[(i, i)] = slopes[i];
         }
-        Jacobian { a, b, c: Matrix2x4::identity(), quasi_steady: [false, false, true, true] }
+        Jacobian { a, b, c: Matrix2x4::identity(), quasi_steady: [false, false, true, true], input_delay_s: [0.0; 2] }
     }
 
     fn loops() -> [ModelFreeSettings; 2] {
