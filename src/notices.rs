@@ -22,8 +22,64 @@ const PASSING_MS: u32 = 10_000;
 #[component]
 pub fn Notices() -> impl IntoView {
     let lab = use_lab();
-    let content = move |notice: Notice| {
-        match notice {
+    let passing = StoredValue::new_local(None::<Timeout>);
+    Effect::new(move || {
+        let goes = matches!(
+            lab.notice.get(),
+            Some(
+                Notice::Copied
+                    | Notice::TableCopied
+                    | Notice::Loaded(_)
+                    | Notice::SceneAdded(_)
+                    | Notice::ValvesOf(_)
+                    | Notice::DeadTimeAdded(_)
+            )
+        );
+        let close = move || lab.notice.set(None);
+        passing.set_value(goes.then(|| Timeout::new(PASSING_MS, close)));
+    });
+    view! {
+        <div role="status" aria-live="polite" class="notices">
+            {move || lab.notice.get().map(|notice| {
+                let is_bad = matches!(notice, Notice::Refused(_) | Notice::NoLesson(_) | Notice::NotRead | Notice::NotUnderstood(_) | Notice::NotKept | Notice::TableNotCopied);
+                let class = if is_bad { "notice" } else { "notice good" };
+                view! {
+                    <div class=class data-testid="notice">
+                        {content(lab, notice)}
+                        <button
+                            type="button"
+                            class="button small"
+                            aria-label=tr!(lab, app.close)
+                            on:click=move |_| lab.notice.set(None)
+                        >
+                            "✕"
+                        </button>
+                    </div>
+                }
+            })}
+        </div>
+    }
+}
+
+fn see_scenes(lab: Lab) {
+    lab.notice.set(None);
+    share::go_to_page(lab, SidePage::Scenes);
+}
+
+/// A sentence on scenes that are not in the list any more, and the way back to them.
+fn bring_back(lab: Lab, said: String, name: String, former: Scenes) -> AnyView {
+    view! {
+        <div>{said}</div>
+        <button type="button" class="button small" data-testid="bring-back" on:click=move |_| scenes::bring_back(lab, former.clone())>
+            {name}
+        </button>
+    }
+    .into_any()
+}
+
+/// What a notice says, and what can be done about it.
+fn content(lab: Lab, notice: Notice) -> AnyView {
+    match notice {
         Notice::Refused(error) => view! { <div>{tr!(lab, refused.lead)} " " {of_error(lab, DisplayUnit::Cm, &error)}</div> }.into_any(),
         Notice::NewEdition => view! {
             <div>{tr!(lab, app.new_edition)}</div>
@@ -85,60 +141,6 @@ pub fn Notices() -> impl IntoView {
         }
         Notice::NotKept => view! { <div>{tr!(lab, app.not_kept)}</div> }.into_any(),
     }
-    };
-    let passing = StoredValue::new_local(None::<Timeout>);
-    Effect::new(move || {
-        let goes = matches!(
-            lab.notice.get(),
-            Some(
-                Notice::Copied
-                    | Notice::TableCopied
-                    | Notice::Loaded(_)
-                    | Notice::SceneAdded(_)
-                    | Notice::ValvesOf(_)
-                    | Notice::DeadTimeAdded(_)
-            )
-        );
-        let close = move || lab.notice.set(None);
-        passing.set_value(goes.then(|| Timeout::new(PASSING_MS, close)));
-    });
-    view! {
-        <div role="status" aria-live="polite" class="notices">
-            {move || lab.notice.get().map(|notice| {
-                let is_bad = matches!(notice, Notice::Refused(_) | Notice::NoLesson(_) | Notice::NotRead | Notice::NotUnderstood(_) | Notice::NotKept | Notice::TableNotCopied);
-                let class = if is_bad { "notice" } else { "notice good" };
-                view! {
-                    <div class=class data-testid="notice">
-                        {content(notice)}
-                        <button
-                            type="button"
-                            class="button small"
-                            aria-label=tr!(lab, app.close)
-                            on:click=move |_| lab.notice.set(None)
-                        >
-                            "✕"
-                        </button>
-                    </div>
-                }
-            })}
-        </div>
-    }
-}
-
-fn see_scenes(lab: Lab) {
-    lab.notice.set(None);
-    share::go_to_page(lab, SidePage::Scenes);
-}
-
-/// A sentence on scenes that are not in the list any more, and the way back to them.
-fn bring_back(lab: Lab, said: String, name: String, former: Scenes) -> AnyView {
-    view! {
-        <div>{said}</div>
-        <button type="button" class="button small" data-testid="bring-back" on:click=move |_| scenes::bring_back(lab, former.clone())>
-            {name}
-        </button>
-    }
-    .into_any()
 }
 
 fn undo_load(lab: Lab) {

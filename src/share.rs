@@ -31,7 +31,8 @@ pub fn go_to_page(lab: Lab, page: SidePage) {
 pub fn from_address() -> Option<Result<Opened, ScenarioError>> {
     let fragment = window().location().hash().ok()?;
     let fragment = fragment.trim_start_matches('#');
-    let document = fragment.strip_prefix(PREFIX).map(|link| document_from_link(link).map(Opened::Document));
+    let document =
+        fragment.strip_prefix(PREFIX).map(|link| document_from_link(link).map(Box::new).map(Opened::Document));
     let scenes = || fragment.strip_prefix(SCENES_PREFIX).map(|link| Scenes::from_link(link).map(Opened::Scenes));
     document.or_else(scenes)
 }
@@ -40,7 +41,7 @@ pub fn from_address() -> Option<Result<Opened, ScenarioError>> {
 pub fn open(lab: Lab, outcome: Result<Opened, ScenarioError>) {
     match outcome {
         Ok(Opened::Scenes(scenes)) => scenes::open(lab, scenes),
-        Ok(Opened::Document(document)) => lab.open(Ok(document)),
+        Ok(Opened::Document(document)) => lab.open(Ok(*document)),
         Err(error) => lab.open(Err(error)),
     }
 }

@@ -2,7 +2,7 @@
 
 use leptos::prelude::*;
 use leptos::wasm_bindgen::JsCast;
-use quadtank_scenario::{Document, Label};
+use quadtank_scenario::{Document, Label, Scenes};
 
 use super::{bench_of, change, show};
 use crate::download::download_text;
@@ -151,7 +151,7 @@ fn copy_link(lab: Lab) {
 
 /// Hands all scenes over as a file.
 fn save(lab: Lab) {
-    match lab.scenes.with_untracked(|scenes| scenes.to_json()) {
+    match lab.scenes.with_untracked(Scenes::to_json) {
         Ok(text) => download_text(FILE, "application/json", &text),
         Err(error) => lab.notice.set(Some(Notice::Refused(error))),
     }

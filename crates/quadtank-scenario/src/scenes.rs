@@ -35,7 +35,7 @@ pub struct Scenes {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Opened {
     /// One experiment.
-    Document(Document),
+    Document(Box<Document>),
     /// Experiments in the order of a lecture.
     Scenes(Scenes),
 }
@@ -108,7 +108,7 @@ pub fn opened_from_bytes(bytes: &[u8]) -> Result<Opened, ScenarioError> {
     let tree = tree_of(&text_of(bytes)?)?;
     match tree.get(FIELD) {
         Some(scenes) => Scenes::from_tree(&tree, scenes).map(Opened::Scenes),
-        None => document_from_tree(&tree).map(Opened::Document),
+        None => Ok(Opened::Document(Box::new(document_from_tree(&tree)?))),
     }
 }
 
@@ -162,7 +162,7 @@ mod tests {
     fn a_file_with_one_document_is_that_document() {
         let document = lecture().documents.remove(0);
         let text = document.to_json().unwrap();
-        assert_eq!(opened_from_bytes(text.as_bytes()), Ok(Opened::Document(document)));
+        assert_eq!(opened_from_bytes(text.as_bytes()), Ok(Opened::Document(Box::new(document))));
     }
 
     #[test]
