@@ -287,7 +287,8 @@ fn split_unit(name: &str) -> (&str, &str) {
     }
 }
 
-/// The unit of a flow by what its name has of one, or the usual one. Its slash and its digit stand in the way of [`split_unit`].
+/// The unit of an inflow, found anywhere in the name of its column; cm³/s if the name has none. [`split_unit`] cannot read `cm3/s`:
+/// it splits at the slash and takes nothing with a digit for a unit.
 fn unit_of_flow(name: &str) -> Unit {
     let has = |parts: &[&str]| parts.iter().any(|part| name.contains(part));
     if has(&["l/min", "lpm"]) {

@@ -96,8 +96,9 @@ impl Parameter {
         }
     }
 
-    /// Where it is sought: a valve over almost all of its travel, gains and areas from a fifth to five times of what they are, an offset
-    /// within a fifth of the wall, a delay up to a minute or five times of what it is, a level within the walls.
+    /// Bounds of the search, in the unit of the parameter: a valve fraction over almost all of 0 to 1; gains and areas from a fifth to
+    /// five times their present value; a sensor offset within a fifth of the height of its tank; a delay from 0 to one minute, or to
+    /// five times its present value if that is longer; a level from empty to full.
     pub fn bounds(self, rig: &QuadrupleTank) -> [f64; 2] {
         let five_times = |value: f64| [0.2 * value, 5.0 * value];
         match self {

@@ -212,7 +212,7 @@ fn coefficient_order(setup: &TuningSetup) -> Option<TuningWarning> {
 }
 
 /// Whether a denominator looks as if it had been written highest power first: its last nonzero coefficient is 1, and its first one is
-/// neither 1 nor 0, because nobody writes a highest power with the coefficient 0.
+/// neither 1 nor 0. A first coefficient of 0 is a pole at s = 0 written by rising powers: a highest power is not written with 0.
 fn ends_with_one(element: &Element) -> bool {
     let last = element.denominator.iter().rev().find(|&&a| a != 0.0);
     last == Some(&1.0) && !matches!(element.denominator.first(), Some(&1.0 | &0.0))
