@@ -29,6 +29,9 @@ struct LinearModel<'a> {
     op: &'a OperatingPoint,
     jacobian: &'a Jacobian,
     deviation: Vector4<f64>,
+    /// The loads that act, which change a few times in a run, and the slopes (m/s) that they make.
+    loads: Disturbance,
+    loaded: Vector4<f64>,
     /// `B u` plus the loads (m/s).
     forcing: Vector4<f64>,
     hold: ZeroOrderHold,
@@ -52,6 +55,8 @@ impl<'a> LinearModel<'a> {
             op,
             jacobian,
             deviation: Vector4::from_fn(|tank, _| levels[tank] - op.levels[tank]),
+            loads: Disturbance::default(),
+            loaded: Vector4::zeros(),
             forcing: Vector4::zeros(),
             hold: ZeroOrderHold::new(&jacobian.a, duration),
             hold_duration: duration,
@@ -111,8 +116,11 @@ impl Process for LinearModel<'_> {
 
     fn set_inputs(&mut self, pump_voltage: &[f64; 2], disturbance: &Disturbance) {
         let input = Vector2::new(pump_voltage[0] - self.op.pump_voltage[0], pump_voltage[1] - self.op.pump_voltage[1]);
-        let loads = self.slopes_by_flows(self.load_flows(disturbance));
-        self.forcing = self.jacobian.b * input + Vector4::from(loads);
+        if *disturbance != self.loads {
+            self.loads = *disturbance;
+            self.loaded = self.slopes_by_flows(self.load_flows(disturbance)).into();
+        }
+        self.forcing = self.jacobian.b * input + self.loaded;
         self.push = self.hold.push(&self.forcing);
     }
 
