@@ -37,7 +37,7 @@ pub enum LoopStability {
 }
 
 /// Most cells of frequency that the count looks at. Of 1,000 random loops half take 210, and one 940.
-const MOST_CELLS: u32 = 8_000;
+const MOST_CELLS: u32 = 5_000;
 /// Width of a cell, relative to its frequency, in which a determinant that is not told from zero is zero.
 const NARROWEST: f64 = 1e-15;
 /// Rounding of a sum, relative to the size of its terms.
@@ -85,14 +85,20 @@ impl LoopStability {
         }
         let mut turned = if residue.re > 0.0 { residue.arg() } else { (-residue).arg() };
         let mut cells = vec![Cell { low, high }];
+        let at_end = return_difference(ratio, high);
+        // The highest cell comes first: each ends with the value that the one before has begun with.
+        let mut at_high = at_end;
         let mut count = 0;
         while let Some(cell) = cells.pop() {
             count += 1;
             if count > MOST_CELLS {
                 return (Self::NotComputed { frequency: high }, count);
             }
-            match turn_over(ratio, cell) {
-                Some(angle) => turned += angle,
+            match turn_over(ratio, cell, at_high) {
+                Some((angle, at_low)) => {
+                    turned += angle;
+                    at_high = at_low;
+                }
                 None if cell.half_width() <= NARROWEST * cell.low => {
                     return (Self::Marginal { frequency: cell.middle() }, count);
                 }
@@ -100,7 +106,7 @@ impl LoopStability {
             }
         }
         // From the high end on det(I + L) stays within |det(I + L(∞))| of it.
-        turned -= return_difference(ratio, high).arg();
+        turned -= at_end.arg();
         let poles = (f64::from(integrators) / 2.0 - turned / PI).round();
         (if poles <= 0.0 { Self::Stable } else { Self::Unstable { poles: whole(poles) } }, count)
     }
@@ -124,11 +130,12 @@ fn return_difference(ratio: &ReturnRatio, frequency: f64) -> Complex {
     (Matrix2::identity() + ratio.at(frequency)).determinant()
 }
 
-/// Angle by which det(I + L) turns over a cell (rad); `None` where it is not told from zero.
+/// Angle by which det(I + L) turns over a cell (rad) up to its value at the high end, and its value at the low end; `None` where it is
+/// not told from zero.
 ///
 /// It is seen in a frame that turns with the dead time of its largest term: where that term exceeds all others together the
 /// turns of dead times need not be followed one by one.
-fn turn_over(ratio: &ReturnRatio, cell: Cell) -> Option<f64> {
+fn turn_over(ratio: &ReturnRatio, cell: Cell, at_high: Complex) -> Option<(f64, Complex)> {
     let terms = ratio.return_difference(cell);
     let sizes = terms.map(|(term, _)| size_of(term.value));
     let largest = (0..terms.len()).max_by(|&i, &j| sizes[i].total_cmp(&sizes[j])).unwrap_or(0);
@@ -142,8 +149,10 @@ fn turn_over(ratio: &ReturnRatio, cell: Cell) -> Option<f64> {
     }
     let is_told = sum.radius() < size_of(sum.value);
     is_told.then(|| {
-        let [before, after] = [cell.low, cell.high].map(|w| return_difference(ratio, w) * Complex::cis(frame * w));
-        (after / before).arg() - frame * (cell.high - cell.low)
+        let at_low = return_difference(ratio, cell.low);
+        let [before, after] =
+            [(at_low, cell.low), (at_high, cell.high)].map(|(value, w)| value * Complex::cis(frame * w));
+        ((after / before).arg() - frame * (cell.high - cell.low), at_low)
     })
 }
 

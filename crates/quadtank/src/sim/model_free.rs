@@ -29,6 +29,10 @@ impl<'a> MovingRig<'a> {
         let water = Hydraulics::new(&plant, levels);
         Self { plant, valves, water, voltage: [0.0; 2], disturbance: Disturbance::default() }
     }
+
+    fn is_still(&self) -> bool {
+        self.valves.iter().all(ValveSchedule::is_constant)
+    }
 }
 
 impl Process for MovingRig<'_> {
@@ -41,16 +45,17 @@ impl Process for MovingRig<'_> {
         self.water.set_inputs(&self.plant, pump_voltage, disturbance);
     }
 
+    /// A step with valves that move takes twice the time of one with valves at rest.
     fn work(&self) -> u64 {
-        self.water.work
+        if self.is_still() { self.water.work } else { 2 * self.water.work }
     }
 
     /// From break to break of the schedules, so that no step of the integration sees both sides of one.
     fn advance(&mut self, time: f64, duration: f64, events: &mut Events) {
-        let Self { plant, valves, water, voltage, disturbance } = self;
-        if valves.iter().all(ValveSchedule::is_constant) {
-            return water.advance(time, duration, events);
+        if self.is_still() {
+            return self.water.advance(time, duration, events);
         }
+        let Self { plant, valves, water, voltage, disturbance } = self;
         let longest = TURN / valves[0].turning().max(valves[1].turning());
         let end = time + duration;
         let mut now = time;

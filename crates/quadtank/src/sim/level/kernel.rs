@@ -313,13 +313,15 @@ impl Kernel {
     }
 
     /// One step (s) with the inflow (m³/s) at its beginning, middle and end. One in which an element changes its branch is made
-    /// anew in pieces, which brings runs at their limits from 1e-3 to 2e-5 of the exact ones.
+    /// anew in pieces, which brings runs at their limits from 1e-3 to 2e-5 of the exact ones. Gives back how many steps of the
+    /// method it took.
     #[inline]
-    pub(super) fn step(&self, law: &Law, reference: f64, step: f64, inflow: [f64; 3], moving: &mut Moving) {
+    pub(super) fn step(&self, law: &Law, reference: f64, step: f64, inflow: [f64; 3], moving: &mut Moving) -> usize {
         let begin = moving.state;
         let known = moving.valve;
         let first = moving.slopes.unwrap_or_else(|| self.slopes(law, reference, &begin, known));
         let (mut end, mut last) = self.runge_kutta(law, reference, step, inflow, (&begin, first), known);
+        let mut steps = 1;
         if last.mode != first.mode {
             (end, last) = (begin, first);
             let share = (PIECES_AT_KINKS as f64).recip();
@@ -327,8 +329,10 @@ impl Kernel {
                 let inflow = share_of(inflow, piece as f64 * share, share);
                 (end, last) = self.runge_kutta(law, reference, share * step, inflow, (&end, last), known);
             }
+            steps += PIECES_AT_KINKS;
         }
         *moving = Moving { state: end, slopes: Some(last), valve: self.known_near(last.travel, known) };
+        steps
     }
 
     /// A step of the classical method of order 4; the level ends at the bottom and at the brim. The derivatives at the end are

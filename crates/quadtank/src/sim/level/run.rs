@@ -4,8 +4,9 @@ use super::log::LevelLog;
 use crate::control::{AntiWindup, Pi};
 use crate::plant::level::{LevelGains, LevelPlant, LevelSignals};
 
-/// Most integration steps of a run, some 10 ms in WebAssembly.
-pub const MAX_LEVEL_STEPS: f64 = 2e5;
+/// Most integration steps of a run, those included that are made anew where an element changes its branch: at most some 50 ms in
+/// WebAssembly, of which the page needs two.
+pub const MAX_LEVEL_STEPS: f64 = 1.2e5;
 
 /// Longest step of integration as a share of the quickest lag of the plant.
 const LAG_SHARE: f64 = 0.7;
@@ -158,6 +159,9 @@ impl LevelSimulation {
             running.log_row(log, row);
             for step in row * self.steps_per_row..(row + 1) * self.steps_per_row {
                 running.advance(step, log);
+                if log.steps as f64 > MAX_LEVEL_STEPS {
+                    return Err(LevelRunError::TooMuchWork { steps: log.steps as f64, max: MAX_LEVEL_STEPS });
+                }
             }
         }
         running.log_row(log, self.rows);
@@ -291,14 +295,14 @@ impl<'a> Running<'a> {
         let simulation = self.simulation;
         let kernel = &simulation.kernel;
         let inflow = simulation.inflows[step];
-        log.steps += self.pieces;
         if self.pieces == 1 {
-            kernel.step(&self.law, self.reference, simulation.step_s, inflow, &mut self.moving);
+            log.steps += kernel.step(&self.law, self.reference, simulation.step_s, inflow, &mut self.moving);
         } else {
             let share = (self.pieces as f64).recip();
             for piece in 0..self.pieces {
                 let inflow = share_of(inflow, piece as f64 * share, share);
-                kernel.step(&self.law, self.reference, share * simulation.step_s, inflow, &mut self.moving);
+                log.steps +=
+                    kernel.step(&self.law, self.reference, share * simulation.step_s, inflow, &mut self.moving);
             }
         }
         if kernel.is_full(self.moving.state[0]) {
