@@ -1,5 +1,7 @@
 use serde::{Deserialize, Serialize};
 
+use crate::numeric::{larger, smaller};
+
 use super::{Estimator, EstimatorError, EstimatorSettings, FedWith, MAX_WINDOW_SAMPLES, Pairing};
 
 /// What keeps the integral of the law from winding up while its output is limited. The source has nothing.
@@ -187,7 +189,7 @@ impl ModelFreeLoop {
         let error = reference - measured;
         let phi = self.estimate();
         let asked = |integral: f64| (-phi + proportional * error + integral) / model_gain;
-        let limited = |output: f64| output.max(self.limits.0).min(self.limits.1);
+        let limited = |output: f64| smaller(larger(output, self.limits.0), self.limits.1);
         // Backward Euler (eq. 17).
         let mut next = self.integral + integral * self.sampling_time_s * error;
         let mut command = asked(next);

@@ -1,5 +1,7 @@
 use serde::{Deserialize, Serialize};
 
+use crate::numeric::{larger, smaller};
+
 /// What keeps the integral from winding up while the output is limited.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -149,7 +151,7 @@ impl Pi {
 /// Limits in the wrong order: the upper one wins. A value that is not a number becomes the lower limit.
 #[inline]
 fn limited(value: f64, (min, max): (f64, f64)) -> f64 {
-    value.max(min).min(max)
+    smaller(larger(value, min), max)
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! Methods of numerical mathematics that the libraries lack, or that are more exact or safer here than there.
 
+mod comparison;
 mod complex;
 mod eigenvalues;
 mod matrix_exponential;
@@ -8,6 +9,7 @@ mod search;
 mod shares;
 mod singular_values;
 
+pub(crate) use comparison::{larger, smaller};
 pub use complex::{Complex, square_root};
 pub use eigenvalues::eigenvalues;
 pub use matrix_exponential::matrix_exponential;

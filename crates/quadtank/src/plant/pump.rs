@@ -1,5 +1,7 @@
 use serde::{Deserialize, Serialize};
 
+use crate::numeric::{larger, smaller};
+
 /// A pump with its voltage limits and its curve: a straight line, `gain × voltage` (Cocota 2009, eq. 2.25), that need not
 /// begin at 0 V nor go on for ever.
 ///
@@ -47,8 +49,8 @@ impl Pump {
         if voltage < self.start_voltage {
             return 0.0;
         }
-        let flow = (self.gain * voltage + self.offset).max(0.0);
-        self.flow_max.map_or(flow, |most| flow.min(most))
+        let flow = larger(self.gain * voltage + self.offset, 0.0);
+        self.flow_max.map_or(flow, |most| smaller(flow, most))
     }
 
     /// The pump with a largest flow (m³/s); without one where the voltage limits it to less anyway.

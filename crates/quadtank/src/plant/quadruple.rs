@@ -1,7 +1,8 @@
-use crate::numeric::complements;
 use std::array::from_fn;
 
 use serde::{Deserialize, Serialize};
+
+use crate::numeric::{complements, larger};
 
 use super::tank::torricelli_speed;
 use super::{Pump, Tank};
@@ -93,14 +94,14 @@ impl Disturbance {
     /// What each outlet has of its area under the load, as a share.
     #[inline]
     pub fn outlet_share(&self) -> [f64; 4] {
-        self.outlet_change.map(|change| (1.0 + change).max(0.0))
+        self.outlet_change.map(|change| larger(1.0 + change, 0.0))
     }
 
     /// Flow of a pump under the load (m³/s), where it is `flow` (m³/s) without it.
     #[inline]
     fn flow_of_pump(&self, pump: usize, flow: f64) -> f64 {
-        let share = (1.0 + self.pump_gain_change[pump]).max(0.0);
-        (share * flow + self.pump_flow[pump]).max(0.0)
+        let share = larger(1.0 + self.pump_gain_change[pump], 0.0);
+        larger(share * flow + self.pump_flow[pump], 0.0)
     }
 }
 
@@ -155,7 +156,7 @@ impl QuadrupleTank {
     /// Flow that each tank receives from outside of the rig (m³/s).
     #[inline]
     pub fn flows_from_outside(&self, disturbance: &Disturbance) -> [f64; 4] {
-        from_fn(|j| (self.inflow[j] + disturbance.tank_flow[j]).max(0.0))
+        from_fn(|j| larger(self.inflow[j] + disturbance.tank_flow[j], 0.0))
     }
 
     /// Flow that each tank receives through the valves (m³/s): `γ1 q1`, `γ2 q2`, `(1 − γ2) q2`, `(1 − γ1) q1`.

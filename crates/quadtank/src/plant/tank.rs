@@ -1,5 +1,7 @@
 use serde::{Deserialize, Serialize};
 
+use crate::numeric::larger;
+
 /// Horizontal cross-section of a tank as a function of level, `A(h) = area_at_empty + area_slope h` (m²).
 ///
 /// `area_slope` is 0 for a prismatic tank and `b tan θ` for a trapezoidal one (Cocota 2009, eq. 2.28).
@@ -29,12 +31,12 @@ impl CrossSection {
     /// Area of the water surface at `level` (m²); below the bottom the tank goes on as it is at the bottom.
     #[inline]
     pub fn area(&self, level: f64) -> f64 {
-        self.area_at_empty + self.area_slope * level.max(0.0)
+        self.area_at_empty + self.area_slope * larger(level, 0.0)
     }
 
     /// Water held up to `level` (m³), the integral of [`area`](Self::area).
     pub fn volume(&self, level: f64) -> f64 {
-        let level = level.max(0.0);
+        let level = larger(level, 0.0);
         level * (self.area_at_empty + 0.5 * self.area_slope * level)
     }
 }

@@ -1,6 +1,6 @@
 //! One step of the classical Runge–Kutta method of order 4 for the nonlinear plant.
 
-use super::comparison::larger;
+use crate::numeric::larger;
 
 use super::hydraulics::Hydraulics;
 

@@ -9,7 +9,7 @@
 
 use std::array::from_fn;
 
-use super::comparison::{larger, smaller};
+use crate::numeric::{larger, smaller};
 use crate::plant::{CrossSection, Disturbance, QuadrupleTank};
 
 /// What rounding leaves of the flow balance of a tank at rest, as a share of the flow.

@@ -2,7 +2,7 @@
 
 use std::array::from_fn;
 
-use super::comparison::larger;
+use crate::numeric::larger;
 use crate::plant::CrossSection;
 
 use super::hydraulics::{Hydraulics, emptying_volume};

@@ -12,7 +12,7 @@
 
 use std::cell::Cell;
 
-use super::comparison::{larger, smaller};
+use crate::numeric::{larger, smaller};
 
 use super::hydraulics::Hydraulics;
 use super::implicit::NODES;

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use crate::control::DecentralisedPi;
+use crate::numeric::larger;
 use crate::plant::QuadrupleTank;
 
 use super::experiment::Experiment;
@@ -135,7 +136,7 @@ impl LoopMetrics {
             let elapsed = time[1] - time[0];
             self.iae += error * elapsed;
             self.ise += error * error * elapsed;
-            self.itae += (time[0] - start).max(0.0) * error * elapsed;
+            self.itae += larger(time[0] - start, 0.0) * error * elapsed;
             self.total_variation += (output[1] - output[0]).abs();
             if output[0] <= min || output[0] >= max {
                 self.saturated_s += elapsed;

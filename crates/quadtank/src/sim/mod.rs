@@ -2,7 +2,6 @@
 //! runs of one level loop.
 
 mod binary_sequence;
-mod comparison;
 mod course;
 mod experiment;
 mod explicit;

@@ -2,6 +2,8 @@
 
 use serde::Serialize;
 
+use crate::numeric::{larger, smaller};
+
 use super::course::TIME_SLACK;
 use super::experiment::{Experiment, LEAST_STEP, net};
 use super::trajectory::Trajectory;
@@ -145,15 +147,18 @@ impl<'a> Response<'a> {
         if self.step.abs() <= LEAST_STEP {
             return Some(NoResponse::StepTooSmall { size: self.step });
         }
-        let distance = self.approach.iter().map(|level| (level - self.before).abs()).fold(0.0, f64::max);
+        let distance =
+            self.approach.iter().map(|level| (level - self.before).abs()).fold(0.0, |most, next| larger(next, most));
         (distance > AT_REST * self.step.abs()).then_some(NoResponse::NotAtRest { distance })
     }
 
     /// Σ |r − h| Δt from the step to the end of the window (m s).
     pub(super) fn iae(&self) -> f64 {
-        let ends = self.time.iter().skip(1).copied().chain([self.end_s]).map(|time| time.min(self.end_s));
-        let errors = self.reference.iter().zip(self.level).map(|(reference, level)| (reference - level).abs());
-        self.time.iter().zip(ends).zip(errors).map(|((begin, end), error)| (end - begin).max(0.0) * error).sum()
+        let of_row = |row: usize| {
+            let next = self.time.get(row + 1).map_or(self.end_s, |&next| smaller(next, self.end_s));
+            larger(next - self.time[row], 0.0) * (self.reference[row] - self.level[row]).abs()
+        };
+        (0..self.time.len()).map(of_row).sum()
     }
 
     /// The reference before the step (m).
@@ -214,17 +219,17 @@ impl<'a> Response<'a> {
 
     /// Furthest beyond the new reference, as a fraction of the step.
     pub(super) fn overshoot(&self) -> f64 {
-        (0..self.level.len()).map(|row| self.progress(row) - 1.0).fold(0.0, f64::max)
+        (0..self.level.len()).map(|row| self.progress(row) - 1.0).fold(0.0, |most, next| larger(next, most))
     }
 
     /// Furthest in the wrong direction, as a fraction of the step.
     pub(super) fn undershoot(&self) -> f64 {
-        (0..self.level.len()).map(|row| -self.progress(row)).fold(0.0, f64::max)
+        (0..self.level.len()).map(|row| -self.progress(row)).fold(0.0, |most, next| larger(next, most))
     }
 
     /// Furthest that the other level moves from where it was (m).
     pub(super) fn other_peak(&self) -> f64 {
-        self.other_level.iter().map(|h| (h - self.other_level[0]).abs()).fold(0.0, f64::max)
+        self.other_level.iter().map(|h| (h - self.other_level[0]).abs()).fold(0.0, |most, next| larger(next, most))
     }
 }
 
