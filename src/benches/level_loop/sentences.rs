@@ -3,6 +3,7 @@
 use leptos::prelude::*;
 use quadtank::assess::{IndexVerdict, LoopQuality};
 use quadtank::linear::LoopStability;
+use quadtank::sim::level::LevelController;
 use quadtank::study::level_loop::{Finding, LevelLoopAnswer, Objective};
 use quadtank::tuning::{Regulation, RegulationReason};
 
@@ -42,15 +43,25 @@ pub fn of_run(session: Session) -> (bool, String) {
     let litres = |flow: f64| style.fixed(1000.0 * flow, 2);
     let (low, high) = (cm(level.minimum), cm(level.maximum));
     let (least, most) = (litres(outflow.minimum), litres(outflow.maximum));
+    let is_manual = session.throttled.setup.with(|setup| matches!(setup.controller, LevelController::Manual { .. }));
     let main = match objective {
+        _ if is_manual => tr!(lab, level.manual_run, low = low, high = high, least = least, most = most),
         Objective::Tight => tr!(lab, level.tight_run, low = low, high = high, least = least, most = most),
         Objective::Averaging { .. } => {
             tr!(lab, level.averaging_run, low = low, high = high, least = least, most = most)
         }
     };
     let findings: Vec<String> = answer.findings.iter().map(|finding| of_finding(lab, finding)).collect();
-    let works = !answer.findings.iter().any(Finding::is_failure);
-    (works, std::iter::once(main).chain(findings).collect::<Vec<_>>().join(" "))
+    let swings = swings(lab, answer);
+    let works = swings.is_none() && !answer.findings.iter().any(Finding::is_failure);
+    (works, std::iter::once(main).chain(swings).chain(findings).collect::<Vec<_>>().join(" "))
+}
+
+/// That a stable loop is next to unstable, where it is.
+fn swings(lab: Lab, answer: &LevelLoopAnswer) -> Option<String> {
+    let quality = answer.quality.as_ref().ok()?.as_ref().filter(|quality| quality.is_on_the_edge())?;
+    let peak = lab.number_style().significant(quality.sensitivity_peak()?, 2);
+    Some(tr!(lab, level.fragile_run, peak = peak))
 }
 
 fn of_finding(lab: Lab, finding: &Finding) -> String {

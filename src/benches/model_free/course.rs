@@ -210,6 +210,7 @@ fn why(session: Session, index: usize, reason: NoResponse) -> String {
             let distance = style.significant(in_cm(distance), 2);
             tr!(lab, responses.level_moves, level = level, distance = distance, unit = "cm")
         }
+        NoResponse::TankFull => tr!(lab, responses.tank_full, level = level),
         NoResponse::UnstableLoop => tr!(lab, free.why_unstable),
         NoResponse::MarginalLoop => tr!(lab, responses.marginal),
         NoResponse::StartOverflows => tr!(lab, responses.not_at_rest),

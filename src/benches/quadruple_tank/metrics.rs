@@ -189,6 +189,7 @@ pub fn why(session: Session, index: usize, reason: NoResponse) -> String {
             let distance = style.significant(to_shown(distance, unit), 2);
             tr!(lab, responses.level_moves, level = level, distance = distance, unit = unit_name(unit))
         }
+        NoResponse::TankFull => tr!(lab, responses.tank_full, level = level),
         NoResponse::UnstableLoop => tr!(lab, responses.unstable),
         NoResponse::MarginalLoop => tr!(lab, responses.marginal),
         NoResponse::StartOverflows => tr!(lab, responses.not_at_rest),

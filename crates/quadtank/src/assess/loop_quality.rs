@@ -53,6 +53,15 @@ impl LoopQuality {
         self.sensitivity_peak().is_none_or(|peak| peak > Self::ROBUST)
     }
 
+    /// Sensitivity peak from which a stable loop goes on swinging: a pair of poles with it has a damping ratio of about
+    /// 1/(2 Ms) = 0.1, and needs six swings to come within 2 %.
+    const SWINGING: f64 = 5.0;
+
+    /// Whether the loop is stable, but so close to the border that it hardly stops swinging.
+    pub fn is_on_the_edge(&self) -> bool {
+        self.sensitivity_peak().is_some_and(|peak| peak > Self::SWINGING)
+    }
+
     /// Sensitivity peak Ms, 1 at least.
     pub fn sensitivity_peak(&self) -> Option<f64> {
         self.margins.map(|margins| margins.distance.recip())

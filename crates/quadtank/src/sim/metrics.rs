@@ -152,7 +152,7 @@ mod tests {
     use super::*;
     use crate::control::{AntiWindup, LoopMode, Pairing, PiSettings};
     use crate::literature::PresetId;
-    use crate::sim::{Load, LoadStep, SetPointStep};
+    use crate::sim::{Event, EventKind, Load, LoadStep, SetPointStep};
 
     const STEP: f64 = 0.01;
 
@@ -297,6 +297,36 @@ mod tests {
         for (away, row) in [(0.03, 36), (0.019, 37), (-0.019, 40)] {
             assert_eq!(figures(away, row).no_response, None);
         }
+    }
+
+    #[test]
+    fn a_level_at_the_rim_does_not_settle_there() {
+        // The wall is at 0.108 m, so that the level comes to rest there, without any overshoot, at 80 % of its step.
+        let steps = [(0, 10.0)];
+        let mut run = run(&steps, |t| (1.3 * (1.0 - (-t / 8.0).exp())).min(0.8));
+        assert_eq!(first(&run, &experiment(&steps, vec![])).no_response, None);
+        let overflow = |tank: usize| Event { time_s: 18.0, kind: EventKind::Overflow { tank } };
+        run.events = vec![overflow(1)];
+        assert_eq!(first(&run, &experiment(&steps, vec![])).no_response, None);
+        run.events = vec![overflow(0)];
+        let full = first(&run, &experiment(&steps, vec![]));
+        assert_eq!(
+            (full.no_response, full.settling_2_percent, full.overshoot),
+            (Some(NoResponse::TankFull), None, None)
+        );
+        // A later step downwards has an answer of its own.
+        let both =
+            [SetPointStep { level: 0, time_s: 10.0, size: STEP }, SetPointStep { level: 0, time_s: 60.0, size: -STEP }];
+        for (row, level) in run.levels[0].iter_mut().enumerate().skip(61) {
+            *level = 0.1 + 0.7 * STEP * (-(row as f64 - 60.0) / 4.0).exp();
+        }
+        for reference in &mut run.references[0][60..] {
+            *reference = 0.1;
+        }
+        let experiment = Experiment { set_point_steps: both.to_vec(), ..Experiment::at_rest(100.0) };
+        let reasons: Vec<_> =
+            step_answers(&run, &experiment, 1.0).iter().map(|answer| answer.figures.no_response).collect();
+        assert_eq!(reasons, [Some(NoResponse::TankFull); 2], "the second begins at the rim");
     }
 
     #[test]

@@ -6,7 +6,7 @@ use crate::numeric::{larger, smaller};
 
 use super::course::TIME_SLACK;
 use super::experiment::{Experiment, LEAST_STEP, net};
-use super::trajectory::Trajectory;
+use super::trajectory::{EventKind, Trajectory};
 
 /// When a response stays within its band.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -50,6 +50,8 @@ pub enum NoResponse {
         /// How far from it (m), at the most, in the last tenth of the time since anything was done to the plant.
         distance: f64,
     },
+    /// The level comes to the top of its wall, where water overflows: what it would do without the wall is not to be seen.
+    TankFull,
     /// The linear loop is unstable: an oscillation that only limits hold has no step response.
     UnstableLoop,
     /// The linear loop has a pole on the border of stability, as every loop around a singular plant has: a deviation does not decay.
@@ -85,6 +87,8 @@ pub(super) struct Response<'a> {
     after: f64,
     /// When the window ends (s).
     end_s: f64,
+    /// The top of the wall (m) where the tank overflows somewhere in the run, else infinite.
+    rim: f64,
 }
 
 impl<'a> Response<'a> {
@@ -139,6 +143,7 @@ impl<'a> Response<'a> {
             before: if first == 0 { after - size } else { reference[first - 1] },
             after,
             end_s,
+            rim: rim_of(trajectory, index),
         }
     }
 
@@ -146,6 +151,9 @@ impl<'a> Response<'a> {
     pub(super) fn refusal(&self) -> Option<NoResponse> {
         if self.step.abs() <= LEAST_STEP {
             return Some(NoResponse::StepTooSmall { size: self.step });
+        }
+        if self.level.iter().any(|&level| level >= self.rim) {
+            return Some(NoResponse::TankFull);
         }
         let distance =
             self.approach.iter().map(|level| (level - self.before).abs()).fold(0.0, |most, next| larger(next, most));
@@ -231,6 +239,13 @@ impl<'a> Response<'a> {
     pub(super) fn other_peak(&self) -> f64 {
         self.other_level.iter().map(|h| (h - self.other_level[0]).abs()).fold(0.0, |most, next| larger(next, most))
     }
+}
+
+/// The level of a tank while it overflows (m), which is its highest; infinite where it never does.
+fn rim_of(trajectory: &Trajectory, tank: usize) -> f64 {
+    let overflows = trajectory.events.iter().any(|event| event.kind == EventKind::Overflow { tank });
+    let highest = || trajectory.levels[tank].iter().fold(f64::NEG_INFINITY, |most, &level| larger(level, most));
+    if overflows { highest() } else { f64::INFINITY }
 }
 
 /// Changes of the reference of a level in a run with the given sampling time (s), in order of time. Steps that act at the same

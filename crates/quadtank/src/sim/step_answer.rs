@@ -88,10 +88,11 @@ impl StepAnswer {
     }
 
     /// The same without figures, for a reason that holds for any step of the run. It goes before that of a level which was not at
-    /// rest, being the cause of that.
+    /// rest or came to the rim, being the cause of that.
     #[must_use]
     pub fn without_response(self, reason: NoResponse) -> Self {
-        let own = self.figures.no_response.filter(|own| !matches!(own, NoResponse::NotAtRest { .. }));
+        let own =
+            self.figures.no_response.filter(|own| !matches!(own, NoResponse::NotAtRest { .. } | NoResponse::TankFull));
         let StepFigures { window_s, other_peak, .. } = self.figures;
         let figures = StepFigures { window_s, other_peak, ..StepFigures::none(own.unwrap_or(reason)) };
         Self { figures, ..self }
