@@ -151,6 +151,8 @@ impl Role {
 pub enum Pen {
     /// What happens: the nonlinear plant.
     Solid,
+    /// The same, so broad that its edges are seen where another curve lies on it.
+    Broad,
     /// What the linear model says.
     Dotted,
     /// What is wanted: references; and limits.
@@ -184,7 +186,7 @@ impl Pen {
             Self::Dotted => Some((1.8, 2.7)),
             Self::Dashed => Some((5.0, 3.5)),
             Self::Pinned(place) => PINNED_DASHES[usize::from(place) % PINNED_DASHES.len()],
-            Self::Solid | Self::Faded | Self::Hair | Self::Trail => None,
+            Self::Solid | Self::Broad | Self::Faded | Self::Hair | Self::Trail => None,
         }
     }
 }
@@ -314,6 +316,8 @@ pub struct Label {
     pub role: Role,
     /// Whether it is bold.
     pub bold: bool,
+    /// Whether it stands on a piece of the background, so that no curve strikes it through.
+    pub on_ground: bool,
 }
 
 /// Words beside points. Each stands where it covers the least of the words before it, of their points, and of other points.

@@ -36,6 +36,7 @@ pub fn names<'a>(ends: &Ends) -> impl Iterator<Item = Layer<'a>> {
             text: ends.names[index].to_owned(),
             role: Role::of_loop(index),
             bold: true,
+            on_ground: false,
         }))
     };
     [label(0), label(1)].into_iter().flatten()

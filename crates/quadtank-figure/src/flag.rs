@@ -18,29 +18,30 @@ pub struct Flag {
     pub role: Role,
 }
 
-/// The lines and words of the flags inside `window`; `foot` is where the words stand, in the units of the axis. Each word is
+/// The lines of the flags inside `window`, and then their words, which no line strikes through; `foot` is where the words stand, in the units of the axis. Each word is
 /// higher than the one before it, so that those of one moment can be read, and stands on the side of its line where no other line
 /// strikes it through, if there is one.
 pub fn flags<'a>(flags: &[Flag], foot: f64, (from, to): (f64, f64)) -> impl Iterator<Item = Layer<'a>> {
     let word = WORD * (to - from);
     let shown: Vec<Flag> = flags.iter().filter(|flag| (from..=to).contains(&flag.time_s)).cloned().collect();
     let times: Vec<f64> = shown.iter().map(|flag| flag.time_s).collect();
-    shown.into_iter().enumerate().flat_map(move |(k, flag)| {
+    let lines: Vec<Layer> =
+        shown.iter().map(|flag| Layer::Upright { x: flag.time_s, role: flag.role, pen: Pen::Hair }).collect();
+    let words = shown.into_iter().enumerate().map(move |(k, flag)| {
         let strikes_right = times.iter().any(|other| *other > flag.time_s && other - flag.time_s < word);
         let has_room_left = flag.time_s > from + word;
         let is_late = flag.time_s > from + 0.7 * (to - from) || (strikes_right && has_room_left);
-        [
-            Layer::Upright { x: flag.time_s, role: flag.role, pen: Pen::Hair },
-            Layer::Label(Label {
-                at: (flag.time_s, foot),
-                offset: (if is_late { -6.0 } else { 6.0 }, -RISE * (k % ROWS) as f64),
-                anchor: if is_late { Anchor::Right } else { Anchor::Left },
-                text: flag.text,
-                role: flag.role,
-                bold: false,
-            }),
-        ]
-    })
+        Layer::Label(Label {
+            at: (flag.time_s, foot),
+            offset: (if is_late { -6.0 } else { 6.0 }, -RISE * (k % ROWS) as f64),
+            anchor: if is_late { Anchor::Right } else { Anchor::Left },
+            text: flag.text,
+            role: flag.role,
+            bold: false,
+            on_ground: true,
+        })
+    });
+    lines.into_iter().chain(words)
 }
 
 #[cfg(test)]

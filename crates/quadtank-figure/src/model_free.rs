@@ -57,8 +57,10 @@ pub fn model_free_course<'a>(spec: &ModelFreeCourse<'a>) -> [Chart<'a>; 4] {
         let role = Role::of_loop(index);
         Layer::Line(Series { name: name.into(), role, pen, course, x: x.into(), y: y.into(), y_scale })
     };
+    // Set-points alike make both loops do the same: the first is seen beneath the second.
+    let pen_of = |pen, index| if pen == Pen::Solid && index == 0 { Pen::Broad } else { pen };
     let pair = |names: [&'a str; 2], pen, course, x, columns: [&'a [f64]; 2], scale| {
-        [0, 1].map(|i| line(names[i], i, pen, course, x, columns[i], scale))
+        [0, 1].map(|i| line(names[i], i, pen_of(pen, i), course, x, columns[i], scale))
     };
     let (straight, held) = (Course::Straight, Course::Held);
     let mut lower = Vec::new();
@@ -86,7 +88,7 @@ pub fn model_free_course<'a>(spec: &ModelFreeCourse<'a>) -> [Chart<'a>; 4] {
     let entry = |sample, role, text: &str| Entry { sample: Sample::Line(sample), role, text: text.to_owned() };
     let loops = |texts: [&str; 2]| {
         let [one, two] = texts;
-        vec![entry(Pen::Solid, Role::Loop1, one), entry(Pen::Solid, Role::Loop2, two)]
+        vec![entry(Pen::Broad, Role::Loop1, one), entry(Pen::Solid, Role::Loop2, two)]
     };
     first.legend = loops(["h₁", "h₂"]);
     first.legend.push(entry(Pen::Dashed, Role::Muted, texts.reference));

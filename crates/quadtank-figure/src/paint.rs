@@ -96,6 +96,7 @@ pub(super) fn paint_parts<DB: DrawingBackend>(
 fn width(pen: Pen) -> f64 {
     match pen {
         Pen::Solid => 2.0,
+        Pen::Broad => 4.5,
         Pen::Dotted => 1.8,
         Pen::Dashed | Pen::Faded | Pen::Pinned(_) => 1.3,
         Pen::Hair => 1.0,
@@ -222,8 +223,13 @@ impl Brush<'_> {
         let plot = &self.frame.plot;
         let x = (x + label.offset.0).min(plot.right() - 2.0 - ahead).max(plot.left + 2.0 + behind);
         let font = if label.bold { FontStyle::Bold } else { FontStyle::Normal };
+        let y = y + label.offset.1;
+        if label.on_ground {
+            let corners = [(x - behind - 1.0, y - LINE / 2.0), (x + ahead + 1.0, y + LINE / 2.0)];
+            self.paper.block(corners.map(|corner| self.fine(corner)), opaque(self.style.palette.background));
+        }
         let text = Text { words: &label.text, color: self.style.palette.color(label.role), font, h_pos, turned: false };
-        self.text(&text, (x, y + label.offset.1));
+        self.text(&text, (x, y));
     }
 
     fn names(&self, names: &Names) {

@@ -115,7 +115,7 @@ impl Palette {
         match pen {
             Pen::Faded | Pen::Pinned(_) => self.color(role).over(self.background, FADED),
             Pen::Trail => self.color(role).over(self.background, TRAIL),
-            Pen::Solid | Pen::Dotted | Pen::Dashed | Pen::Hair => self.color(role),
+            Pen::Solid | Pen::Broad | Pen::Dotted | Pen::Dashed | Pen::Hair => self.color(role),
         }
     }
 

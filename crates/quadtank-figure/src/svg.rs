@@ -300,6 +300,7 @@ fn role_class(role: Role) -> &'static str {
 fn pen_class(pen: Pen) -> &'static str {
     match pen {
         Pen::Solid => "solid",
+        Pen::Broad => "broad",
         Pen::Dotted => "dotted",
         Pen::Dashed => "dashed",
         Pen::Faded => "faded",

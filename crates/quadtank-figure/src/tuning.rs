@@ -87,7 +87,7 @@ fn ray(importance: f64, name: &str, (right, top): (f64, f64)) -> [Layer<'static>
     let text = name.to_owned();
     [
         line("", Role::Muted, Pen::Dashed, vec![0.0, end.0], vec![0.0, end.1]),
-        Layer::Label(Label { at: end, offset, anchor, text, role: Role::Muted, bold: false }),
+        Layer::Label(Label { at: end, offset, anchor, text, role: Role::Muted, bold: false, on_ground: false }),
     ]
 }
 
@@ -155,7 +155,15 @@ pub fn characteristic_loci<'a>(spec: &LociChart<'a>) -> Chart<'a> {
         let anchor = if offset.0 < 0.0 { Anchor::Right } else { Anchor::Left };
         chart.layers.push(mark(at, Shape::Point, Role::Neutral));
         let text = name.to_owned();
-        chart.layers.push(Layer::Label(Label { at, offset, anchor, text, role: Role::Neutral, bold: false }));
+        chart.layers.push(Layer::Label(Label {
+            at,
+            offset,
+            anchor,
+            text,
+            role: Role::Neutral,
+            bold: false,
+            on_ground: false,
+        }));
     }
     chart.layers.extend(spec.target.map(|target| mark(target, Shape::Handle, Role::Neutral)));
     let entry = |pen, role, text: &str| Entry { sample: Sample::Line(pen), role, text: text.to_owned() };

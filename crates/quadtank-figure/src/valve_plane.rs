@@ -97,7 +97,7 @@ fn words(texts: &ValvePlaneTexts) -> [Layer<'static>; 3] {
 }
 
 fn word(at: (f64, f64), offset: (f64, f64), anchor: Anchor, text: &str) -> Layer<'static> {
-    Layer::Label(Label { at, offset, anchor, text: text.into(), role: Role::Neutral, bold: false })
+    Layer::Label(Label { at, offset, anchor, text: text.into(), role: Role::Neutral, bold: false, on_ground: false })
 }
 
 fn mark(at: (f64, f64), shape: Shape) -> Layer<'static> {

@@ -110,9 +110,13 @@ pub fn table(session: Session) -> Option<impl IntoView> {
         tr!(lab, relay.col_harmonic),
     ];
     let (mut rows, rules) = rows(session, test);
-    if let Tested::Simultaneous(_, distances) = test
-        && distances.iter().any(Option::is_some)
-    {
+    if let Tested::Simultaneous(_, distances) = test {
+        // A test that shows nothing keeps its rows, so that what stands below stays where it is while the ratio is dragged.
+        if rows.is_empty() {
+            let empty =
+                |name: &str| view! { <Row class="" name=name.to_owned() figures=["–"; 4].map(str::to_owned) /> };
+            rows.extend(["1", "2"].map(|name| empty(name).into_any()));
+        }
         rows.push(distance_row(session, distances));
     }
     if !rules.is_empty() {
