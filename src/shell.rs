@@ -67,6 +67,8 @@ pub fn Laboratory(
         if target.is_some_and(|target| target.matches(".menu > div > :is(button, a), .menu > nav *").unwrap_or(false)) {
             close_menus(None);
         }
+        // By the next frame a menu that was pressed is open.
+        request_animation_frame(keep_menus_in_sight);
     });
     // What was done is handed over also when the page goes.
     let on_hide = window_event_listener(ev::pagehide, move |_| room.close());
@@ -203,6 +205,24 @@ fn close_menus(pressed: Option<web_sys::EventTarget>) {
         if let Some(menu) = menu.dyn_ref::<web_sys::Element>().filter(|_| !is_pressed) {
             let _ = menu.remove_attribute("open");
         }
+    }
+}
+
+/// Least distance of an open menu from the sides of the window (CSS px).
+const MENU_MARGIN: f64 = 8.0;
+
+/// Moves open menus sideways into the window: they hang from the right end of their button, which may stand at the left.
+fn keep_menus_in_sight() {
+    let Some(width) = document().document_element().map(|root| f64::from(root.client_width())) else { return };
+    let Ok(open) = document().query_selector_all("details.menu[open] > :is(div, nav)") else { return };
+    for menu in (0..open.length()).filter_map(|k| open.get(k)?.dyn_into::<web_sys::HtmlElement>().ok()) {
+        // Fails for no such property, and then the menu stays where it is.
+        let move_by = |shift: f64| menu.style().set_property("translate", &format!("{shift}px")).unwrap_or_default();
+        move_by(0.0);
+        let place = menu.get_bounding_client_rect();
+        let into_left = (MENU_MARGIN - place.left()).max(0.0);
+        let into_right = (place.right() - (width - MENU_MARGIN)).max(0.0);
+        move_by(if into_left > 0.0 { into_left } else { -into_right });
     }
 }
 

@@ -184,6 +184,7 @@ pub fn NumberField(
             autocomplete="off"
             data-testid=id
             aria-label=name
+            title=name
             aria-invalid=move || refused.get().then(|| "true".to_owned())
             aria-describedby=move || refused.get().then(|| format!("{id}-problem"))
             prop:value=move || typed.get().map_or_else(|| show(shown.get()), |draft| draft.text)

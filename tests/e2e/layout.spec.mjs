@@ -202,3 +202,49 @@ test('the screenshots of the README', async ({ lab, page }) => {
   expect(await lab.text('stability')).toContain('stable');
   await page.screenshot({ path: path('lab') });
 });
+
+const BENCHES = ['quadruple-tank', 'relay-tuning', 'model-free', 'level-loop'];
+
+for (const [width, height, views] of [[1024, 768, ['full']], [390, 844, ['explore', 'full']]]) {
+  test(`every menu and every box with words opens in the window of ${width} × ${height}`, async ({ lab, page }) => {
+    await page.setViewportSize({ width, height });
+    for (const [bench, view] of BENCHES.flatMap((bench) => views.map((view) => [bench, view]))) {
+      await lab.open(`bench=${bench}&view=${view}&lang=pt-BR`);
+      const menus = page.locator('details.menu > summary:visible');
+      for (let k = 0; k < (await menus.count()); k += 1) {
+        await menus.nth(k).click();
+        await lab.settle();
+        const places = await page.evaluate(() =>
+          [...document.querySelectorAll('details.menu[open] > :is(div, nav)')].map((menu) => {
+            const { left, right } = menu.getBoundingClientRect();
+            return { left, right, words: menu.textContent.slice(0, 30) };
+          }),
+        );
+        expect(places, `${bench} ${view} menu ${k}`).toHaveLength(1);
+        expect(places[0].left, places[0].words).toBeGreaterThanOrEqual(0);
+        expect(places[0].right, places[0].words).toBeLessThanOrEqual(width);
+        await page.keyboard.press('Escape');
+      }
+    }
+  });
+}
+
+test.describe('by touch', () => {
+  test.use({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
+
+  test('what is pressed is 44 px high', async ({ lab, page }) => {
+    for (const [bench, view] of BENCHES.flatMap((bench) => [[bench, 'explore'], [bench, 'full']])) {
+      await lab.open(`bench=${bench}&view=${view}`);
+      const low = await page.evaluate(() => {
+        const pressed = 'main :is(button, summary, select, input:not([type=checkbox], [type=radio], [type=file])), .top :is(button, a.button, summary, select)';
+        return [...document.querySelectorAll(pressed)]
+          .filter((element) => element.checkVisibility({ visibilityProperty: true, opacityProperty: true }))
+          // Words with an area of their own around them, buttons of drawings, and what enlarges a card by the mouse.
+          .filter((element) => !element.closest('.terms, svg, .enlarge, .visually-hidden, .skip'))
+          .map((element) => [element.getBoundingClientRect().height, `${element.className} ${element.dataset.testid} ${element.textContent.slice(0, 20)}`])
+          .filter(([height]) => height < 43.5);
+      });
+      expect(low, `${bench} ${view}`).toEqual([]);
+    }
+  });
+});

@@ -240,7 +240,7 @@ pub fn name(lab: Lab, element: Element) -> String {
 
 fn shape(element: Element, plant: &LevelPlant, valve_y: f64) -> Option<AnyView> {
     let (x, y) = (VALVE_X, valve_y);
-    Some(match element {
+    let drawing = match element {
         Element::Transmitter => view! {
             <circle class="instrument" cx="208" cy=LINE_Y r="15" />
             <text class="tag" x="208" y=LINE_Y + 4.0 text-anchor="middle">"LT"</text>
@@ -267,5 +267,22 @@ fn shape(element: Element, plant: &LevelPlant, valve_y: f64) -> Option<AnyView> 
             <text class="tag" x="330" y="250" text-anchor="middle">"q"</text>
         }
         .into_any(),
-    })
+    };
+    let (left, top) = area(element, valve_y);
+    Some(view! { <rect class="hit" x=left y=top width=AREA height=AREA /> {drawing} }.into_any())
+}
+
+/// Side of the area of an element that takes a press: 44 px by touch on the narrowest phone.
+const AREA: f64 = 56.0;
+
+/// Left and top of the area of an element. Those of actuator and valve lie against each other.
+fn area(element: Element, valve_y: f64) -> (f64, f64) {
+    let around = |x: f64, y: f64| (x - AREA / 2.0, y - AREA / 2.0);
+    match element {
+        Element::Transmitter => around(208.0, LINE_Y),
+        Element::Converter => around(384.0, LINE_Y),
+        Element::Actuator => (VALVE_X - AREA / 2.0, valve_y - 14.0 - AREA),
+        Element::Valve => (VALVE_X - AREA / 2.0, valve_y - 14.0),
+        Element::Outlet => around(330.0, 246.0),
+    }
 }
