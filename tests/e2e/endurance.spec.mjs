@@ -135,7 +135,9 @@ test('2,000 random events leave no error, no NaN and a flat heap', async ({ lab,
   const [first, second] = [await half(), await half()];
   info.annotations.push({ type: 'memory', description: JSON.stringify({ most, first, second }) });
   expect(second.js).toBeLessThan(first.js * 1.05 + 200_000);
-  expect(second.nodes).toBeLessThan(first.nodes * 1.05 + 100);
+  // When the browser lets nodes of views go that went is a matter of time; what leaks stays.
+  const nodes = async () => (await memory(page, client)).nodes;
+  await expect.poll(nodes, { timeout: 20_000 }).toBeLessThan(first.nodes * 1.05 + 100);
   expect(second.listeners).toBeLessThan(first.listeners * 1.05 + 20);
   // A page or two may come from room that is cut up otherwise; what leaks comes with every event.
   expect(second.wasm).toBeLessThanOrEqual(most + 4 * PAGE);
@@ -160,7 +162,7 @@ const BACK = {
     await lab.id('level-preset').selectOption('lecture-slides');
     await lab.id('level-preset').selectOption('andreis');
     await lab.settle();
-    expect(await lab.text('level-verdict')).toContain('the level moves between 95.27 and 104.74 cm');
+    expect(await lab.text('level-verdict')).toContain('The level moves between 95.27 and 104.74 cm');
   },
 };
 

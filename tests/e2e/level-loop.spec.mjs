@@ -38,10 +38,10 @@ test('a first visit sees who moves: the level or the outflow', async ({ lab }) =
   await expect(lab.id('try-tight')).toHaveAttribute('aria-pressed', 'true');
   await press(lab, 'try-averaging');
   // Table 5.19: 16.4 to 18.5 L/s, 94.93 to 111.84 cm from 50 to 150 s; after that the outflow comes down to 16.40.
-  expect(await lab.text('level-verdict')).toContain('the outflow moves between 16.40 and 18.48 L/s');
+  expect(await lab.text('level-verdict')).toContain('The outflow moves between 16.40 and 18.48 L/s');
   expect(await lab.text('level-verdict')).toContain('the level between 94.93 and 111.84 cm');
   await press(lab, 'try-off');
-  expect(await lab.text('level-verdict')).toContain('the outflow moves');
+  expect(await lab.text('level-verdict')).toContain('No controller acts. The level moves');
   for (const drawer of ['tuning', 'trade', 'experiment', 'test', 'map', 'published', 'forms', 'heated']) await press(lab, `drawer-${drawer}`);
   await lab.clean();
   await lab.axe();
@@ -182,7 +182,7 @@ test('what cannot be is explained, and nothing is lost', async ({ lab, page }) =
   expect(await lab.text('level-verdict')).toContain('No run.');
   expect(await lab.text('level-point')).toContain('The valve would have to let through');
   await lab.type('level-inflow-number', '17');
-  expect(await lab.text('level-verdict')).toContain('the level moves');
+  expect(await lab.text('level-verdict')).toContain('The level moves');
   for (const [field, text] of [['level-time-number', '0'], ['level-start-number', '300'], ['level-inflow-number', '-3'], ['level-gain-number', 'much']]) {
     await lab.id(field).fill(text);
     await expect(lab.id(field), field).toHaveAttribute('aria-invalid', 'true');
