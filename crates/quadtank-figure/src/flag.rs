@@ -18,9 +18,9 @@ pub struct Flag {
     pub role: Role,
 }
 
-/// The lines of the flags inside `window`, and then their words, which no line strikes through; `foot` is where the words stand, in the units of the axis. Each word is
-/// higher than the one before it, so that those of one moment can be read, and stands on the side of its line where no other line
-/// strikes it through, if there is one.
+/// The lines of the flags inside `window`, and then their words, which no line strikes through; `foot` is where the words stand, in the
+/// units of the axis. Each word is higher than the one before it, so that those of one moment can be read, and stands on the side of its
+/// line where no other line comes close, if there is one.
 pub fn flags<'a>(flags: &[Flag], foot: f64, (from, to): (f64, f64)) -> impl Iterator<Item = Layer<'a>> {
     let word = WORD * (to - from);
     let shown: Vec<Flag> = flags.iter().filter(|flag| (from..=to).contains(&flag.time_s)).cloned().collect();
