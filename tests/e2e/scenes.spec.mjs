@@ -48,8 +48,7 @@ test('a lecture of two scenes is collected, put in order, shown by keys, and com
   await page.locator('.top h1').click();
   await page.keyboard.press('PageDown');
   await page.keyboard.press('PageUp');
-  await lab.settle();
-  expect(await lab.value('gamma1-number')).toBeCloseTo(0.61, 12);
+  await expect.poll(() => lab.value('gamma1-number')).toBeCloseTo(0.61, 12);
 
   // The browser remembers them; one that is removed can be brought back.
   await page.goto(`${new URL(page.url()).origin}/?lang=en&page=scenes`);
