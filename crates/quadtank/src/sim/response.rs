@@ -50,7 +50,7 @@ pub enum NoResponse {
         /// How far from it (m), at the most, in the last tenth of the time since anything was done to the plant.
         distance: f64,
     },
-    /// The level comes to the top of its wall, where water overflows: what it would do without the wall is not to be seen.
+    /// The tank overflows within the window. The wall cuts the level off there, so settling and overshoot are unknown.
     TankFull,
     /// The linear loop is unstable: an oscillation that only limits hold has no step response.
     UnstableLoop,

@@ -234,8 +234,8 @@ impl LevelLoopSetup {
         }
     }
 
-    /// Whether the set-point changes during the run. The variance of the level then includes the change that was asked for, so the
-    /// variance index is better for a loop that does not reach the new set-point.
+    /// Whether the set-point changes during the run. The variance of the level (m²) then contains the set-point change itself: a
+    /// loop that stays below the new set-point has a smaller variance and a better index.
     pub fn steps_set_point(&self) -> bool {
         let experiment = &self.experiment;
         experiment.set_point_steps.iter().any(|step| step.size != 0.0 && step.time_s <= experiment.duration_s)
