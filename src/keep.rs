@@ -20,9 +20,8 @@ pub fn keep(lab: Lab) {
     offer_last(lab);
     let timer = StoredValue::new_local(None::<Timeout>);
     // A drag is one step however long the hand rests on its way: what has settled by then waits until it lets go.
-    let is_held = StoredValue::new(false);
     let is_due = StoredValue::new(false);
-    let settled = move || if is_held.get_value() { is_due.set_value(true) } else { settle(lab) };
+    let settled = move || if lab.is_dragging.get_untracked() { is_due.set_value(true) } else { settle(lab) };
     let start_timer = move || timer.set_value(Some(Timeout::new(SETTLED_MS, settled)));
     let mut known = None;
     Effect::new(move || {
@@ -34,8 +33,13 @@ pub fn keep(lab: Lab) {
             start_timer();
         }
     });
+    let drag = move |is_dragging| {
+        if lab.is_dragging.get_untracked() != is_dragging {
+            lab.is_dragging.set(is_dragging);
+        }
+    };
     let let_go = move || {
-        is_held.set_value(false);
+        drag(false);
         if is_due.get_value() {
             is_due.set_value(false);
             start_timer();
@@ -44,10 +48,7 @@ pub fn keep(lab: Lab) {
     let listeners = [
         window_event_listener(ev::keydown, move |event| undo_by_key(lab, &event)),
         // A handle keeps the press to itself, and a release may be lost outside of the window: every move says how it is.
-        window_event_listener(
-            ev::pointermove,
-            move |event| if event.buttons() == 0 { let_go() } else { is_held.set_value(true) },
-        ),
+        window_event_listener(ev::pointermove, move |event| if event.buttons() == 0 { let_go() } else { drag(true) }),
         window_event_listener(ev::pointerup, move |_| let_go()),
         window_event_listener(ev::pointercancel, move |_| let_go()),
         window_event_listener(ev::blur, move |_| let_go()),

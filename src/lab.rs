@@ -98,6 +98,8 @@ pub struct State {
     pub large: RwSignal<Option<&'static str>>,
     /// The page that is shown in place of the benches, if one is.
     pub side: RwSignal<Option<SidePage>>,
+    /// Whether a pointer is pressed and moves, on whatever it is.
+    pub is_dragging: RwSignal<bool>,
     /// The scenes of a lecture.
     pub scenes: RwSignal<Scenes>,
     /// The scene that is shown, by its place, while a lecture is going on.
@@ -170,6 +172,7 @@ impl Lab {
             presents: RwSignal::new(false),
             large: RwSignal::new(None),
             side: RwSignal::new(flags.page),
+            is_dragging: RwSignal::new(false),
             scenes: RwSignal::new(Scenes::default()),
             scene: RwSignal::new(None),
             tour: RwSignal::new(None),

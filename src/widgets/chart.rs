@@ -12,10 +12,10 @@ use crate::naming::file_name;
 use crate::share::address_of;
 use crate::tables::save_csv;
 use crate::texts::tr;
-use quadtank_figure::{Chart, Frame, Rect, Sheet, Size, Style, layout, to_svg};
+use quadtank_figure::{Axis, Chart, Frame, Rect, Sheet, Size, Style, hold_value_axes, layout, to_svg};
 
 /// Builds charts in place and hands them to a visitor.
-type Build = dyn Fn(&mut dyn FnMut(&[Chart])) + Send + Sync;
+type Build = dyn Fn(&mut dyn FnMut(&mut [Chart])) + Send + Sync;
 
 /// How the charts of a picture are had: a function that builds them, in place, for whoever paints or exports them, and
 /// one for the numbers behind them as CSV. Building reads signals, so whoever calls it inside an effect follows them.
@@ -28,14 +28,14 @@ pub struct Picture {
 impl Picture {
     /// A picture that `build` hands to its visitor, and whose numbers `csv` writes.
     pub fn new(
-        build: impl Fn(&mut dyn FnMut(&[Chart])) + Send + Sync + 'static,
+        build: impl Fn(&mut dyn FnMut(&mut [Chart])) + Send + Sync + 'static,
         csv: impl Fn() -> String + Send + Sync + 'static,
     ) -> Self {
         Self { build: Arc::new(build), csv: Arc::new(csv) }
     }
 
-    /// What `visitor` makes of the charts; the default where there is nothing to show.
-    pub fn visit<T: Default>(&self, mut visitor: impl FnMut(&[Chart]) -> T) -> T {
+    /// What `visitor` makes of the charts, which are its own; the default where there is nothing to show.
+    pub fn visit<T: Default>(&self, mut visitor: impl FnMut(&mut [Chart]) -> T) -> T {
         let mut result = T::default();
         (self.build)(&mut |charts| result = visitor(charts));
         result
@@ -57,6 +57,9 @@ pub fn ChartCanvas(
     summary: Signal<String>,
     /// Name for tests.
     name: &'static str,
+    /// Whether the value axes stand still while something on the page is dragged: they grow at once, and shrink when it is let go.
+    #[prop(optional)]
+    steady: bool,
 ) -> impl IntoView {
     let lab = use_lab();
     let (lower, canvas) = (NodeRef::<Canvas>::new(), NodeRef::<Canvas>::new());
@@ -65,13 +68,19 @@ pub fn ChartCanvas(
     canvas.on_load(move |canvas| follow_size(&canvas, size));
     let is_shown = Signal::derive(move || size.with(|size| size.width >= 1.0));
     lab.add_figure(Figure { picture: on_paper.unwrap_or_else(|| picture.clone()), summary, is_shown });
+    let repaint = Trigger::new();
     // A window that moves to another screen is resized or zoomed in the eyes of the browser.
-    let moved = Trigger::new();
-    let on_resize = window_event_listener(leptos::ev::resize, move |_| moved.notify());
+    let on_resize = window_event_listener(leptos::ev::resize, move |_| repaint.notify());
     on_cleanup(move || on_resize.remove());
+    let shown = StoredValue::new(ShownAxes::default());
+    Effect::new(move || {
+        if !lab.is_dragging.get() && shown.with_value(|shown| shown.are_wider) {
+            repaint.notify();
+        }
+    });
     Effect::new(move || {
         let (size, magnification) = (size.get(), lab.magnification());
-        moved.track();
+        repaint.track();
         let ratio = window().device_pixel_ratio() * magnification;
         let size = Size { width: size.width / magnification, height: size.height / magnification };
         if size.width < 1.0 || size.height < 1.0 {
@@ -80,6 +89,9 @@ pub fn ChartCanvas(
         let (Some(lower), Some(canvas)) = (lower.get_untracked(), canvas.get_untracked()) else { return };
         let style = lab.chart_style();
         let placed = picture.visit(|charts| {
+            if steady {
+                shown.update_value(|shown| shown.follow(charts, lab.is_dragging.get_untracked()));
+            }
             let surface = (size, ratio, style);
             if !ground.with_value(|known| known.as_ref().is_some_and(|known| known.is_of(charts, surface))) {
                 canvas::paint(&lower, charts, size, ratio, &style, Sheet::Ground);
@@ -102,6 +114,21 @@ pub fn ChartCanvas(
 fn magnified(frame: Frame, by: f64) -> Frame {
     let larger = |r: Rect| Rect { left: r.left * by, top: r.top * by, width: r.width * by, height: r.height * by };
     Frame { outer: larger(frame.outer), plot: larger(frame.plot), ..frame }
+}
+
+/// The value axes of a steady picture as they were painted last.
+#[derive(Default)]
+struct ShownAxes {
+    axes: Vec<Axis>,
+    /// Whether one is wider than its chart asked for.
+    are_wider: bool,
+}
+
+impl ShownAxes {
+    fn follow(&mut self, charts: &mut [Chart], is_dragging: bool) {
+        self.are_wider = is_dragging && hold_value_axes(charts, &self.axes);
+        self.axes = charts.iter().map(|chart| chart.y.clone()).collect();
+    }
 }
 
 /// What the lower of the two canvases shows. Most frames leave it as it is, and text is what costs a browser most.

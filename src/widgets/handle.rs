@@ -77,9 +77,6 @@ pub fn Handle(
     /// Called while it is dragged.
     #[prop(into)]
     on_drag: Callback<Drag>,
-    /// Called when it is let go.
-    #[prop(optional, into)]
-    on_release: Option<Callback<()>>,
     /// Called for a key.
     #[prop(into)]
     on_nudge: Callback<Nudge>,
@@ -121,12 +118,7 @@ pub fn Handle(
             }
         }
     };
-    let release = move |_: PointerEvent| {
-        grabbed_at.set_value(None);
-        if let Some(on_release) = on_release {
-            on_release.run(());
-        }
-    };
+    let release = move |_: PointerEvent| grabbed_at.set_value(None);
     view! {
         <g
             class="handle"

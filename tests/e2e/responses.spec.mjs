@@ -101,6 +101,34 @@ test('a dragged set-point stays under the pointer, and the axis follows when it 
   expect((await lab.picture('responses')).hash).not.toBe(held.hash);
 });
 
+for (const [query, slider, chart] of [
+  ['?view=full', 'gain1', 'responses'],
+  ['?view=full', 'gamma1', 'responses'],
+  ['?bench=relay-tuning&view=full', 'importance', 'response'],
+  ['?bench=model-free&view=full', 'free-kp', 'free-course'],
+  ['?bench=level-loop&view=full', 'level-gain', 'level-course'],
+]) {
+  test(`the axis of ${chart} does not shrink under a hand on ${slider}`, async ({ lab, page }) => {
+    await lab.open(query);
+    await lab.id(slider).scrollIntoViewIfNeeded();
+    const box = await lab.id(slider).boundingBox();
+    const to = async (share) => {
+      await page.mouse.move(box.x + box.width * share, box.y + box.height / 2);
+      await lab.settle();
+    };
+    await to(0.5);
+    await page.mouse.down();
+    await to(0.51);
+    const before = await lab.picture(chart);
+    for (const share of [0.05, 0.95]) await to(share);
+    await to(0.51);
+    expect((await lab.picture(chart)).hash, 'the same curves on a wider axis').not.toBe(before.hash);
+    await page.mouse.up();
+    await lab.settle();
+    expect((await lab.picture(chart)).hash, 'the axis of these curves alone').toBe(before.hash);
+  });
+}
+
 test('without a cursor the zoom keeps the first step in sight', async ({ lab }) => {
   await lab.open();
   for (let k = 0; k < 3; k += 1) await lab.id('zoom-in').click();

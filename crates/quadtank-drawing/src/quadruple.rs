@@ -38,7 +38,6 @@ fn responses(setup: &Setup, style: &Style) -> Result<String, StudyError> {
         walls: [plant.tanks[0].height, plant.tanks[1].height],
         voltage_limits: (pump_1.voltage_min.min(pump_2.voltage_min), pump_1.voltage_max.max(pump_2.voltage_max)),
         window_s: None,
-        held_levels: None,
         texts: ResponseTexts {
             time: "time (s)",
             level,

@@ -23,8 +23,6 @@ pub struct Levels<'a> {
     pub level_scale: f64,
     /// The least range of levels (m).
     pub least_range: f64,
-    /// What the level axis shows at least, in the shown unit: while something is dragged its scale should not run away.
-    pub held_levels: Option<(f64, f64)>,
     /// Name and unit of the time axis.
     pub time: &'a str,
     /// Name and unit of the level axis.
@@ -42,8 +40,7 @@ pub fn levels<'a>(spec: &Levels<'a>) -> Chart<'a> {
     let (low, high) = columns.filter_map(extent).reduce(join).unwrap_or((0.0, 1.0));
     let lacking = (spec.least_range - (high - low)).max(0.0) / 2.0;
     let room = lacking + ROOM * (high - low);
-    let mut axis = Axis::rounded(spec.level, ((low - room) * spec.level_scale, (high + room) * spec.level_scale), 6);
-    axis.range = spec.held_levels.map_or(axis.range, |held| join(held, axis.range));
+    let axis = Axis::rounded(spec.level, ((low - room) * spec.level_scale, (high + room) * spec.level_scale), 6);
     let mut chart = Chart::new(Axis::new(spec.time, time), axis);
     let shown = spec.until_s.map_or(usize::MAX, |until| spec.run.time_s.partition_point(|&t| t <= until).max(1));
     for index in 0..2 {
@@ -85,7 +82,6 @@ mod tests {
             flags,
             level_scale: 100.0,
             least_range: 0.01,
-            held_levels: None,
             time: "t (s)",
             level: "h (cm)",
             names: ["level 1", "level 2"],

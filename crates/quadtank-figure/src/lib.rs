@@ -39,6 +39,7 @@ mod range;
 mod residuals;
 mod responses;
 mod scale;
+mod steady;
 mod svg;
 mod table;
 mod trace;
@@ -67,6 +68,7 @@ pub use pole_zero::{PoleZero, PoleZeroTexts, pole_zero};
 pub use residuals::{Residuals, residuals};
 pub use responses::{ResponseTexts, Responses, RunColumns, responses};
 pub use scale::Scale;
+pub use steady::hold_value_axes;
 pub use svg::{escape, to_svg};
 pub use table::{Summary, Table, table};
 pub use tuning::{

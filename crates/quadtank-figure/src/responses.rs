@@ -4,7 +4,7 @@ use quadtank::sim::Trajectory;
 
 use super::ends::{Ends, names};
 use super::flag::{Flag, flags};
-use super::range::{extent, join, range};
+use super::range::{extent, range};
 use super::{Axis, Chart, Course, Entry, Layer, Pen, Role, Sample, Series};
 
 /// A level chart never shows less than this share of the height of the walls, so that noise does not look like a step.
@@ -51,8 +51,6 @@ pub struct Responses<'a> {
     pub voltage_limits: (f64, f64),
     /// The time that is shown (s); all of it if `None`.
     pub window_s: Option<(f64, f64)>,
-    /// What the level axis shows at least, in the shown unit: while something is dragged its scale should not run away.
-    pub held_levels: Option<(f64, f64)>,
     /// What happened when.
     pub flags: &'a [Flag],
     /// Words.
@@ -89,8 +87,7 @@ pub fn responses<'a>(spec: &Responses<'a>) -> [Chart<'a>; 2] {
     let time = spec.window_s.or_else(|| extent(spec.nonlinear.time_s)).unwrap_or((0.0, 1.0));
     let (low, high) = level_range(spec, time);
     let level_range = (low * spec.level_scale, high * spec.level_scale);
-    let mut level = Axis::rounded(texts.level, level_range, 6);
-    level.range = spec.held_levels.map_or(level.range, |held| join(held, level.range));
+    let level = Axis::rounded(texts.level, level_range, 6);
     let mut levels = Chart::new(Axis::new("", time), level);
     levels.x.numbered = false;
     levels.weight = 2.2;

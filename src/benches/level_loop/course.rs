@@ -52,7 +52,7 @@ pub fn CourseCard() -> impl IntoView {
                 {move || marked(&found.get().1)}
             </Verdict>
             <div class="chart">
-                <ChartCanvas picture frames summary=Signal::derive(move || unmarked(&found.get().1)) name="level-course" />
+                <ChartCanvas picture frames summary=Signal::derive(move || unmarked(&found.get().1)) name="level-course" steady=true />
                 <TimeSurface axis frames label=say!(lab, responses.cursor) spoken readout id="level-surface" />
             </div>
             <div class="folded">

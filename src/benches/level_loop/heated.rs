@@ -51,7 +51,7 @@ pub fn HeatedCard() -> impl IntoView {
                 digits=None
                 unit="h".to_owned()
             />
-            <div class="chart"><ChartCanvas picture frames summary=sentence name="heated-chart" /></div>
+            <div class="chart"><ChartCanvas picture frames summary=sentence name="heated-chart" steady=true /></div>
             <Verdict id="heated-verdict" warm=Signal::derive(move || found.with(|f| f.as_ref().is_none_or(HeatedAnswer::diverges)))>
                 {move || marked(&sentence.get())}
             </Verdict>

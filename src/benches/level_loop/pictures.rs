@@ -33,10 +33,10 @@ pub const fn output_unit(plant: &LevelPlant) -> &'static str {
 /// Level, flows and controller output over time.
 pub fn run(session: Session, window: Signal<(f64, f64)>) -> Picture {
     let lab = session.lab;
-    let build = move |show: &mut dyn FnMut(&[Chart])| {
+    let build = move |show: &mut dyn FnMut(&mut [Chart])| {
         let setup = session.charts.setup.get();
         let answer = session.charts.answer.get();
-        let Ok(answer) = answer.as_ref() else { return show(&[]) };
+        let Ok(answer) = answer.as_ref() else { return show(&mut []) };
         let plant = setup.plant();
         let reference: Vec<f64> =
             answer.log.reference.iter().map(|&signal| plant.transmitter.level_of(signal)).collect();
@@ -44,7 +44,7 @@ pub fn run(session: Session, window: Signal<(f64, f64)>) -> Picture {
         let pinned = pinned.iter().filter_map(|pinned| pinned.result.as_ref().as_ref().ok()).map(columns).collect();
         let unit = output_unit(&plant);
         let range = plant.output.signal;
-        show(&quadtank_figure::level_loop(&LevelLoopCharts {
+        show(&mut quadtank_figure::level_loop(&LevelLoopCharts {
             run: columns(answer),
             reference: &reference,
             inflow: &answer.log.inflow,
@@ -86,9 +86,9 @@ fn band(session: Session) -> Option<[f64; 2]> {
 /// The step test with the model that was read from it.
 pub fn test(session: Session) -> Picture {
     let lab = session.lab;
-    let build = move |show: &mut dyn FnMut(&[Chart])| {
+    let build = move |show: &mut dyn FnMut(&mut [Chart])| {
         let test = session.charts.test.get();
-        let Ok(test) = test.as_ref() else { return show(&[]) };
+        let Ok(test) = test.as_ref() else { return show(&mut []) };
         let setup = session.charts.setup.get();
         let plant = setup.plant();
         let units = [unit_of(plant.transmitter.signal.unit), output_unit(&plant)];
@@ -101,7 +101,7 @@ pub fn test(session: Session) -> Picture {
                 marks.push(((setup.test.step_time_s + time, signal), name.as_str()));
             }
         }
-        show(&quadtank_figure::step_test(&StepTestCharts {
+        show(&mut quadtank_figure::step_test(&StepTestCharts {
             time_s: &test.log.time_s,
             measured: &test.log.transmitted,
             fitted: test.fitted.as_deref(),
@@ -134,7 +134,7 @@ pub struct TradeOffEntry {
 /// The variance of the level against that of the outflow, with the known tunings.
 pub fn trade_off(session: Session, found: Memo<TradeOff>, entries: Memo<Vec<TradeOffEntry>>) -> Picture {
     let lab = session.lab;
-    let build = move |show: &mut dyn FnMut(&[Chart])| {
+    let build = move |show: &mut dyn FnMut(&mut [Chart])| {
         found.with(|found| {
             let (outflow, level): (Vec<f64>, Vec<f64>) =
                 found.curve.iter().map(|point| (point.outflow, point.level)).unzip();
@@ -147,7 +147,7 @@ pub fn trade_off(session: Session, found: Memo<TradeOff>, entries: Memo<Vec<Trad
                 role: Role::Neutral,
                 shape: Shape::Point,
             });
-            show(&[quadtank_figure::trade_off(&TradeOffChart {
+            show(&mut [quadtank_figure::trade_off(&TradeOffChart {
                 curve: (&outflow, &level),
                 points: points.collect(),
                 present,
@@ -165,7 +165,7 @@ pub fn cost_map(
     search: Memo<Option<Shown<Searched>>>,
 ) -> Picture {
     let lab = session.lab;
-    let build = move |show: &mut dyn FnMut(&[Chart])| {
+    let build = move |show: &mut dyn FnMut(&mut [Chart])| {
         let setup = session.charts.setup.get();
         let [gains, times] = setup.search.axes().map(|axis| (axis.low, axis.high));
         let (size, cells): ([usize; 2], Vec<CostCell>) = map.with(|map| match map {
@@ -182,7 +182,7 @@ pub fn cost_map(
             paths.push((&way[..], search.value.search.path().iter().map(|at| point(at.point)).collect()));
             population = search.value.search.population().into_iter().map(point).collect();
         });
-        show(&[quadtank_figure::cost_map(&CostMapChart {
+        show(&mut [quadtank_figure::cost_map(&CostMapChart {
             gains,
             times_s: times,
             size,
@@ -225,13 +225,13 @@ pub fn element(session: Session) -> Picture {
         let (_, plant, signals) = shown(session)?;
         Some((element, element.curve(&plant, &signals)?, plant))
     };
-    let build = move |show: &mut dyn FnMut(&[Chart])| {
-        let Some((element, curve, plant)) = curve() else { return show(&[]) };
+    let build = move |show: &mut dyn FnMut(&mut [Chart])| {
+        let Some((element, curve, plant)) = curve() else { return show(&mut []) };
         let axes = element_axes(lab, element, &plant);
         let scale = element_scale(element);
         let scaled = |column: &[f64], by: f64| -> Vec<f64> { column.iter().map(|value| by * value).collect() };
         let (x, y) = (scaled(&curve.input, scale.0), scaled(&curve.output, scale.1));
-        show(&[quadtank_figure::static_curve(&StaticCurve {
+        show(&mut [quadtank_figure::static_curve(&StaticCurve {
             x: &x,
             y: &y,
             at: Some((scale.0 * curve.at.0, scale.1 * curve.at.1)),
@@ -276,9 +276,9 @@ fn element_axes(lab: Lab, element: Element, plant: &LevelPlant) -> [String; 2] {
 
 /// Level and temperature of the heated tank, in steps and exact.
 pub fn heated(lab: Lab, found: Memo<Option<HeatedAnswer>>) -> Picture {
-    let build = move |show: &mut dyn FnMut(&[Chart])| {
+    let build = move |show: &mut dyn FnMut(&mut [Chart])| {
         found.with(|found| {
-            let Some(found) = found else { return show(&[]) };
+            let Some(found) = found else { return show(&mut []) };
             let hours: Vec<f64> = found.run.time_s.iter().map(|time| time / 3600.0).collect();
             let line = |name: String, role, pen, y: &[f64]| {
                 Layer::Line(Series {
@@ -305,7 +305,7 @@ pub fn heated(lab: Lab, found: Memo<Option<HeatedAnswer>>) -> Picture {
             let mut temperature = chart(tr!(lab, level.axis_temperature), &found.run.temperature);
             temperature.layers =
                 vec![line(tr!(lab, level.temperature), Role::Loop2, Pen::Solid, &found.run.temperature)];
-            show(&[level, temperature]);
+            show(&mut [level, temperature]);
         });
     };
     let csv = move || {

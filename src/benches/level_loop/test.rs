@@ -84,7 +84,7 @@ pub fn TestCard() -> impl IntoView {
             terms=TERMS
             beside=move || view! { <Places /> <ChartMenu picture=for_menu file="step-test" title /> }
         >
-            <div class="chart"><ChartCanvas picture frames summary name="step-test-chart" /></div>
+            <div class="chart"><ChartCanvas picture frames summary name="step-test-chart" steady=true /></div>
             <div class="pairs">
                 <ParamRow session control=&INFLOW index=0 />
                 <ParamRow session control=&LEVEL index=1 />

@@ -57,6 +57,7 @@ pub fn CourseCard(
                     frames
                     summary=Signal::derive(move || unmarked(&found.get().1))
                     name="free-course"
+                    steady=true
                 />
                 <TimeSurface axis frames label=say!(lab, responses.cursor) spoken readout id="free-surface" />
             </div>

@@ -22,14 +22,14 @@ const TRAIL_STEP_S: f64 = 0.25;
 /// Levels, voltages and φ over time.
 pub fn course(session: Session, window: Signal<(f64, f64)>) -> Picture {
     let lab = session.lab;
-    let build = move |show: &mut dyn FnMut(&[Chart])| {
+    let build = move |show: &mut dyn FnMut(&mut [Chart])| {
         let answer = session.charts.answer.get();
-        let Ok(answer) = answer.as_ref() else { return show(&[]) };
+        let Ok(answer) = answer.as_ref() else { return show(&mut []) };
         let (run, phi) = (&answer.run.trajectory, &answer.run);
         let sample_time_s: Vec<f64> = run.time_s.iter().copied().step_by(phi.rows_per_sample).collect();
         let comparison =
             answer.comparison.as_ref().map(|(pi, _)| (&pi.time_s[..], [&pi.levels[0][..], &pi.levels[1][..]]));
-        show(&quadtank_figure::model_free_course(&ModelFreeCourse {
+        show(&mut quadtank_figure::model_free_course(&ModelFreeCourse {
             time_s: &run.time_s,
             levels: run.levels.each_ref().map(Vec::as_slice),
             references: run.references.each_ref().map(Vec::as_slice),
@@ -74,7 +74,7 @@ pub fn plane(session: Session, whole: bool) -> Picture {
     let lab = session.lab;
     let map = Memo::new(move |_| map(session));
     let csv = move || map.with(|map| valve_map_to_csv(map, CSV_STEPS));
-    let build = move |show: &mut dyn FnMut(&[Chart])| {
+    let build = move |show: &mut dyn FnMut(&mut [Chart])| {
         let map = map.get();
         let plane = quadtank_figure::valve_plane(&ValvePlane {
             right_most_zero: &|valves| map.rightmost_zero(valves),
@@ -88,7 +88,7 @@ pub fn plane(session: Session, whole: bool) -> Picture {
                 right_half_plane: &tr!(lab, valves.right),
             },
         });
-        show(&[if whole { with_valve_path(plane, &valve_path(session)) } else { plane }]);
+        show(&mut [if whole { with_valve_path(plane, &valve_path(session)) } else { plane }]);
     };
     Picture::new(build, csv)
 }
@@ -109,10 +109,10 @@ pub fn zeros(session: Session) -> Picture {
     let csv = move || {
         shown(session).and_then(|shown| shown.theory.ok()).map(|plant| roots_to_csv(&plant)).unwrap_or_default()
     };
-    let build = move |show: &mut dyn FnMut(&[Chart])| {
-        let Some(Ok(plant)) = shown(session).map(|shown| shown.theory) else { return show(&[]) };
+    let build = move |show: &mut dyn FnMut(&mut [Chart])| {
+        let Some(Ok(plant)) = shown(session).map(|shown| shown.theory) else { return show(&mut []) };
         let zeros: Vec<Complex> = plant.zeros.iter().flatten().map(|zero| zero.value).collect();
-        show(&[quadtank_figure::pole_zero(&PoleZero {
+        show(&mut [quadtank_figure::pole_zero(&PoleZero {
             poles: &plant.poles,
             zeros: &zeros,
             zero_paths: &[],

@@ -56,6 +56,7 @@ fn OverFrequency() -> impl IntoView {
                 frames
                 summary=say!(lab, frequency.summary, sentence = unmarked(&sentence.get()))
                 name="frequency"
+                steady=true
             />
         </div>
         <Sentence id="frequency-sentence" text=sentence />

@@ -45,12 +45,12 @@ pub fn valve_map(session: Session, whole: bool) -> Picture {
 fn valve_plane_with(session: Session, whole: bool, sides: impl Fn() -> [String; 2] + Send + Sync + 'static) -> Picture {
     let map = Memo::new(move |_| session.document.with(|s| ValveMap::of(&s.setup).ok().map(ValveMap::without_setting)));
     let csv = move || map.get().map(|m| valve_map_to_csv(&m, CSV_STEPS)).unwrap_or_default();
-    let build = move |visit: &mut dyn FnMut(&[Chart])| {
+    let build = move |visit: &mut dyn FnMut(&mut [Chart])| {
         let Some(map) = map.get() else { return };
         let [minimum_phase, right_half_plane] = &sides();
         let (gamma_1, gamma_2, boundary) = ("γ₁", "γ₂", "γ₁ + γ₂ = 1");
         let texts = ValvePlaneTexts { gamma_1, gamma_2, boundary, minimum_phase, right_half_plane };
-        visit(&[quadtank_figure::valve_plane(&ValvePlane {
+        visit(&mut [quadtank_figure::valve_plane(&ValvePlane {
             right_most_zero: &|valves| map.rightmost_zero(valves),
             published: &[],
             setting: whole.then(|| session.document.with(|s| s.setup.valves)),
@@ -64,12 +64,12 @@ fn valve_plane_with(session: Session, whole: bool, sides: impl Fn() -> [String; 
 pub fn pole_zero(session: Session) -> Picture {
     let lab = session.lab;
     let csv = move || session.charts.with_analysis(roots_to_csv).unwrap_or_default();
-    let build = move |visit: &mut dyn FnMut(&[Chart])| {
+    let build = move |visit: &mut dyn FnMut(&mut [Chart])| {
         let map = session.charts.setup.with_untracked(|setup| ValveMap::of(setup));
         let zero_paths = map.map(|m| m.zero_paths(PATH_POINTS)).unwrap_or_default();
         session.charts.with_analysis(|a| {
             let zeros: Vec<Complex> = a.linear.zeros.iter().flatten().map(|z| z.value).collect();
-            visit(&[quadtank_figure::pole_zero(&PoleZero {
+            visit(&mut [quadtank_figure::pole_zero(&PoleZero {
                 poles: &a.linear.poles,
                 zeros: &zeros,
                 zero_paths: &zero_paths,
@@ -93,12 +93,12 @@ pub fn pole_zero(session: Session) -> Picture {
 pub fn over_frequency(session: Session, curves: Curves) -> Picture {
     let lab = session.lab;
     let csv = move || curves.with(|curves| curves.as_ref().map(frequency_to_csv).unwrap_or_default());
-    let build = move |visit: &mut dyn FnMut(&[Chart])| {
+    let build = move |visit: &mut dyn FnMut(&mut [Chart])| {
         curves.with(|curves| {
             let Some(curves) = curves else { return };
             let style = lab.number_style();
             let peak = curves.closed.as_ref().map(|closed| format!("Ms = {}", style.significant(closed.peak.value, 3)));
-            visit(&quadtank_figure::over_frequency(&FrequencyCharts {
+            visit(&mut quadtank_figure::over_frequency(&FrequencyCharts {
                 frequencies: &curves.frequencies,
                 plant: columns(&curves.plant),
                 closed: curves.closed.as_ref().map(|closed| ClosedLoopGains {
@@ -129,24 +129,23 @@ fn columns(both: &[Vec<f64>; 2]) -> [&[f64]; 2] {
 }
 
 /// Levels alone, as far as a replay has come.
-pub fn levels(session: Session, held: RwSignal<Option<(f64, f64)>>) -> Picture {
+pub fn levels(session: Session) -> Picture {
     let lab = session.lab;
     let csv = move || session.charts.run.with(|run| run.as_ref().as_ref().map(run_to_csv).unwrap_or_default());
-    let build = move |visit: &mut dyn FnMut(&[Chart])| {
+    let build = move |visit: &mut dyn FnMut(&mut [Chart])| {
         let run = session.charts.run.get();
         let Ok(run) = run.as_ref() else { return };
         let unit = session.own.unit.get();
         let names = [1, 2].map(|k| tr!(lab, responses.level, number = k));
         let references = [1, 2].map(|k| format!("{} {k}", tr!(lab, responses.reference)));
         let flags = flags(lab, run);
-        visit(&[quadtank_figure::levels(&Levels {
+        visit(&mut [quadtank_figure::levels(&Levels {
             run: RunColumns::of(&run.nonlinear),
             references: [&run.nonlinear.references[0], &run.nonlinear.references[1]],
             until_s: session.own.playback.get(),
             flags: &flags,
             level_scale: per_metre(unit),
             least_range: LEAST_LEVELS,
-            held_levels: held.get(),
             time: &tr!(lab, chart.time),
             level: &tr!(lab, responses.level_axis, unit = unit_name(unit)),
             names: [&names[0], &names[1]],
@@ -190,13 +189,13 @@ fn flags(lab: Lab, run: &Run) -> Vec<Flag> {
 /// What the simulation leaves of the levels of the record that is open.
 pub fn residuals(session: Session) -> Picture {
     let lab = session.lab;
-    let build = move |visit: &mut dyn FnMut(&[Chart])| {
+    let build = move |visit: &mut dyn FnMut(&mut [Chart])| {
         let (opened, run) = (session.own.record.get(), session.throttled.run.get());
         let (Some(record), Ok(run)) = (opened.as_ref().and_then(OpenRecord::record), run.as_ref()) else { return };
         let [level_1, level_2] = quadtank_record::residuals(record, &run.nonlinear);
         let unit = session.own.unit.get();
         let names = [1, 2].map(|k| tr!(lab, responses.level, number = k));
-        visit(&[quadtank_figure::residuals(&Residuals {
+        visit(&mut [quadtank_figure::residuals(&Residuals {
             time_s: &record.time_s,
             levels: [&level_1, &level_2],
             level_scale: per_metre(unit),
@@ -208,13 +207,13 @@ pub fn residuals(session: Session) -> Picture {
     Picture::new(build, String::new)
 }
 
-/// Levels and pump voltages; the level axis shows at least `held`.
-pub fn responses(session: Session, held: RwSignal<Option<(f64, f64)>>) -> Picture {
+/// Levels and pump voltages.
+pub fn responses(session: Session) -> Picture {
     let lab = session.lab;
     let window = Memo::new(move |_| session.document.with(|s| s.view.zoom_s.map(<(f64, f64)>::from)));
     let hide_linear = Memo::new(move |_| session.document.with(|s| s.view.hide_linear));
     let csv = move || session.charts.run.with(|run| run.as_ref().as_ref().map(run_to_csv).unwrap_or_default());
-    let build = move |visit: &mut dyn FnMut(&[Chart])| {
+    let build = move |visit: &mut dyn FnMut(&mut [Chart])| {
         let (run, pinned) = (session.charts.run.get(), session.charts.pinned.get());
         let Ok(run) = run.as_ref() else { return };
         let unit = session.own.unit.get();
@@ -233,7 +232,7 @@ pub fn responses(session: Session, held: RwSignal<Option<(f64, f64)>>) -> Pictur
         });
         let opened = session.own.record.get();
         let (record, measured) = (opened.as_ref().and_then(OpenRecord::record), tr!(lab, record.curve));
-        visit(&quadtank_figure::responses(&Responses {
+        visit(&mut quadtank_figure::responses(&Responses {
             recorded: record.map(|record| (columns_of(record), measured.as_str())),
             nonlinear: RunColumns::of(&run.nonlinear),
             references: [&run.nonlinear.references[0], &run.nonlinear.references[1]],
@@ -244,7 +243,6 @@ pub fn responses(session: Session, held: RwSignal<Option<(f64, f64)>>) -> Pictur
             walls: [plant.tanks[0].height, plant.tanks[1].height],
             voltage_limits: (pump_1.voltage_min.min(pump_2.voltage_min), pump_1.voltage_max.max(pump_2.voltage_max)),
             window_s: window.get(),
-            held_levels: held.get(),
             texts: ResponseTexts {
                 time: &tr!(lab, chart.time),
                 level: &level,

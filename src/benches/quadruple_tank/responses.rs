@@ -38,8 +38,7 @@ pub fn ResponsesCard() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
     let frames = RwSignal::new(Vec::<Frame>::new());
-    let held = RwSignal::new(None);
-    let picture = pictures::responses(session, held);
+    let picture = pictures::responses(session);
     let (for_menu, for_table) = (picture.clone(), picture.clone());
     let axis = time_axis(session);
     let moment = use_moment();
@@ -63,6 +62,7 @@ pub fn ResponsesCard() -> impl IntoView {
                         frames
                         summary=say!(lab, responses.summary, sentence = unmarked(&sentence.get()))
                         name="responses"
+                        steady=true
                     />
                     <TimeSurface
                         axis
@@ -72,7 +72,7 @@ pub fn ResponsesCard() -> impl IntoView {
                         readout=Signal::derive(move || at_cursor().map(|m| readout(session, &m)))
                         id="responses-surface"
                     />
-                    <SetPoints frames held />
+                    <SetPoints frames />
                 </div>
             </div>
             <div class="mended">

@@ -20,19 +20,17 @@ const TIME_STEP_S: f64 = 10.0;
 pub fn SetPoints(
     /// Where the charts stand.
     frames: RwSignal<Vec<Frame>>,
-    /// What the level axis has to show while a set-point is dragged.
-    held: RwSignal<Option<(f64, f64)>>,
 ) -> impl IntoView {
     view! {
         <svg class="over handles">
-            <SetPoint level=0 frames held />
-            <SetPoint level=1 frames held />
+            <SetPoint level=0 frames />
+            <SetPoint level=1 frames />
         </svg>
     }
 }
 
 #[component]
-fn SetPoint(level: usize, frames: RwSignal<Vec<Frame>>, held: RwSignal<Option<(f64, f64)>>) -> impl IntoView {
+fn SetPoint(level: usize, frames: RwSignal<Vec<Frame>>) -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
     let (size, time_s) = (step_size(session, level), step_time(session, level));
@@ -61,12 +59,10 @@ fn SetPoint(level: usize, frames: RwSignal<Vec<Frame>>, held: RwSignal<Option<(f
             (step.size, step.time_s) = (new_size, new_time_s);
         });
     };
-    // The scale is that of the moment of grabbing, and the axis keeps it as long as the drag stays inside: a scale that
-    // follows the drag would run away from the pointer.
+    // The scale is that of the moment of grabbing: one that follows the drag would run away from the pointer.
     let grabbed = StoredValue::new(None::<(Frame, f64, f64)>);
     let on_grab = move |()| {
         grabbed.set_value(untrack(frame).map(|f| (f, size.get_untracked(), time_s.get_untracked())));
-        held.set(untrack(frame).map(|f| f.y));
     };
     let on_drag = move |drag: Drag| {
         let Some((frame, size, time_s)) = grabbed.get_value() else { return };
@@ -105,7 +101,6 @@ fn SetPoint(level: usize, frames: RwSignal<Vec<Frame>>, held: RwSignal<Option<(f
                 locked=lab.locks(locks::EXPERIMENT)
                 on_grab
                 on_drag
-                on_release=move |()| held.set(None)
                 on_nudge
                 at=Signal::derive(move || place().unwrap_or_default())
             >

@@ -27,7 +27,7 @@ pub fn record_of(test: &Tested) -> Option<&LoopTrace> {
 
 /// The relay test over time, drawn up to some time or whole.
 pub fn test(session: Session, window: Signal<(f64, f64)>, until: Signal<Option<f64>>) -> Picture {
-    let build = move |show: &mut dyn FnMut(&[quadtank_figure::Chart])| {
+    let build = move |show: &mut dyn FnMut(&mut [quadtank_figure::Chart])| {
         session.charts.test.with(|outcome| {
             let trace = outcome.as_ref().as_ref().ok().and_then(record_of);
             let records: Vec<LoopsRecord> = trace.map(|trace| drawn(trace, "", Pen::Solid, true)).into_iter().collect();
@@ -46,7 +46,7 @@ pub fn test(session: Session, window: Signal<(f64, f64)>, until: Signal<Option<f
 /// The response with the chosen root, its comparison and the pinned ones.
 pub fn response(session: Session, window: Signal<(f64, f64)>) -> Picture {
     let lab = session.lab;
-    let build = move |show: &mut dyn FnMut(&[quadtank_figure::Chart])| {
+    let build = move |show: &mut dyn FnMut(&mut [quadtank_figure::Chart])| {
         let pinned = session.charts.pinned.get();
         let names: Vec<String> = (1..=pinned.len()).map(|number| tr!(lab, pins.name, number = number)).collect();
         let compared = tr!(lab, relay.row_comparison);
@@ -90,7 +90,7 @@ fn loops(
     window: (f64, f64),
     until: Option<f64>,
     references: Option<[f64; 2]>,
-    show: &mut dyn FnMut(&[quadtank_figure::Chart]),
+    show: &mut dyn FnMut(&mut [quadtank_figure::Chart]),
 ) {
     let lab = session.lab;
     // Records follow from the setup, and come anew with all of it that matters here.
@@ -103,7 +103,7 @@ fn loops(
     let (output, input) = (tr!(lab, relay.axis_output), tr!(lab, relay.axis_input));
     let axes = [time, format!("{output}{volts}"), format!("{input}{volts}")];
     let texts = [tr!(lab, relay.loop_name, number = 1), tr!(lab, relay.loop_name, number = 2)];
-    show(&quadtank_figure::two_loops(&LoopsChart {
+    show(&mut quadtank_figure::two_loops(&LoopsChart {
         records,
         window,
         until,
@@ -122,7 +122,7 @@ pub fn chosen_point(found: Found) -> Option<(f64, f64)> {
 /// The critical curve with what the test found. `chosen` is followed instead of the design, which changes more often.
 pub fn curve(session: Session, chosen: Signal<Option<(f64, f64)>>) -> Picture {
     let lab = session.lab;
-    let build = move |show: &mut dyn FnMut(&[quadtank_figure::Chart])| {
+    let build = move |show: &mut dyn FnMut(&mut [quadtank_figure::Chart])| {
         let (study, test, chosen) = (session.charts.study.get(), session.charts.test.get(), chosen.get());
         let Ok(study) = study.as_ref() else { return };
         let place = |limit: &GainLimit| match limit {
@@ -142,7 +142,7 @@ pub fn curve(session: Session, chosen: Signal<Option<(f64, f64)>>) -> Picture {
         let peak: Vec<(f64, f64)> = estimate(oscillation.and_then(|o| o.gains_by_peak())).collect();
         let style = lab.number_style();
         let rays = RAYS.map(|ray| (ray, format!("r₂ = {}", style.significant(ray, 1))));
-        show(&[quadtank_figure::critical_curve(&CurveChart {
+        show(&mut [quadtank_figure::critical_curve(&CurveChart {
             curve: [&x, &y],
             corners: &corners,
             estimates: [&harmonic, &peak],
@@ -167,7 +167,7 @@ pub fn curve(session: Session, chosen: Signal<Option<(f64, f64)>>) -> Picture {
 /// Both loci at the critical gains and with the controllers at work.
 pub fn loci(session: Session) -> Picture {
     let lab = session.lab;
-    let build = move |show: &mut dyn FnMut(&[quadtank_figure::Chart])| {
+    let build = move |show: &mut dyn FnMut(&mut [quadtank_figure::Chart])| {
         session.charts.design.with(|outcome| {
             let columns = match outcome.as_ref() {
                 Ok(Some(design)) => design.loci.each_ref().map(columns),
@@ -180,7 +180,7 @@ pub fn loci(session: Session) -> Picture {
             // Given controllers have no target.
             let (target, rules) = if is_given { (None, &[][..]) } else { (Some(target.into()), &rules[..]) };
             let names = [1, 2].map(|number| tr!(lab, relay.locus, number = number));
-            show(&[quadtank_figure::characteristic_loci(&LociChart {
+            show(&mut [quadtank_figure::characteristic_loci(&LociChart {
                 loci: after,
                 before,
                 target,

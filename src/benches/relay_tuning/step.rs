@@ -60,7 +60,7 @@ pub fn Step(
         <Card name panel title=heading beside terms hidden>
             <div class="step">
                 <div class=place>
-                    <ChartCanvas picture frames summary=Signal::derive(move || unmarked(&found.get().1)) name />
+                    <ChartCanvas picture frames summary=Signal::derive(move || unmarked(&found.get().1)) name steady=true />
                     {overlay.run()}
                 </div>
                 <div class="settings">{children()}</div>

@@ -65,7 +65,6 @@ pub fn response_spec<'a>(run: &'a Run, linear: Option<&'a Run>, pinned: Option<&
         walls: [0.2, 0.2],
         voltage_limits: (0.0, 10.0),
         window_s: None,
-        held_levels: None,
         flags: &[],
         texts: ResponseTexts {
             time: "time (s)",

@@ -309,20 +309,3 @@ fn a_figure_without_charts_is_empty() {
     assert_eq!(record(&[], SIZE, &STYLE), []);
     assert_eq!(layout(&[], Size { width: 0.0, height: 0.0 }), []);
 }
-
-#[test]
-fn a_held_level_axis_stays_and_grows_only_when_a_curve_leaves_it() {
-    let run = Run::step(1.0);
-    let span = |held| {
-        let mut spec = response_spec(&run, None, None);
-        spec.held_levels = held;
-        let [levels, _] = responses(&spec);
-        levels.y.span()
-    };
-    let (low, high) = span(None);
-    assert_eq!(span(Some((low, high))), (low, high));
-    assert_eq!(span(Some((low, high + 5.0))), (low, high + 5.0));
-    // The middle of the range alone would cut the curves off.
-    let middle = f64::midpoint(low, high);
-    assert_eq!(span(Some((middle, middle))), (low, high));
-}

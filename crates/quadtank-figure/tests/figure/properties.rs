@@ -144,7 +144,6 @@ proptest! {
             walls: [wall, 0.2],
             voltage_limits: (limit, 10.0),
             window_s: window,
-            held_levels: None,
             ..response_spec(&usual, None, None)
         };
         check(&responses(&spec), size, 8)?;

@@ -26,14 +26,13 @@ pub fn LevelsCard(replay: Playback) -> impl IntoView {
     let lab = session.lab;
     fit_time(session);
     let frames = RwSignal::new(Vec::<Frame>::new());
-    let held = RwSignal::new(None);
-    let picture = pictures::levels(session, held);
+    let picture = pictures::levels(session);
     let sentence = Signal::derive(move || responses::sentence(session));
     view! {
         <Card name="levels" title=say!(lab, explore.levels) terms=TERMS beside=move || view! { <TimeBar playback=replay id="replay" lab /> }>
             <div class="chart">
-                <ChartCanvas picture frames summary=say!(lab, responses.summary, sentence = unmarked(&sentence.get())) name="levels" />
-                <SetPoints frames held />
+                <ChartCanvas picture frames summary=say!(lab, responses.summary, sentence = unmarked(&sentence.get())) name="levels" steady=true />
+                <SetPoints frames />
             </div>
             <Sentence id="levels-sentence" text=sentence status=true />
         </Card>
