@@ -72,12 +72,12 @@ pub fn Rules() -> impl IntoView {
 fn Rule(suggestion: Suggestion, setup: LevelLoopSetup) -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
-    let style = lab.number_style();
-    let number = |value: f64| style.significant(value, 3);
     let (name, id) = rule_name(suggestion.rule);
     let clipped = suggestion.clipped(&setup);
-    let text = match (suggestion.settings, clipped) {
+    let text = move || match (suggestion.settings, clipped) {
         (Ok(settings), Some((tuning, cut))) => {
+            let style = lab.number_style();
+            let number = |value: f64| style.significant(value, 3);
             let (gain, time) = (number(tuning.gain), number(tuning.integral_time_s));
             let text = format!("Kp {gain} · Ti {time} s");
             if cut { format!("{text} ({})", tr!(lab, level.cut, gain = number(settings.gain))) } else { text }
