@@ -75,19 +75,19 @@ mod tests {
         let steps = |language, count| further(language, further { count });
         assert_eq!(
             steps(Language::En, 0),
-            "0 further steps are in the list of all steps, or further loads in the file."
+            "0 further steps or loads act as well: see the list of all steps, or the file."
         );
         assert_eq!(
             steps(Language::En, 1),
-            "1 further step is in the list of all steps, or a further load in the file."
+            "1 further step or load acts as well: see the list of all steps, or the file."
         );
         assert_eq!(
             steps(Language::PtBr, 0),
-            "Mais 0 degrau está na lista de todos os degraus, ou mais uma carga no arquivo."
+            "Há mais 0 degrau ou carga: veja a lista de todos os degraus, ou o arquivo."
         );
         assert_eq!(
             steps(Language::PtBr, 2),
-            "Mais 2 degraus estão na lista de todos os degraus, ou mais cargas no arquivo."
+            "Há mais 2 degraus ou cargas: veja a lista de todos os degraus, ou o arquivo."
         );
     }
 

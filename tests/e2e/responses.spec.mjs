@@ -102,11 +102,11 @@ test('a dragged set-point stays under the pointer, and the axis follows when it 
 });
 
 for (const [query, slider, chart] of [
-  ['?view=full', 'gain1', 'responses'],
-  ['?view=full', 'gamma1', 'responses'],
-  ['?bench=relay-tuning&view=full', 'importance', 'response'],
-  ['?bench=model-free&view=full', 'free-kp', 'free-course'],
-  ['?bench=level-loop&view=full', 'level-gain', 'level-course'],
+  ['', 'gain1', 'responses'],
+  ['', 'gamma1', 'responses'],
+  ['bench=relay-tuning', 'importance', 'response'],
+  ['bench=model-free', 'free-kp', 'free-course'],
+  ['bench=level-loop', 'level-gain', 'level-course'],
 ]) {
   test(`the axis of ${chart} does not shrink under a hand on ${slider}`, async ({ lab, page }) => {
     await lab.open(query);

@@ -135,7 +135,7 @@ fn answers_of(lab: Lab, lesson: &Lesson) -> impl IntoView + use<> {
         let link = solved.map(|link| {
             view! { <a href=format!("?#lab={link}") target="_blank" rel="noopener">{tr!(lab, lesson.state)}</a> }
         });
-        let place = tr!(lab, lesson.place_of_task, step = step + 1, points = task.points);
+        let place = tr!(lab, lesson.place_of_task, step = step + 1, count = task.points as usize);
         Some(view! {
             <li>
                 <p><span class="remark">{place}</span> " " {super::prose::inline(task.question.shown(language))}</p>
