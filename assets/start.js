@@ -29,7 +29,8 @@ const stop = (error) => {
   if (!notice) {
     say(
       'The laboratory stopped at an error in its program. Please reload the page; if you came by a link, remove what stands after # in the address. · ' +
-        'O laboratório parou por um erro em seu programa. Por favor, recarregue a página; se você veio por um link, apague o que vem depois de # no endereço.',
+        'O laboratório parou por um erro em seu programa. Por favor, recarregue a página; se você veio por um link, apague o que vem depois de # no endereço. · ' +
+        'El laboratorio se detuvo por un error de su programa. Por favor, recarga la página; si llegaste por un enlace, borra lo que sigue a # en la dirección.',
     );
   } else if (notice.hidden) {
     for (const part of notice.parentElement.children) part.inert = part !== notice;
@@ -43,7 +44,8 @@ const stop = (error) => {
 if (typeof WebAssembly !== 'object') {
   say(
     'This browser has no WebAssembly, which the laboratory needs. A current Firefox, Chrome, Edge or Safari has it. · ' +
-      'Este navegador não tem WebAssembly, de que o laboratório precisa. Um Firefox, Chrome, Edge ou Safari atual tem.',
+      'Este navegador não tem WebAssembly, de que o laboratório precisa. Um Firefox, Chrome, Edge ou Safari atual tem. · ' +
+      'Este navegador no tiene WebAssembly, que el laboratorio necesita. Un Firefox, Chrome, Edge o Safari actual lo tiene.',
   );
 } else {
   addEventListener('error', (event) => stop(event.error));
@@ -57,7 +59,8 @@ if (typeof WebAssembly !== 'object') {
     else
       say(
         'The laboratory could not be loaded. Please reload the page. · ' +
-          `Não foi possível carregar o laboratório. Por favor, recarregue a página. (${error.message})`,
+          `Não foi possível carregar o laboratório. Por favor, recarregue a página. · ` +
+          `No se pudo cargar el laboratorio. Por favor, recarga la página. (${error.message})`,
       );
   }
 }
