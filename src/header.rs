@@ -89,6 +89,7 @@ pub fn LessonHeader() -> impl IntoView {
 #[component]
 pub fn Header() -> impl IntoView {
     let lab = use_lab();
+    let is_open = RwSignal::new(false);
     // The home bench has one.
     let has_no_tour = move || lab.bench.get() != &lab.benches[0] || lab.side.get().is_some();
     view! {
@@ -99,46 +100,61 @@ pub fn Header() -> impl IntoView {
             <SideLink page=SidePage::Lessons name=say!(lab, lesson.lessons) />
             <ExperimentName />
             <span class="spacer"></span>
-            // What is done to a bench has no place on the pages beside them.
-            <div class="of-bench" hidden=move || lab.side.get().is_some()><DepthSwitch /><Steps /></div>
-            <button type="button" class="button" data-testid="share" hidden=move || lab.side.get().is_some() on:click=move |_| share::share(lab)>
-                {say!(lab, app.share)}
-            </button>
-            <FileMenu />
+            // On a phone the rest is folded: it would take half of the first screen.
             <button
                 type="button"
-                class="button present"
-                data-testid="present"
-                title=say!(lab, app.present_name)
-                hidden=move || !lab.bench.get().can_present || lab.side.get().is_some()
-                on:click=move |_| lab.present(true)
+                class="button unfold"
+                data-testid="header-more"
+                aria-label=say!(lab, app.more)
+                title=say!(lab, app.more)
+                aria-expanded=move || is_open.get().to_string()
+                aria-controls="header-rest"
+                on:click=move |_| is_open.update(|open| *open = !*open)
             >
-                {say!(lab, app.present)}
+                "☰"
             </button>
-            <details class="menu about">
-                <summary>{say!(lab, app.about)}</summary>
-                <div>
-                    <button type="button" data-testid="begin-tour" hidden=has_no_tour on:click=move |_| tour::begin(lab)>
-                        {say!(lab, tour.begin)}
-                    </button>
-                    <p class="links">
-                        <SideLink page=SidePage::Glossary name=say!(lab, lesson.glossary) />
-                        <SideLink page=SidePage::Teachers name=say!(lab, lesson.teachers) />
-                    </p>
-                    // The single file has no page beside it.
-                    {(!is_single_file()).then(|| view! {
-                        <p><a href=MODEL target="_blank" rel="noopener" data-testid="to-model">{say!(lab, app.model)}</a></p>
-                    })}
-                    <p>{say!(lab, app.footer)}</p>
-                    <p hidden=move || !lab.offline.get() data-testid="offline">{say!(lab, app.offline)}</p>
-                    <p>{say!(lab, app.keys)}</p>
-                    <p>{say!(lab, app.links)}</p>
-                    <p>{say!(lab, app.privacy)}</p>
-                    <p>{say!(lab, app.version, version = env!("CARGO_PKG_VERSION"))} " " {say!(lab, app.licence)}</p>
-                </div>
-            </details>
-            <LanguageChoice />
-            <ThemeSwitch />
+            // What is done to a bench has no place on the pages beside them.
+            <div class="of-bench" hidden=move || lab.side.get().is_some()><DepthSwitch /><Steps /></div>
+            <div class="rest" id="header-rest" class:open=is_open>
+                <button type="button" class="button" data-testid="share" hidden=move || lab.side.get().is_some() on:click=move |_| share::share(lab)>
+                    {say!(lab, app.share)}
+                </button>
+                <FileMenu />
+                <button
+                    type="button"
+                    class="button present"
+                    data-testid="present"
+                    title=say!(lab, app.present_name)
+                    hidden=move || !lab.bench.get().can_present || lab.side.get().is_some()
+                    on:click=move |_| lab.present(true)
+                >
+                    {say!(lab, app.present)}
+                </button>
+                <details class="menu about">
+                    <summary>{say!(lab, app.about)}</summary>
+                    <div>
+                        <button type="button" data-testid="begin-tour" hidden=has_no_tour on:click=move |_| tour::begin(lab)>
+                            {say!(lab, tour.begin)}
+                        </button>
+                        <p class="links">
+                            <SideLink page=SidePage::Glossary name=say!(lab, lesson.glossary) />
+                            <SideLink page=SidePage::Teachers name=say!(lab, lesson.teachers) />
+                        </p>
+                        // The single file has no page beside it.
+                        {(!is_single_file()).then(|| view! {
+                            <p><a href=MODEL target="_blank" rel="noopener" data-testid="to-model">{say!(lab, app.model)}</a></p>
+                        })}
+                        <p>{say!(lab, app.footer)}</p>
+                        <p hidden=move || !lab.offline.get() data-testid="offline">{say!(lab, app.offline)}</p>
+                        <p>{say!(lab, app.keys)}</p>
+                        <p>{say!(lab, app.links)}</p>
+                        <p>{say!(lab, app.privacy)}</p>
+                        <p>{say!(lab, app.version, version = env!("CARGO_PKG_VERSION"))} " " {say!(lab, app.licence)}</p>
+                    </div>
+                </details>
+                <LanguageChoice />
+                <ThemeSwitch />
+            </div>
         </header>
     }
 }

@@ -47,7 +47,7 @@ pub fn Card(
             aria-labelledby=labelled_by
             hidden=hidden
         >
-            <header><h2 id=heading>{title}</h2>{help}{beside.run()}</header>
+            <header><div class="title"><h2 id=heading>{title}</h2>{help}</div>{beside.run()}</header>
             {children()}
             <button
                 type="button"

@@ -39,6 +39,11 @@ export class Lab {
     await this.ready();
   }
 
+  /** Unfolds the rest of the header, where it is folded: on a phone. */
+  async unfoldHeader() {
+    if (await this.id('header-more').isVisible()) await this.id('header-more').click();
+  }
+
   async ready(page = this.page) {
     await page.locator('#bench:not(.outline)').waitFor();
     await this.settle(page);

@@ -175,6 +175,7 @@ for (const lang of ['en', 'pt-BR']) {
 test('what a finger has to hit is large enough', async ({ lab, page }) => {
   await page.setViewportSize({ width: 390, height: 844 });
   await lab.open();
+  await lab.unfoldHeader();
   await openAll(lab, page);
   // 24 CSS px each way (WCAG 2.2, 2.5.8). A checkbox is hit by its whole label.
   const small = await page.evaluate(() =>
@@ -210,6 +211,7 @@ for (const [width, height, views] of [[1024, 768, ['full']], [390, 844, ['explor
     await page.setViewportSize({ width, height });
     for (const [bench, view] of BENCHES.flatMap((bench) => views.map((view) => [bench, view]))) {
       await lab.open(`bench=${bench}&view=${view}&lang=pt-BR`);
+      await lab.unfoldHeader();
       const menus = page.locator('details.menu > summary:visible');
       for (let k = 0; k < (await menus.count()); k += 1) {
         await menus.nth(k).click();
@@ -232,9 +234,25 @@ for (const [width, height, views] of [[1024, 768, ['full']], [390, 844, ['explor
 test.describe('by touch', () => {
   test.use({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
 
+  for (const lang of ['en', 'pt-BR', 'es']) {
+    test(`${lang}: two rows of the header leave the first screen to the rig, and the rest unfolds`, async ({ lab, page }) => {
+      for (const bench of BENCHES) {
+        await lab.open(`bench=${bench}&view=explore&lang=${lang}`);
+        expect((await page.locator('header.top').boundingBox()).height, bench).toBeLessThan(120);
+        await expect(lab.id('share')).toBeHidden();
+        await lab.id('header-more').tap();
+        for (const name of ['share', 'file-menu', 'language', 'theme']) await expect(lab.id(name)).toBeInViewport();
+      }
+      await lab.axe();
+      await lab.id('header-more').tap();
+      await expect(lab.id('share')).toBeHidden();
+    });
+  }
+
   test('what is pressed is 44 px high', async ({ lab, page }) => {
     for (const [bench, view] of BENCHES.flatMap((bench) => [[bench, 'explore'], [bench, 'full']])) {
       await lab.open(`bench=${bench}&view=${view}`);
+      await lab.unfoldHeader();
       const low = await page.evaluate(() => {
         const pressed = 'main :is(button, summary, select, input:not([type=checkbox], [type=radio], [type=file])), .top :is(button, a.button, summary, select)';
         return [...document.querySelectorAll(pressed)]
