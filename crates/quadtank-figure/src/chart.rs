@@ -327,6 +327,8 @@ pub struct Names {
     pub names: Vec<Name>,
     /// Other points that they keep off where they can.
     pub around: Vec<(f64, f64)>,
+    /// Whether each stands on a piece of the background, so that no curve strikes it through.
+    pub on_ground: bool,
 }
 
 /// A word beside a point.

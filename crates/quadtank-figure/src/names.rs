@@ -21,7 +21,7 @@ const SIDES: [Px; 8] =
 const ROWS: usize = 6;
 /// What a square pixel of a word on another word and on a point weighs.
 const ON_WORD: f64 = 8.0;
-const ON_POINT: f64 = 2.0;
+const ON_POINT: f64 = 4.0;
 /// What a place weighs for each that is better in itself, and what one with a line does.
 const PREFERENCE: f64 = 4.0;
 const FAR: f64 = 60.0;
@@ -113,7 +113,7 @@ fn beside((x, y): Px, (right, down): Px, gap: Px, length: f64) -> Rect {
 fn moved_into(plot: &Rect, place: Rect) -> Rect {
     let edge = 2.0;
     let left = place.left.min(plot.right() - edge - place.width).max(plot.left + edge);
-    let top = place.top.min(plot.bottom() - place.height).max(plot.top);
+    let top = place.top.min(plot.bottom() - edge - place.height).max(plot.top + edge);
     Rect { left, top, ..place }
 }
 
@@ -141,7 +141,7 @@ mod tests {
 
     fn names(points: &[(f64, f64)], around: &[(f64, f64)]) -> Names {
         let name = |&at| Name { at, text: "a published rule".to_owned(), role: Role::Neutral, bold: false };
-        Names { names: points.iter().map(name).collect(), around: around.to_vec() }
+        Names { names: points.iter().map(name).collect(), around: around.to_vec(), on_ground: false }
     }
 
     #[test]

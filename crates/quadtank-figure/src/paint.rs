@@ -239,6 +239,10 @@ impl Brush<'_> {
             self.path(&leader, color(index), width(Pen::Hair));
         }
         for names::Placed { index, place, h_pos, .. } in placed {
+            if names.on_ground {
+                let corners = [(place.left, place.top), (place.right(), place.bottom())];
+                self.paper.block(corners.map(|corner| self.fine(corner)), opaque(self.style.palette.background));
+            }
             let x = match h_pos {
                 HPos::Left => place.left,
                 HPos::Center => place.left + place.width / 2.0,

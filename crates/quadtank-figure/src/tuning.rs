@@ -4,7 +4,9 @@ use std::borrow::Cow;
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-use super::{Anchor, Axis, Chart, Course, Entry, Field, Label, Layer, Marker, Pen, Role, Sample, Series, Shape};
+use super::{
+    Anchor, Axis, Chart, Course, Entry, Field, Label, Layer, Marker, Name, Names, Pen, Role, Sample, Series, Shape,
+};
 
 /// Steps of the shading along each axis, and its depth.
 const STEPS: usize = 60;
@@ -115,8 +117,8 @@ fn stable_region(x: &[f64], y: &[f64], across: (f64, f64), up: (f64, f64)) -> Fi
     Field { x: across, y: up, columns: STEPS + 1, shades }
 }
 
-/// Where a rule moves the critical point, its name, and where that stands from there (CSS px).
-pub type RulePoint = ((f64, f64), &'static str, (f64, f64));
+/// Where a rule moves the critical point, and its name.
+pub type RulePoint = ((f64, f64), &'static str);
 
 /// What the chart of the loci shows.
 #[derive(Clone, Debug)]
@@ -151,20 +153,11 @@ pub fn characteristic_loci<'a>(spec: &LociChart<'a>) -> Chart<'a> {
         chart.layers.push(line(spec.texts[index], Role::of_loop(index), Pen::Solid, x, y));
     }
     chart.layers.push(mark((-1.0, 0.0), Shape::Cross, Role::RightHalfPlane));
-    for &(at, name, offset) in spec.rules {
-        let anchor = if offset.0 < 0.0 { Anchor::Right } else { Anchor::Left };
-        chart.layers.push(mark(at, Shape::Point, Role::Neutral));
-        let text = name.to_owned();
-        chart.layers.push(Layer::Label(Label {
-            at,
-            offset,
-            anchor,
-            text,
-            role: Role::Neutral,
-            bold: false,
-            on_ground: false,
-        }));
-    }
+    let name = |&(at, name): &RulePoint| Name { at, text: name.to_owned(), role: Role::Neutral, bold: false };
+    let names = spec.rules.iter().map(name).collect();
+    // Under the marks: the ground of a word may cover a curve, but no point.
+    chart.layers.push(Layer::Names(Names { names, around: spec.target.into_iter().collect(), on_ground: true }));
+    chart.layers.extend(spec.rules.iter().map(|&(at, _)| mark(at, Shape::Point, Role::Neutral)));
     chart.layers.extend(spec.target.map(|target| mark(target, Shape::Handle, Role::Neutral)));
     let entry = |pen, role, text: &str| Entry { sample: Sample::Line(pen), role, text: text.to_owned() };
     chart.legend.push(entry(Pen::Solid, Role::Loop1, spec.texts[0]));
@@ -340,7 +333,7 @@ mod tests {
             loci: [far, far],
             before: [far, far],
             target: Some((-0.3, -0.3)),
-            rules: &[((-0.4, 0.08), "ZN", (7.0, 0.0))],
+            rules: &[((-0.4, 0.08), "ZN")],
             axes: ["re", "im"],
             texts: ["1", "2", "0"],
         };

@@ -176,7 +176,7 @@ pub fn loci(session: Session) -> Picture {
             let [before, after] =
                 columns.each_ref().map(|loci| loci.each_ref().map(|parts| parts.each_ref().map(Vec::as_slice)));
             let (target, is_given) = session.charts.setup.with(|s| (s.design.target, is_given(s)));
-            let rules = rule_targets().map(|(rule, at)| ((at.re, at.im), short_name(rule), offset_of(rule)));
+            let rules = rule_targets().map(|(rule, at)| ((at.re, at.im), short_name(rule)));
             // Given controllers have no target.
             let (target, rules) = if is_given { (None, &[][..]) } else { (Some(target.into()), &rules[..]) };
             let names = [1, 2].map(|number| tr!(lab, relay.locus, number = number));
@@ -200,15 +200,6 @@ fn columns(loci: &Loci) -> [[Vec<f64>; 2]; 2] {
         let (re, im) = branch.iter().map(|x| (x.re, x.im)).unzip();
         [re, im]
     })
-}
-
-/// Where the name of a rule has room beside its point (CSS px): the points are close together.
-fn offset_of(rule: TuningRule) -> (f64, f64) {
-    match rule {
-        TuningRule::TyreusLuybenPi => (5.0, -11.0),
-        TuningRule::TyreusLuybenPid => (-4.0, 11.0),
-        _ => (-7.0, 0.0),
-    }
 }
 
 /// The initials of a rule with its action.

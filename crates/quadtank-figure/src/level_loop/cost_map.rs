@@ -65,7 +65,7 @@ pub fn cost_map<'a>(spec: &CostMapChart<'a>) -> Chart<'a> {
     chart.layers.extend(marks(&spec.points));
     chart.layers.extend(spec.present.map(|at| mark(at, Shape::Handle, Role::Neutral)));
     let paths = spec.paths.iter().flat_map(|(_, path)| between(path));
-    chart.layers.push(Layer::Names(Names { names, around: paths.chain(spec.present).collect() }));
+    chart.layers.push(Layer::Names(Names { names, around: paths.chain(spec.present).collect(), on_ground: false }));
     chart
 }
 

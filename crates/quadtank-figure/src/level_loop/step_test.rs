@@ -57,7 +57,7 @@ pub fn step_test<'a>(spec: &StepTestCharts<'a>) -> [Chart<'a>; 2] {
     let names = marks.map(|&(at, name)| Name { at, text: name.to_owned(), role: Role::Neutral, bold: false }).collect();
     let stride = (time_s.len() / AROUND).max(1);
     let around = time_s.iter().copied().zip(measured.iter().copied()).step_by(stride).collect();
-    answer.layers.push(Layer::Names(Names { names, around }));
+    answer.layers.push(Layer::Names(Names { names, around, on_ground: true }));
     let entry = |pen, role, text: &str| Entry { sample: Sample::Line(pen), role, text: text.to_owned() };
     answer.legend = vec![entry(Pen::Solid, Role::Loop1, texts.measured)];
     answer.legend.extend(spec.fitted.map(|_| entry(Pen::Dotted, Role::Neutral, texts.fitted)));

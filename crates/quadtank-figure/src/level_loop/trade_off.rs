@@ -30,11 +30,12 @@ pub fn trade_off<'a>(spec: &TradeOffChart<'a>) -> Chart<'a> {
         Axis::logarithmic(spec.axes[1], range(y, points().map(|point| point.1))),
     );
     chart.layers.push(curve(spec.axes[1], Role::Neutral, Pen::Solid, x, y));
-    chart.layers.extend(marks(&spec.points));
-    chart.layers.extend(spec.present.map(|at| mark(at, Shape::Handle, Role::Neutral)));
     let corners: Vec<(f64, f64)> = x.iter().copied().zip(y.iter().copied()).collect();
     let around = between(&corners).chain(spec.present).collect();
-    chart.layers.push(Layer::Names(Names { names: words(&spec.points).collect(), around }));
+    // Under the marks: the ground of a word may cover a curve, but no point.
+    chart.layers.push(Layer::Names(Names { names: words(&spec.points).collect(), around, on_ground: true }));
+    chart.layers.extend(marks(&spec.points));
+    chart.layers.extend(spec.present.map(|at| mark(at, Shape::Handle, Role::Neutral)));
     chart
 }
 

@@ -102,7 +102,7 @@ proptest! {
         let name = |(&x, &y)| Name { at: (x, y), text: "name".to_owned(), role: Role::Neutral, bold: true };
         let names: Vec<Name> = x.iter().zip(&y).map(name).collect();
         chart.layers.push(Layer::Ends(names.clone()));
-        chart.layers.push(Layer::Names(Names { names, around: vec![at] }));
+        chart.layers.push(Layer::Names(Names { names, around: vec![at], on_ground: true }));
         let mut logarithmic = chart.clone();
         (logarithmic.x.scale, logarithmic.y.scale) = (Scale::Logarithmic, Scale::Logarithmic);
         check(&[chart, logarithmic], size, scale)?;
