@@ -217,7 +217,8 @@ impl Lab {
         })
     }
 
-    fn track_texts(self) {
+    /// Follows the updates of throttled texts, and the language.
+    pub(super) fn track_texts(self) {
         self.texts_update.track();
         self.language.track();
     }

@@ -19,6 +19,7 @@ mod history;
 mod keep;
 mod lab;
 mod lessons;
+mod live_region;
 mod messages;
 mod naming;
 mod notices;

@@ -12,6 +12,7 @@ use super::header::{Header, LessonHeader};
 use super::keep;
 use super::lab::{Lab, Notice, use_lab};
 use super::lessons::{self, Catalogue, Classroom, LessonPanel, SidePage, Teachers};
+use super::live_region::LiveRegion;
 use super::messages;
 use super::notices::Notices;
 use super::offline;
@@ -118,6 +119,7 @@ pub fn Laboratory(
                 {say!(lab, app.end_presenting)}
             </button>
             <Notices />
+            <LiveRegion />
             <SceneBar />
             <Tour />
             <LessonHeader />

@@ -74,12 +74,12 @@ pub fn Sentence(
     /// Whether it is a warning.
     #[prop(optional, into)]
     warm: Signal<bool>,
-    /// Whether screen readers tell its changes.
+    /// Whether it is a result, whose changes screen readers tell.
     #[prop(optional)]
     status: bool,
 ) -> impl IntoView {
     view! {
-        <p class=move || if warm.get() { "sentence warm" } else { "sentence" } role=status.then_some("status") data-testid=id>
+        <p class=move || if warm.get() { "sentence warm" } else { "sentence" } data-result=status.then_some(id) data-testid=id>
             {move || marked(&text.get())}
         </p>
     }
@@ -98,7 +98,7 @@ pub fn Verdict(
     children: Children,
 ) -> impl IntoView {
     view! {
-        <div class=move || if warm.get() { "verdict warm" } else { "verdict" } role="status" data-testid=id>
+        <div class=move || if warm.get() { "verdict warm" } else { "verdict" } data-result=id.clone() data-testid=id>
             {children()}
         </div>
     }

@@ -226,3 +226,29 @@ test('a gain of 0 opens a loop, and the page says so', async ({ lab }) => {
   await lab.type('gain1-number', '2');
   await expect(lab.id('open1')).toBeHidden();
 });
+
+test('screen readers hear the results of a change once, when it has come to rest', async ({ lab, page }) => {
+  await lab.open('view=full&lang=en');
+  const region = lab.id('live-region');
+  await page.waitForTimeout(1500);
+  await expect(region).toBeEmpty();
+  await page.evaluate(() => {
+    window.heard = [];
+    const region = document.querySelector('[data-testid=live-region]');
+    new MutationObserver(() => window.heard.push(region.textContent)).observe(region, { childList: true, characterData: true, subtree: true });
+  });
+  await lab.id('gamma1').focus();
+  for (let k = 0; k < 3; k += 1) {
+    await page.keyboard.press('PageDown');
+    await lab.settle();
+  }
+  await expect(region).toContainText('γ₁ + γ₂ = ');
+  await expect(region).toContainText('pole');
+  const heard = await page.evaluate(() => window.heard.filter(Boolean));
+  expect(heard).toHaveLength(1);
+  // What has not changed is not told, and neither is a new language.
+  await lab.id('language').selectOption('es');
+  await page.waitForTimeout(1500);
+  await expect(region).toBeEmpty();
+  expect(await page.locator('[data-result][role=status]').count()).toBe(0);
+});
