@@ -62,8 +62,8 @@ pub fn ExperimentName() -> impl IntoView {
     }
 }
 
-/// A field counts units of UTF-16, a document characters.
-fn limited(text: &str, max: usize) -> String {
+/// A text of at most `max` characters: a field counts units of UTF-16, a document characters.
+pub fn limited(text: &str, max: usize) -> String {
     text.chars().take(max).collect()
 }
 

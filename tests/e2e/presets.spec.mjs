@@ -200,3 +200,25 @@ test('a changed rig is called so, and choosing it again brings it back', async (
   expect(await lab.value('gain1-number')).toBe(3);
   await expect(lab.id('preset')).toHaveValue('johansson-2000-minimum-phase');
 });
+
+test('a rig of one\'s own has a name, which its link keeps', async ({ lab, page }) => {
+  await lab.open('lang=en');
+  await page.locator('.card.process details.more > summary').first().click();
+  await lab.id('rig-numbers').locator('summary').click();
+  await expect(lab.id('rig-name'), 'a published rig has its own').toBeHidden();
+  await lab.type('rig-area1', '30');
+  await lab.id('rig-name').fill('Bench 3, <b>new</b> outlets');
+  await lab.id('rig-name').blur();
+  await lab.settle();
+  const shown = () => lab.id('preset').locator('option:checked').textContent();
+  expect(await shown()).toBe('Bench 3, <b>new</b> outlets');
+  // The address holds it once it has rested.
+  await expect.poll(() => page.url()).toContain('#lab=');
+  await page.reload();
+  await lab.ready();
+  expect(await shown()).toBe('Bench 3, <b>new</b> outlets');
+  await lab.preset('johansson-2000-minimum-phase');
+  await lab.id('undo').click();
+  await lab.settle();
+  expect(await shown()).toBe('Bench 3, <b>new</b> outlets');
+});

@@ -3,6 +3,7 @@ use quadtank::study::Study;
 use quadtank::study::quadruple_tank::{QuadrupleTankStudy, Setup, setup_of};
 use serde::{Deserialize, Serialize};
 
+use super::label::check_length;
 use super::{Document, Label, ScenarioError, params, validate};
 
 /// The document of a bench: a setup, setups pinned to compare with, and what the screen shows of them.
@@ -74,6 +75,9 @@ pub struct Scenario {
     /// What the experiment is called, and a note on it.
     #[serde(default, skip_serializing_if = "Label::is_empty")]
     pub label: Label,
+    /// What a rig of one's own is called, of at most 80 characters. It is for people: nothing is computed from it.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub rig_name: String,
     /// The run that is worked on.
     pub setup: Setup,
     /// Runs pinned to compare with, at most 8.
@@ -123,6 +127,7 @@ impl BenchDocument for Scenario {
 
     fn validate(&self) -> Result<(), ScenarioError> {
         self.label.check()?;
+        check_length("rig_name", &self.rig_name, Label::MAX_NAME)?;
         params::check(self)?;
         validate::version(self.version, Self::VERSION)?;
         validate::setup(&self.setup, "setup")?;
@@ -158,6 +163,13 @@ impl Default for Scenario {
 /// A setup alone, nothing pinned.
 impl From<Setup> for Scenario {
     fn from(setup: Setup) -> Self {
-        Self { version: Self::VERSION, label: Label::default(), setup, pinned: Vec::new(), view: View::default() }
+        Self {
+            version: Self::VERSION,
+            label: Label::default(),
+            rig_name: String::new(),
+            setup,
+            pinned: Vec::new(),
+            view: View::default(),
+        }
     }
 }

@@ -31,16 +31,21 @@ impl Label {
     /// # Errors
     /// [`ScenarioError::TextTooLong`] for the first text that is longer than allowed.
     pub(crate) fn check(&self) -> Result<(), ScenarioError> {
-        for (field, text, max) in
-            [("label.name", &self.name, Self::MAX_NAME), ("label.note", &self.note, Self::MAX_NOTE)]
-        {
-            let length = text.chars().count();
-            if length > max {
-                return Err(ScenarioError::TextTooLong { field: field.to_owned(), length, max });
-            }
-        }
-        Ok(())
+        check_length("label.name", &self.name, Self::MAX_NAME)?;
+        check_length("label.note", &self.note, Self::MAX_NOTE)
     }
+}
+
+/// Checks that a text has at most `max` characters.
+///
+/// # Errors
+/// [`ScenarioError::TextTooLong`] with the field and the length.
+pub(crate) fn check_length(field: &str, text: &str, max: usize) -> Result<(), ScenarioError> {
+    let length = text.chars().count();
+    if length > max {
+        return Err(ScenarioError::TextTooLong { field: field.to_owned(), length, max });
+    }
+    Ok(())
 }
 
 #[cfg(test)]
@@ -77,5 +82,8 @@ mod tests {
         let text = serde_json::to_string(&document).unwrap();
         let expected = ScenarioError::TextTooLong { field: "label.name".to_owned(), length: 81, max: 80 };
         assert_eq!(from_json(&text), Err(expected));
+        let named = Scenario { rig_name: "é".repeat(Label::MAX_NAME + 1), ..Scenario::default() };
+        let expected = ScenarioError::TextTooLong { field: "rig_name".to_owned(), length: 81, max: 80 };
+        assert_eq!(from_json(&serde_json::to_string(&named).unwrap()), Err(expected));
     }
 }

@@ -31,6 +31,12 @@ fn changed(lab: Lab, id: PresetId) -> String {
     tr!(lab, preset.changed, name = name_of(lab, id))
 }
 
+/// What a rig of one's own is called.
+fn own_name(session: Session) -> String {
+    let name = session.document.with(|document| document.rig_name.clone());
+    if name.is_empty() { tr!(session.lab, preset.own) } else { name }
+}
+
 /// What to know about a rig.
 pub fn remark_of(lab: Lab, id: Option<PresetId>) -> String {
     match id {
@@ -54,6 +60,7 @@ pub fn load(session: Session, id: PresetId) {
         let fresh = Scenario {
             version: s.version,
             label: Label::default(),
+            rig_name: String::new(),
             setup: setup_of(id),
             pinned: std::mem::take(&mut s.pinned),
             view: s.view.clone(),
@@ -100,7 +107,7 @@ pub fn PresetSelect() -> impl IntoView {
     let choices = Signal::derive(move || {
         let published =
             PresetId::ALL.into_iter().map(|choice| Choice::new(Some(choice), choice.name(), name_of(lab, choice)));
-        let own = || id.get().map_or_else(|| tr!(lab, preset.own), |id| changed(lab, id));
+        let own = || id.get().map_or_else(|| own_name(session), |id| changed(lab, id));
         let other = intact.get().is_none().then(|| Choice::new(None, "", own()));
         other.into_iter().chain(published).collect::<Vec<_>>()
     });

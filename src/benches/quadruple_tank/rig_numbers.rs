@@ -4,12 +4,13 @@ use leptos::prelude::*;
 use quadtank::plant::QuadrupleTank;
 use quadtank::study::quadruple_tank::PlantSpec;
 use quadtank_scenario::params::{self, Param};
-use quadtank_scenario::{BenchDocument, Limits, ScenarioError};
+use quadtank_scenario::{BenchDocument, Label, Limits, ScenarioError};
 
 use super::flags::locks;
 use super::session::{Session, use_session};
 use crate::errors::of_error;
 use crate::lab::Lab;
+use crate::naming::limited;
 use crate::texts::{say, tr};
 use crate::widgets::{NumberField, Scale, is_open};
 
@@ -195,6 +196,7 @@ pub fn RigNumbers() -> impl IntoView {
     let content = move || {
         view! {
             <p class="remark">{say!(lab, rig.about)}</p>
+            <RigName />
             <p class="remark warm" role="status" data-testid="rig-refused">{told}</p>
             <Group title=say!(lab, rig.tanks) numbers=&TANKS refused which=|lab, k| tr!(lab, rig.tank, number = k + 1) />
             <Group title=say!(lab, rig.pumps) numbers=&PUMPS refused which=|lab, k| tr!(lab, rig.pump, number = k + 1) />
@@ -206,6 +208,32 @@ pub fn RigNumbers() -> impl IntoView {
             <summary>{say!(lab, rig.title)}</summary>
             {move || open.get().then(content)}
         </details>
+    }
+}
+
+/// What a rig of one's own is called; a published one has its name.
+#[component]
+fn RigName() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let is_published = session.part(|s| matches!(s.plant, PlantSpec::Preset(_)));
+    let rename = move |event| {
+        let name = limited(&event_target_value(&event), Label::MAX_NAME);
+        session.document.update(|document| document.rig_name = name);
+    };
+    view! {
+        <label class="text" hidden=is_published>
+            {say!(lab, rig.name)}
+            <input
+                type="text"
+                class="text-field"
+                maxlength=Label::MAX_NAME
+                data-testid="rig-name"
+                disabled=lab.locks(locks::PRESET)
+                prop:value=move || session.document.with(|document| document.rig_name.clone())
+                on:change=rename
+            />
+        </label>
     }
 }
 

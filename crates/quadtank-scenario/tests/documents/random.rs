@@ -190,7 +190,14 @@ fn label() -> impl Strategy<Value = Label> {
 
 pub fn scenario(steps: usize, pinned: usize) -> impl Strategy<Value = Scenario> {
     let parts = (setup(steps), vec(setup(steps), 0..=pinned), view(), label());
-    parts.prop_map(|(setup, pinned, view, label)| Scenario { label, pinned, view, ..Scenario::from(setup) })
+    parts.prop_map(|(setup, pinned, view, label)| Scenario {
+        // Any name is one of a rig, too.
+        rig_name: label.name.clone(),
+        label,
+        pinned,
+        view,
+        ..Scenario::from(setup)
+    })
 }
 
 fn valve() -> impl Strategy<Value = ValveSchedule> {
