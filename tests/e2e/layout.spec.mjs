@@ -34,6 +34,8 @@ const openAll = async (lab, page) => {
   await lab.settle();
 };
 
+const BENCHES = ['quadruple-tank', 'relay-tuning', 'model-free', 'level-loop'];
+
 for (const [width, height] of SIZES) {
   for (const [theme, lang] of LOOKS) {
     test(`${width} × ${height}, ${theme}, ${lang}: nothing is cut off`, async ({ lab, page }, info) => {
@@ -188,6 +190,16 @@ test('what a finger has to hit is large enough', async ({ lab, page }) => {
   expect(small).toEqual([]);
 });
 
+for (const lang of ['en', 'pt-BR', 'es']) {
+  test(`1440 × 900, ${lang}: the first screen is whole on every bench`, async ({ lab, page }) => {
+    await page.setViewportSize({ width: 1440, height: 900 });
+    for (const bench of BENCHES) {
+      await lab.open(`bench=${bench}&view=explore&lang=${lang}`);
+      expect(await page.evaluate(() => document.querySelector('#bench, main').getBoundingClientRect().bottom), bench).toBeLessThanOrEqual(900);
+    }
+  });
+}
+
 test('the screenshots of the README', async ({ lab, page }) => {
   const path = (name) => `${process.env.QUADTANK_SCREENSHOTS ?? 'test-results'}/${name}.png`;
   await page.emulateMedia({ reducedMotion: 'reduce' });
@@ -203,8 +215,6 @@ test('the screenshots of the README', async ({ lab, page }) => {
   expect(await lab.text('stability')).toContain('stable');
   await page.screenshot({ path: path('lab') });
 });
-
-const BENCHES = ['quadruple-tank', 'relay-tuning', 'model-free', 'level-loop'];
 
 for (const [width, height, views] of [[1024, 768, ['full']], [390, 844, ['explore', 'full']]]) {
   test(`every menu and every box with words opens in the window of ${width} × ${height}`, async ({ lab, page }) => {
