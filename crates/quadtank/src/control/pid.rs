@@ -57,12 +57,12 @@ impl ParallelPid {
     }
 
     /// `C(jω)` with an ideal derivative.
-    pub fn at(&self, frequency: f64) -> Complex {
+    pub fn ideal_at(&self, frequency: f64) -> Complex {
         Complex::new(self.proportional, self.derivative * frequency - self.integral / frequency)
     }
 
     /// `C(jω)` with the derivative filter, `kd s/(Tf s + 1)`: what is simulated.
-    pub fn filtered_at(&self, frequency: f64) -> Complex {
+    pub fn at(&self, frequency: f64) -> Complex {
         let derivative = Complex::new(0.0, self.derivative * frequency);
         let filter = Complex::new(1.0, self.filter_time() * frequency);
         Complex::new(self.proportional, -self.integral / frequency) + derivative / filter
@@ -113,9 +113,9 @@ impl From<IsaPid> for ParallelPid {
 }
 
 impl IsaPid {
-    /// `C(jω)`.
-    pub fn at(&self, frequency: f64) -> Complex {
-        ParallelPid::from(*self).at(frequency)
+    /// `C(jω)` with an ideal derivative.
+    pub fn ideal_at(&self, frequency: f64) -> Complex {
+        ParallelPid::from(*self).ideal_at(frequency)
     }
 
     /// Made slower and weaker by a factor f: gain K/f, times f T (Campestrini 2006, eqs. 92 and 93, for Kc and Tc).
@@ -190,7 +190,7 @@ impl PidMatrix {
 
     /// Value at a frequency, with derivative filters.
     pub fn at(&self, frequency: f64) -> Matrix2<Complex> {
-        Matrix2::from_fn(|row, column| self.0[row][column].filtered_at(frequency))
+        Matrix2::from_fn(|row, column| self.0[row][column].at(frequency))
     }
 
     /// As transfer functions, with derivative filters.
@@ -281,8 +281,8 @@ mod tests {
         let w = 0.8;
         let s = Complex::new(0.0, w);
         let expected = ((s * 5.0).inv() + 1.0) * (s * 1.25 + 1.0) * 2.0;
-        assert_relative_eq!((isa.at(w) - expected).norm(), 0.0, epsilon = 1e-14);
-        assert_relative_eq!((ParallelPid::from(isa).at(w) - expected).norm(), 0.0, epsilon = 1e-14);
+        assert_relative_eq!((isa.ideal_at(w) - expected).norm(), 0.0, epsilon = 1e-14);
+        assert_relative_eq!((ParallelPid::from(isa).ideal_at(w) - expected).norm(), 0.0, epsilon = 1e-14);
         let back = SeriesPid::from_isa(isa).unwrap();
         assert_relative_eq!(back.integral_time, 5.0, max_relative = 1e-14);
         assert_relative_eq!(back.derivative_time, 1.25, max_relative = 1e-14);
@@ -329,9 +329,9 @@ mod tests {
         assert_eq!(ParallelPid { filter: Some(0.3), ..pid }.filter_time(), 0.3);
         let s = Complex::new(0.0, 4.0);
         let expected = s.inv() * 0.5 + s * 3.0 / (s * 0.015 + 1.0) - 2.0;
-        assert_relative_eq!((pid.filtered_at(4.0) - expected).norm(), 0.0, epsilon = 1e-14);
+        assert_relative_eq!((pid.at(4.0) - expected).norm(), 0.0, epsilon = 1e-14);
         let ideal = s.inv() * 0.5 + s * 3.0 - 2.0;
-        assert_relative_eq!((pid.at(4.0) - ideal).norm(), 0.0, epsilon = 1e-14);
+        assert_relative_eq!((pid.ideal_at(4.0) - ideal).norm(), 0.0, epsilon = 1e-14);
     }
 
     #[test]
@@ -390,7 +390,7 @@ mod tests {
         product(|pid| pid.integral);
         product(|pid| pid.derivative);
         assert_eq!(matrix.integral()[(1, 0)], matrix.0[1][0].integral);
-        assert_eq!(matrix.at(0.3)[(0, 1)], matrix.0[0][1].filtered_at(0.3));
+        assert_eq!(matrix.at(0.3)[(0, 1)], matrix.0[0][1].at(0.3));
     }
 
     #[test]

@@ -63,11 +63,12 @@ impl DelayedPlant {
     /// At rest, with both inputs zero.
     ///
     /// # Errors
-    /// [`LinearError::OutOfRange`] for a path that is not proper or of an order above [`MAX_ORDER`].
-    ///
-    /// # Panics
-    /// Never for indices of inputs and outputs of 0 and 1.
+    /// [`LinearError::OutOfRange`] for a path that is not proper, of an order above [`MAX_ORDER`], or with an index of input or
+    /// output above 1.
     pub fn new(paths: &[SignalPath]) -> Result<Self, LinearError> {
+        if let Some(path) = paths.iter().find(|path| path.input > 1 || path.output > 1) {
+            return Err(LinearError::OutOfRange { field: "path", value: path.input.max(path.output) as f64 });
+        }
         let moving = |path: &SignalPath| {
             let motion = Motion::new(&path.element)?;
             let dead_time = path.element.dead_time();
@@ -269,6 +270,14 @@ mod tests {
         plant.advance(0.3);
         assert_relative_eq!(plant.outputs()[0], ahead, max_relative = 1e-14);
         assert_relative_eq!(ahead, step(0.55), max_relative = 1e-13);
+    }
+
+    #[test]
+    fn a_path_of_a_third_signal_is_refused() {
+        let refused = Some(LinearError::OutOfRange { field: "path", value: 2.0 });
+        for path in [SignalPath { input: 2, ..one(0.0) }, SignalPath { output: 2, ..one(0.0) }] {
+            assert_eq!(DelayedPlant::new(&[one(0.0), path]).err(), refused);
+        }
     }
 
     #[test]

@@ -17,8 +17,10 @@ pub enum TuningError {
         #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
         value: f64,
     },
-    /// A pole of the plant that is not in the left half-plane: every method here needs a stable plant.
-    #[error("the plant has a pole with the real part {real_part}; the methods need a stable plant")]
+    /// A pole in the right half-plane, or on the imaginary axis away from the origin. Integrating elements are allowed.
+    #[error(
+        "the plant has a pole with the real part {real_part}; the methods need a plant that is stable or integrating"
+    )]
     UnstablePlant {
         /// Real part of the pole.
         real_part: f64,

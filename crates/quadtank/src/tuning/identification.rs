@@ -9,6 +9,7 @@ use crate::linear::{Complex, DelayedPlant, TransferMatrix};
 
 use super::TuningError;
 use super::error::positive;
+use super::experiment::check_stable;
 use super::relay_reading::Oscillation;
 
 /// Steps of the held sine in a period. Its harmonics are at multiples of that frequency, where plants pass little.
@@ -17,9 +18,12 @@ const STEPS: u32 = 256;
 /// `g11` and `g21` (or `g12` and `g22`) at a frequency, from a sine in one input with the other at rest, after a number of
 /// periods for the transient (eq. 122).
 ///
+/// `input` is the index of the input, 0 or 1; `frequency` in rad per unit of time of the plant. Returns g of outputs 1 and 2
+/// (output/input).
+///
 /// # Errors
-/// [`TuningError::OutOfRange`] for a frequency that is not positive; for an unstable or improper plant as
-/// [`DelayedPlant::new`].
+/// [`TuningError::OutOfRange`] for a frequency that is not positive; [`TuningError::UnstablePlant`]; as
+/// [`DelayedPlant::new`] for a plant that is improper or of too high an order.
 pub fn sine_test(
     plant: &TransferMatrix,
     input: usize,
@@ -27,6 +31,7 @@ pub fn sine_test(
     periods: u32,
 ) -> Result<[Complex; 2], TuningError> {
     positive("frequency", frequency)?;
+    check_stable(plant)?;
     let mut moving = DelayedPlant::new(&plant.paths())?;
     let step = TAU / (frequency * f64::from(STEPS));
     let (mut sent, mut received) = (Complex::ZERO, [Complex::ZERO; 2]);

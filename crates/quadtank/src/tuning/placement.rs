@@ -120,9 +120,9 @@ mod tests {
         let frequency = 0.7;
         for p in [(2.0, -0.5), (2.0, 3.0), (-1.5, 0.4), (-1.5, -4.0), (1.0, 0.0)].map(|(re, im)| Complex::new(re, im)) {
             let pi = ParallelPid::pi_through(p, frequency);
-            assert!((pi.at(frequency) - p).norm() < 1e-14 && pi.derivative == 0.0);
+            assert!((pi.ideal_at(frequency) - p).norm() < 1e-14 && pi.derivative == 0.0);
             let pid = ParallelPid::pid_through(p, frequency).unwrap();
-            assert!((pid.at(frequency) - p).norm() < 1e-14, "{p}");
+            assert!((pid.ideal_at(frequency) - p).norm() < 1e-14, "{p}");
             // Td = Ti/4, with a positive Ti.
             assert_relative_eq!(4.0 * pid.derivative * pid.integral, p.re * p.re, max_relative = 1e-14);
             assert!(pid.proportional == p.re && pid.integral / p.re > 0.0);

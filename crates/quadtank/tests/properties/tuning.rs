@@ -92,7 +92,7 @@ proptest! {
                 let Ok(roots) = propose(&plant.dc_gain(), &g, w, method, action, target) else { continue };
                 for root in roots {
                     // Without the filter, which the placement does not know.
-                    let k = Matrix2::from_diagonal(&root.controllers.map(|pid| pid.at(w)).into());
+                    let k = Matrix2::from_diagonal(&root.controllers.map(|pid| pid.ideal_at(w)).into());
                     let ratio = g * k;
                     let [value, slope] = characteristic(&ratio, target);
                     prop_assert!(value <= 1e-9, "{:?} {:?}: {}", method, action, value);

@@ -217,9 +217,9 @@ fn a_placed_locus_is_where_it_was_asked_for() {
             assert!(value < 1e-12 && slope < 1e-12);
         }
         for p in case.method_b(target).into_iter().flatten() {
-            assert!((ParallelPid::pi_through(p, case.frequency).at(case.frequency) - p).norm() < 1e-12);
+            assert!((ParallelPid::pi_through(p, case.frequency).ideal_at(case.frequency) - p).norm() < 1e-12);
             let pid = ParallelPid::pid_through(p, case.frequency).unwrap();
-            assert!((pid.at(case.frequency) - p).norm() < 1e-12);
+            assert!((pid.ideal_at(case.frequency) - p).norm() < 1e-12);
             assert!(pid.integral * pid.proportional > 0.0 && pid.derivative * pid.proportional > 0.0);
         }
     }

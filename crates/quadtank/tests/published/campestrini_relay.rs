@@ -8,7 +8,7 @@ use quadtank::literature::campestrini::PublishedPlant;
 use quadtank::tuning::{
     CriticalSearch, CurveDistance, Exciter, LimitCycle, RelayTest, RelayVerdict, TestTime, TuningError, TuningRule,
     distance_from_curve, frequency_range, independent_tuning, limit_cycles, modulus_estimator, read_relay_test,
-    sequential_tuning, simultaneous_test, single_loop_test, with_integrator,
+    sequential_tuning, simultaneous_test, sine_test, single_loop_test, with_integrator,
 };
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
@@ -142,7 +142,9 @@ fn relays_that_act_the_wrong_way_are_refused_or_told() {
     assert_eq!(test.reading.verdict, RelayVerdict::NoOscillation);
     let mut unstable = plant;
     unstable.0[0][1] = TransferFunction::new(vec![1.0], vec![-1.0, 2.0], 0.0).unwrap();
-    assert_eq!(simultaneous_test(&unstable, [1.0; 2], time).err(), Some(TuningError::UnstablePlant { real_part: 0.5 }));
+    let unstable_plant = Some(TuningError::UnstablePlant { real_part: 0.5 });
+    assert_eq!(simultaneous_test(&unstable, [1.0; 2], time).err(), unstable_plant);
+    assert_eq!(sine_test(&unstable, 0, 1.0, 10).err(), unstable_plant);
 }
 
 #[test]

@@ -59,7 +59,7 @@ fn table_4_where_each_rule_moves_the_ultimate_point() {
         within(rule.target().im, im, half_units.1);
         // The same by the controller itself, at the ultimate frequency of a loop with Kc G(jωc) = −1.
         let point = UltimatePoint { gain: -3.0, period: 7.0 };
-        let moved = rule.settings(point).at(std::f64::consts::TAU / point.period) / -point.gain;
+        let moved = rule.settings(point).ideal_at(std::f64::consts::TAU / point.period) / -point.gain;
         assert_relative_eq!((moved - rule.target()).norm(), 0.0, epsilon = 1e-12);
     }
 }

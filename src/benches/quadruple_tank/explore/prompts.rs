@@ -133,27 +133,28 @@ fn discovery(session: Session, prompt: Prompt) -> String {
     let is_stable = session.throttled.with_analysis(|a| a.closed_loop.stability == Stability::Stable) == Some(true);
     match (Side::of(session), prompt, is_stable) {
         (None, ..) => tr!(lab, explore.found_line),
-        (_, Prompt::Water, true) if arrives(session) => tr!(lab, explore.found_water),
+        (_, Prompt::Water, true) if reaches_references(session) => tr!(lab, explore.found_water),
         (_, Prompt::Water, true) => tr!(lab, explore.found_water_slow),
         (_, Prompt::Water, false) => tr!(lab, explore.found_water_not),
         (Some(Side::Hard), Prompt::Valves, false) => tr!(lab, explore.found_fight),
         (Some(Side::Easy), Prompt::Valves, _) => tr!(lab, explore.found_easy),
         (_, Prompt::Swap, false) => tr!(lab, explore.found_swap_not),
-        (Some(Side::Hard), Prompt::Swap, true) if arrives(session) => tr!(lab, explore.found_swap),
+        (Some(Side::Hard), Prompt::Swap, true) if reaches_references(session) => tr!(lab, explore.found_swap),
         (Some(Side::Hard), _, true) => tr!(lab, explore.found_hard),
         (Some(Side::Easy), Prompt::Swap, true) => tr!(lab, explore.found_swap_easy),
     }
 }
 
-/// Whether each level that is asked to move settles where it is asked to be, without a wall or a pump at its limit.
-fn arrives(session: Session) -> bool {
+/// Whether each level whose reference steps settles at it in a run in which no tank overflows or runs dry. A pump may be at a
+/// limit for a time.
+fn reaches_references(session: Session) -> bool {
     session.throttled.run.with(|outcome| {
         outcome.as_ref().as_ref().is_ok_and(|run| {
             let stepped = run.metrics.iter().filter(|m| m.step_time_s.is_some());
             let has_settled = |settling| matches!(settling, Some(Settling::After { .. }));
-            let is_stopped = |kind| matches!(kind, EventKind::Overflow { .. } | EventKind::Empty { .. });
+            let overflows_or_dry = |kind| matches!(kind, EventKind::Overflow { .. } | EventKind::Empty { .. });
             stepped.clone().all(|m| m.no_response.is_none() && has_settled(m.settling_2_percent))
-                && !run.nonlinear.events.iter().any(|event| is_stopped(event.kind))
+                && !run.nonlinear.events.iter().any(|event| overflows_or_dry(event.kind))
         })
     })
 }

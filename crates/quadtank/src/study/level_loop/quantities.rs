@@ -17,12 +17,12 @@ const fn q(name: &'static str, unit: &'static str, description: &'static str, re
     Quantity::new(name, unit, description, read)
 }
 
-/// The plant at the rest of the experiment.
-/// A number that there is.
+/// The value if it is finite; `None` otherwise.
 fn finite(value: f64) -> Option<f64> {
     Some(value).filter(|value| value.is_finite())
 }
 
+/// The plant at the rest of the experiment, where there is one.
 fn plant(results: &Results) -> Option<&PlantAnswer> {
     results.plant.as_ref().as_ref().ok()
 }

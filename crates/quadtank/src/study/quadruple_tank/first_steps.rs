@@ -7,11 +7,12 @@ use super::{OperatingPointSpec, Setup, analyse, run, setup_of};
 
 /// When the first experiment steps (s).
 const FIRST_STEP_AT_S: f64 = 20.0;
-/// How much water the first experiment asks for (m): enough to be seen, and no pump of the rig reaches its limit.
+/// Size of the step of level 1 in the first experiment (m): large enough to be seen, small enough that no pump reaches its limit.
 const FIRST_STEP: f64 = 0.02;
 /// The shortest time that [`fitted_duration_s`] shows (s), which it doubles, and the longest.
 const FITTED_S: (f64, f64) = (400.0, 6400.0);
-/// Largest sensitivity peak of a loop that is calm (Skogestad and Postlethwaite 2005, section 2.4.2: at most 2 is usual).
+/// Largest sensitivity peak Ms of a detuned loop; 2 is the usual bound (Skogestad and Postlethwaite 2005, "Maximum peak
+/// criteria").
 const CALM_PEAK: f64 = 1.6;
 /// How [`calmed`] changes gains and integral times from one try to the next, and how often.
 const CALMER: (f64, f64) = (0.8, 1.12);

@@ -200,7 +200,7 @@ mod tests {
         for form in PidForm::ALL {
             let same = series.in_form(form).unwrap();
             assert_eq!(same.form, form);
-            assert_relative_eq!((ParallelPid::from(same).at(0.3) - expected).norm(), 0.0, epsilon = 1e-14);
+            assert_relative_eq!((ParallelPid::from(same).ideal_at(0.3) - expected).norm(), 0.0, epsilon = 1e-14);
             assert_relative_eq!(same.filter_in_force(), 0.1 / 7.0, max_relative = 1e-12);
             let back = same.in_form(PidForm::Series).unwrap();
             assert_relative_eq!(back.integral_time.unwrap(), 5.0, max_relative = 1e-12);
