@@ -7,6 +7,7 @@ use quadtank::control::{EstimatorError, MAX_WINDOW_SAMPLES};
 use quadtank::literature::DisplayUnit;
 use quadtank::plant::PlantError;
 use quadtank::plant::level::LevelError;
+use quadtank::sim::NoResponse;
 use quadtank::study::relay_tuning::ElementFault;
 use quadtank::study::{StudyError, StudyFault};
 use quadtank_scenario::{ScenarioError, runs_backwards};
@@ -44,6 +45,28 @@ pub fn of_error(lab: Lab, unit: DisplayUnit, error: &ScenarioError) -> String {
         ScenarioError::Element { field, fault } => {
             tr!(lab, refused.element, field = field, reason = of_fault(lab, *fault))
         }
+    }
+}
+
+/// Why a level (index) has no step-response figures, with lengths in the shown unit.
+pub fn of_no_response(lab: Lab, unit: DisplayUnit, index: usize, reason: NoResponse) -> String {
+    let style = lab.number_style();
+    let level = index + 1;
+    match reason {
+        NoResponse::NoStep => tr!(lab, responses.no_step, level = level),
+        NoResponse::StepTooSmall { .. } => tr!(lab, responses.step_too_small, level = level),
+        NoResponse::StepAfterEnd { time_s } => {
+            tr!(lab, responses.step_after_end, level = level, time = style.fixed(time_s, 0))
+        }
+        NoResponse::NotAtRest { distance } => {
+            let distance = style.significant(to_shown(distance, unit), 2);
+            tr!(lab, responses.level_moves, level = level, distance = distance, unit = unit_name(unit))
+        }
+        NoResponse::TankFull => tr!(lab, responses.tank_full, level = level),
+        NoResponse::UnstableLoop => tr!(lab, responses.unstable),
+        NoResponse::MarginalLoop => tr!(lab, responses.marginal),
+        NoResponse::StartOverflows => tr!(lab, responses.not_at_rest),
+        NoResponse::TooLongToJudge => tr!(lab, responses.too_long_to_judge),
     }
 }
 

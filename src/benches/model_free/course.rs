@@ -6,11 +6,13 @@ use super::flags::panels;
 use super::pictures;
 use super::sentences::{self, in_cm};
 use super::session::{Session, set_cursor, shown, use_session};
+use crate::errors::of_no_response;
 use crate::texts::{say, terms, tr};
 use crate::widgets::{
     Card, ChartCanvas, ChartMenu, DataTable, Figure, Figures, Readout, ReasonedRow, Row, Sentence, TableContent, Text,
     TimeAxis, TimeSurface, Verdict, ZoomButtons, marked, unmarked,
 };
+use quadtank::literature::DisplayUnit;
 use quadtank::sim::{NoResponse, TrackingMetrics};
 use quadtank_figure::Frame;
 
@@ -197,25 +199,12 @@ fn costs_of_run(session: Session, figures: &TrackingMetrics) -> [String; 4] {
     ]
 }
 
-/// Why a level (index) has no figures of a step.
+/// Why a level (index) has no step-response figures.
 fn why(session: Session, index: usize, reason: NoResponse) -> String {
     let lab = session.lab;
-    let style = lab.number_style();
-    let level = index + 1;
     match reason {
-        NoResponse::NoStep | NoResponse::StepTooSmall { .. } => tr!(lab, responses.no_step, level = level),
-        NoResponse::StepAfterEnd { time_s } => {
-            tr!(lab, responses.step_after_end, level = level, time = style.fixed(time_s, 0))
-        }
-        NoResponse::NotAtRest { distance } => {
-            let distance = style.significant(in_cm(distance), 2);
-            tr!(lab, responses.level_moves, level = level, distance = distance, unit = "cm")
-        }
-        NoResponse::TankFull => tr!(lab, responses.tank_full, level = level),
         NoResponse::UnstableLoop => tr!(lab, free.why_unstable),
-        NoResponse::MarginalLoop => tr!(lab, responses.marginal),
-        NoResponse::StartOverflows => tr!(lab, responses.not_at_rest),
-        NoResponse::TooLongToJudge => tr!(lab, responses.too_long_to_judge),
+        _ => of_no_response(lab, DisplayUnit::Cm, index, reason),
     }
 }
 

@@ -11,7 +11,6 @@ use crate::controls::{ParamControl, ParamNumber, ParamRow};
 use crate::texts::{say, terms, tr};
 use crate::widgets::{Card, Scale, Segmented, Sentence, Text, Tick};
 use quadtank::control::{AntiWindup, LoopMode, Pairing, PiSettings};
-use quadtank::interaction::PairingVerdict;
 use quadtank::study::quadruple_tank::{PlantSpec, Setup, calmed};
 use quadtank_scenario::{Limits, limits};
 
@@ -185,16 +184,7 @@ fn PairingSwitch() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
     let chosen = session.part(|s| s.controller.pairing);
-    let suggested = move || {
-        session
-            .throttled
-            .with_analysis(|a| match a.linear.verdict {
-                PairingVerdict::Diagonal(_) => Some(Pairing::Diagonal),
-                PairingVerdict::Swapped(_) => Some(Pairing::Swapped),
-                PairingVerdict::None(_) => None,
-            })
-            .flatten()
-    };
+    let suggested = move || session.throttled.with_analysis(|a| a.linear.advised_pairing()).flatten();
     let choice = move |pairing: Pairing, id: &'static str| {
         let text = Signal::derive(move || match pairing {
             Pairing::Diagonal => tr!(lab, pi.diagonal),

@@ -3,6 +3,7 @@
 use leptos::prelude::*;
 
 use super::session::{Session, use_session};
+use crate::errors::of_no_response;
 use crate::shown::{length_digits, per_metre, to_shown, unit_name};
 use crate::texts::{say, tr};
 use crate::widgets::{Figure, Figures, Folded, ReasonedRow, Row, TableContent};
@@ -173,28 +174,9 @@ fn sum(session: Session, value: f64) -> String {
     session.lab.number_style().significant(if value < ROUNDING { 0.0 } else { value }, 3)
 }
 
-/// Why a level (index) has no figures of a step.
+/// Why a level (index) has no step-response figures.
 pub fn why(session: Session, index: usize, reason: NoResponse) -> String {
-    let lab = session.lab;
-    let style = lab.number_style();
-    let level = index + 1;
-    match reason {
-        NoResponse::NoStep => tr!(lab, responses.no_step, level = level),
-        NoResponse::StepTooSmall { .. } => tr!(lab, responses.step_too_small, level = level),
-        NoResponse::StepAfterEnd { time_s } => {
-            tr!(lab, responses.step_after_end, level = level, time = style.fixed(time_s, 0))
-        }
-        NoResponse::NotAtRest { distance } => {
-            let unit = session.own.unit.get();
-            let distance = style.significant(to_shown(distance, unit), 2);
-            tr!(lab, responses.level_moves, level = level, distance = distance, unit = unit_name(unit))
-        }
-        NoResponse::TankFull => tr!(lab, responses.tank_full, level = level),
-        NoResponse::UnstableLoop => tr!(lab, responses.unstable),
-        NoResponse::MarginalLoop => tr!(lab, responses.marginal),
-        NoResponse::StartOverflows => tr!(lab, responses.not_at_rest),
-        NoResponse::TooLongToJudge => tr!(lab, responses.too_long_to_judge),
-    }
+    of_no_response(session.lab, session.own.unit.get(), index, reason)
 }
 
 /// What the runs in the tables are.

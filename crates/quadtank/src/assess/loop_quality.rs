@@ -1,4 +1,4 @@
-use crate::control::{ParallelPid, level_loop};
+use crate::control::{IsaPid, ParallelPid, level_loop};
 use crate::linear::{LinearError, LoopStability, Margins};
 use crate::plant::level::LevelGains;
 use crate::sim::level::LevelController;
@@ -19,8 +19,7 @@ impl LoopQuality {
     /// # Errors
     /// As [`level_loop`].
     pub fn of(gains: &LevelGains, controller: &LevelController) -> Result<Option<Self>, LinearError> {
-        let pi =
-            |gain: f64, time: f64| ParallelPid { proportional: gain, integral: gain / time, ..ParallelPid::default() };
+        let pi = |gain, integral_time| ParallelPid::from(IsaPid { gain, integral_time, derivative_time: 0.0 });
         let linear = match controller {
             LevelController::Manual { .. } => return Ok(None),
             LevelController::Pi { gain, integral_time_s, .. } => {

@@ -31,14 +31,8 @@ pub fn level_loop(
     dead_time_s: f64,
 ) -> Result<SingleLoop, LinearError> {
     let plant = level_transfer_function(gains)?.times(&TransferFunction::lags(1.0, &[], dead_time_s)?);
-    let ParallelPid { proportional: kp, integral: ki, derivative: kd, .. } = *pid;
-    let filter = if kd == 0.0 { 0.0 } else { filter_time_s };
-    let controller = if ki == 0.0 {
-        TransferFunction::new(vec![kp, kp * filter + kd], vec![1.0, filter], 0.0)?
-    } else {
-        TransferFunction::new(vec![ki, kp + ki * filter, kp * filter + kd], vec![0.0, 1.0, filter], 0.0)?
-    };
-    let integrators = u32::from(ki != 0.0) + u32::from(gains.resistance.is_none());
+    let controller = ParallelPid { filter: Some(filter_time_s), ..*pid }.transfer_function()?;
+    let integrators = u32::from(pid.integral != 0.0) + u32::from(gains.resistance.is_none());
     Ok(SingleLoop::new(plant, controller, integrators))
 }
 

@@ -1,7 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-use crate::numeric::{larger, smaller};
-
+use super::pi::limited;
 use super::{Estimator, EstimatorError, EstimatorSettings, FedWith, MAX_WINDOW_SAMPLES, Pairing};
 
 /// What keeps the integral of the law from winding up while its output is limited. The source has nothing.
@@ -189,11 +188,10 @@ impl ModelFreeLoop {
         let error = reference - measured;
         let phi = self.estimate();
         let asked = |integral: f64| (-phi + proportional * error + integral) / model_gain;
-        let limited = |output: f64| smaller(larger(output, self.limits.0), self.limits.1);
         // Backward Euler (eq. 17).
         let mut next = self.integral + integral * self.sampling_time_s * error;
         let mut command = asked(next);
-        let excess = command - limited(command);
+        let excess = command - limited(command, self.limits);
         match anti_windup {
             ModelFreeWindup::Off => {}
             ModelFreeWindup::Conditional => {
@@ -210,7 +208,7 @@ impl ModelFreeLoop {
             }
         }
         self.integral = next;
-        let output = limited(command);
+        let output = limited(command, self.limits);
         self.last = Some(match self.fed_with {
             FedWith::Applied => output,
             FedWith::Commanded => command,

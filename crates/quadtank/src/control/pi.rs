@@ -148,9 +148,9 @@ impl Pi {
     }
 }
 
-/// Limits in the wrong order: the upper one wins. A value that is not a number becomes the lower limit.
+/// The value within the limits. Where they are in the wrong order the upper one applies; NaN becomes the lower limit.
 #[inline]
-fn limited(value: f64, (min, max): (f64, f64)) -> f64 {
+pub(super) fn limited(value: f64, (min, max): (f64, f64)) -> f64 {
     smaller(larger(value, min), max)
 }
 

@@ -5,7 +5,7 @@
 
 use std::f64::consts::PI;
 
-use super::taylor_model::{Arithmetic, Cell, TaylorModel, size_of};
+use super::taylor_model::{Arithmetic, Cell, TaylorModel, dominant_dead_time};
 use super::{Complex, Stability, UNIT_CIRCLE_TOLERANCE};
 
 /// The characteristic function of a sampled loop, `g(w) = Σ tᵢ(w) w^dᵢ` with w = 1/z: analytic for |w| ≤ 1, with a zero at 1/z for
@@ -19,8 +19,6 @@ pub(crate) trait DelayedLoop {
 
 /// Most arcs of the unit circle that are looked at: about 30 ms.
 const MOST_ARCS: u32 = 30_000;
-/// Rounding of a sum, relative to the size of its terms.
-const ROUNDING: f64 = 1e-15;
 
 /// The verdict on a loop; `None` where its function turns too often to be followed within the bound on work.
 ///
@@ -44,26 +42,14 @@ pub(crate) fn stability(of: &impl DelayedLoop) -> Option<Stability> {
     Some(if (-turned / PI).round() > 0.0 { Stability::Unstable } else { Stability::Stable })
 }
 
-/// Angle by which g turns over an arc of angles of z (rad); `None` where it is not told from zero. It is seen in a frame that turns
-/// with its largest term.
+/// Change of the argument of g over an arc of angles of z (rad); `None` where the enclosure of g contains zero. Computed in a
+/// frame that rotates with the largest term.
 fn turn_over(of: &impl DelayedLoop, arc: Cell) -> Option<f64> {
     let terms = of.terms(TaylorModel::dead_time(1.0, arc));
     let delays = of.delays();
-    let sizes = terms.map(|term| size_of(term.value));
-    let largest = (0..terms.len()).max_by(|&i, &j| sizes[i].total_cmp(&sizes[j])).unwrap_or(0);
-    let frame = delays[largest];
-    let mut sum = TaylorModel { rest: ROUNDING * sizes.iter().sum::<f64>(), ..TaylorModel::ZERO };
-    for (term, delay) in terms.into_iter().zip(delays) {
-        let own = delay - frame;
-        // A term that turns by more than a radian each way may have any argument.
-        let is_fast = (own * arc.half_width()).abs() > 1.0;
-        sum = sum + if is_fast { term.disc() } else { term * TaylorModel::dead_time(own, arc) };
-    }
-    let is_told = sum.radius() < size_of(sum.value);
-    is_told.then(|| {
-        let [before, after] = [arc.low, arc.high].map(|angle| at(of, angle, frame));
-        (after / before).arg() - frame * (arc.high - arc.low)
-    })
+    let frame = dominant_dead_time(std::array::from_fn::<_, 4, _>(|i| (terms[i], delays[i])), arc)?;
+    let [before, after] = [arc.low, arc.high].map(|angle| at(of, angle, frame));
+    Some((after / before).arg() - frame * (arc.high - arc.low))
 }
 
 /// g at an angle of z (rad), without a delay of `frame` samples.

@@ -6,7 +6,8 @@ use nalgebra::Matrix2;
 
 use super::Complex;
 use super::return_ratio::ReturnRatio;
-use super::taylor_model::{Cell, TaylorModel, size_of};
+use super::sensitivity::elements;
+use super::taylor_model::{Cell, dominant_dead_time};
 
 /// Stability of a loop of stable parts, by the number of encirclements of −1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,8 +41,6 @@ pub enum LoopStability {
 const MOST_CELLS: u32 = 5_000;
 /// Width of a cell, relative to its frequency, in which a determinant that is not told from zero is zero.
 const NARROWEST: f64 = 1e-15;
-/// Rounding of a sum, relative to the size of its terms.
-const ROUNDING: f64 = 1e-15;
 /// Relative deviation of the elements from powers of s at the lowest frequency.
 const SETTLED: f64 = 1e-12;
 /// Largest angle to the real axis (tangent) of the residue at the origin.
@@ -121,7 +120,7 @@ pub(crate) fn least_real_part(matrix: &Matrix2<f64>) -> f64 {
 
 /// Whether no loop with such absolute values of the elements of L has a det(I + L) that is 1 or more away from 1.
 fn is_small(largest: &Matrix2<f64>) -> bool {
-    let [a, b, c, d] = [(0, 0), (0, 1), (1, 0), (1, 1)].map(|at| largest[at]);
+    let [a, b, c, d] = elements(largest);
     a + d + a * d + b * c < 1.0
 }
 
@@ -130,30 +129,16 @@ fn return_difference(ratio: &ReturnRatio, frequency: f64) -> Complex {
     (Matrix2::identity() + ratio.at(frequency)).determinant()
 }
 
-/// Angle by which det(I + L) turns over a cell (rad) up to its value at the high end, and its value at the low end; `None` where it is
-/// not told from zero.
+/// Change of the argument of det(I + L) over a cell (rad) up to its value at the high end, and its value at the low end; `None`
+/// where the enclosure contains zero.
 ///
-/// It is seen in a frame that turns with the dead time of its largest term: where that term exceeds all others together the
-/// turns of dead times need not be followed one by one.
+/// Computed in a frame that rotates with the dead time of the largest term: where that term exceeds the sum of all others, the
+/// rotations by dead times need not be followed one by one.
 fn turn_over(ratio: &ReturnRatio, cell: Cell, at_high: Complex) -> Option<(f64, Complex)> {
-    let terms = ratio.return_difference(cell);
-    let sizes = terms.map(|(term, _)| size_of(term.value));
-    let largest = (0..terms.len()).max_by(|&i, &j| sizes[i].total_cmp(&sizes[j])).unwrap_or(0);
-    let frame = terms[largest].1;
-    let mut sum = TaylorModel { rest: ROUNDING * sizes.iter().sum::<f64>(), ..TaylorModel::ZERO };
-    for (term, dead_time) in terms {
-        let own = dead_time - frame;
-        // A term that turns by more than a radian each way may have any argument.
-        let is_fast = (own * cell.half_width()).abs() > 1.0;
-        sum = sum + if is_fast { term.disc() } else { term * TaylorModel::dead_time(own, cell) };
-    }
-    let is_told = sum.radius() < size_of(sum.value);
-    is_told.then(|| {
-        let at_low = return_difference(ratio, cell.low);
-        let [before, after] =
-            [(at_low, cell.low), (at_high, cell.high)].map(|(value, w)| value * Complex::cis(frame * w));
-        ((after / before).arg() - frame * (cell.high - cell.low), at_low)
-    })
+    let frame = dominant_dead_time(ratio.return_difference(cell), cell)?;
+    let at_low = return_difference(ratio, cell.low);
+    let [before, after] = [(at_low, cell.low), (at_high, cell.high)].map(|(value, w)| value * Complex::cis(frame * w));
+    Some(((after / before).arg() - frame * (cell.high - cell.low), at_low))
 }
 
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a positive number of poles")]

@@ -4,13 +4,13 @@
 use nalgebra::Matrix2;
 
 use super::series;
+use super::transfer::{degree, lowest_power};
 use super::{TransferFunction, TransferMatrix};
 
 impl TransferFunction {
     /// Order of the pole at the origin, of what numerator and denominator do not share there: how often the element integrates.
     pub fn integrators(&self) -> u32 {
-        let lowest = |of: &[f64]| of.iter().position(|&c| c != 0.0);
-        match (lowest(self.numerator()), lowest(self.denominator())) {
+        match (lowest_power(self.numerator()), lowest_power(self.denominator())) {
             (Some(zeros), Some(poles)) => u32::try_from(poles.saturating_sub(zeros)).unwrap_or(u32::MAX),
             _ => 0,
         }
@@ -19,8 +19,7 @@ impl TransferFunction {
     /// `lim s^n g(s)` for s → 0, with n the number of [`integrators`](Self::integrators): the gain at rest g(0), or the rate at which
     /// the output rises under a constant input of 1.
     pub fn rest_gain(&self) -> f64 {
-        let lowest = |of: &[f64]| of.iter().position(|&c| c != 0.0);
-        match (lowest(self.numerator()), lowest(self.denominator())) {
+        match (lowest_power(self.numerator()), lowest_power(self.denominator())) {
             (Some(zeros), Some(poles)) if zeros <= poles => self.numerator()[zeros] / self.denominator()[poles],
             _ => 0.0,
         }
@@ -29,7 +28,6 @@ impl TransferFunction {
     /// Direct feedthrough: the gain of the rational part at infinite frequency. 0 for a strictly proper element, infinite for an
     /// improper one.
     pub fn feedthrough(&self) -> f64 {
-        let degree = |of: &[f64]| of.iter().rposition(|&c| c != 0.0);
         match (degree(self.numerator()), degree(self.denominator())) {
             (Some(b), Some(a)) if b > a => f64::INFINITY.copysign(self.numerator()[b] / self.denominator()[a]),
             (Some(b), Some(a)) if b == a => self.numerator()[b] / self.denominator()[a],
@@ -43,9 +41,9 @@ impl TransferFunction {
         if through == 0.0 {
             return self.clone();
         }
-        let degree = self.denominator().iter().rposition(|&c| c != 0.0).unwrap_or(0);
+        let n = degree(self.denominator()).unwrap_or(0);
         let rest = |k: usize| self.numerator().get(k).copied().unwrap_or(0.0) - through * self.denominator()[k];
-        let numerator = (0..degree.max(1)).map(|k| if k < degree { rest(k) } else { 0.0 }).collect();
+        let numerator = (0..n.max(1)).map(|k| if k < n { rest(k) } else { 0.0 }).collect();
         Self::new(numerator, self.denominator().to_vec(), self.dead_time()).unwrap_or_else(|_| self.scaled(0.0))
     }
 }

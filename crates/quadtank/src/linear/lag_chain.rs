@@ -1,5 +1,6 @@
 //! The motion of one transfer function without its dead time, exact for an input that is held.
 
+use super::transfer::degree;
 use super::{LinearError, TransferFunction};
 
 /// Highest order of an element that is simulated.
@@ -208,8 +209,7 @@ impl Motion {
 
 /// Without the zeros of the highest powers.
 fn trimmed(coefficients: &[f64]) -> &[f64] {
-    let used = coefficients.iter().rposition(|&c| c != 0.0).map_or(0, |last| last + 1);
-    &coefficients[..used]
+    &coefficients[..degree(coefficients).map_or(0, |last| last + 1)]
 }
 
 #[cfg(test)]

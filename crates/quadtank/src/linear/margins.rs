@@ -9,8 +9,9 @@ use nalgebra::Matrix2;
 use super::Complex;
 use super::loci::{locus_values, nearest_order};
 use super::return_ratio::ReturnRatio;
-use super::taylor_model::{Cell, size_of};
-use crate::numeric::{golden_section, root};
+use super::sensitivity::elements;
+use super::taylor_model::Cell;
+use crate::numeric::{golden_section, modulus, root};
 
 /// How far a loop is from instability when all of it is scaled or turned. Meant for stable loops.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,7 +62,7 @@ fn is_beyond(distance: f64, radius: f64) -> bool {
 
 /// Bound on the eigenvalues of a matrix by the absolute values of its elements.
 fn spectral_bound(largest: &Matrix2<f64>) -> f64 {
-    let [a, b, c, d] = [(0, 0), (0, 1), (1, 0), (1, 1)].map(|at| largest[at]);
+    let [a, b, c, d] = elements(largest);
     0.5 * (a + d) + (0.25 * (a - d) * (a - d) + b * c).sqrt()
 }
 
@@ -120,7 +121,7 @@ impl<'a> Search<'a> {
         let end = self.ratio.high_end(2.0 * low, |largest| largest.norm() <= ARRIVED * at_infinity.norm())?;
         self.limit_at_rest(low);
         let ends = locus_values(&at_infinity.map(Complex::from));
-        self.distance = ends.iter().map(|value| size_of(value + 1.0)).fold(f64::INFINITY, f64::min);
+        self.distance = ends.iter().map(|value| modulus(value + 1.0)).fold(f64::INFINITY, f64::min);
         for value in ends.into_iter().filter(|value| value.im == 0.0 && value.re != 0.0) {
             self.meet_real_axis(value);
         }
@@ -157,7 +158,7 @@ impl<'a> Search<'a> {
             let invariants = self.ratio.invariants(cell);
             let values = locus_values(&invariants.ratio);
             for value in values {
-                self.meet_distance(size_of(value + 1.0), cell);
+                self.meet_distance(modulus(value + 1.0), cell);
             }
             if spectral_bound(&invariants.largest) < self.reach() {
                 continue;
@@ -183,23 +184,23 @@ impl<'a> Search<'a> {
 
     /// Distance of a point from the disc around −1 that a nearer locus would enter.
     fn to_disc(&self, x: Complex) -> f64 {
-        size_of(x + 1.0) - self.distance * (1.0 - PRECISION)
+        modulus(x + 1.0) - self.distance * (1.0 - PRECISION)
     }
 
     /// Distance of a point from the parts of the real axis that a locus with a smaller gain margin would cross.
     fn to_gains(&self, x: Complex) -> f64 {
         let far = (-1.0 / (self.gain_down * (1.0 + PRECISION))).min(-1.0);
         let near = (-1.0 / (self.gain_up * (1.0 - PRECISION))).max(-1.0);
-        size_of(x - x.re.clamp(far, near))
+        modulus(x - x.re.clamp(far, near))
     }
 
     /// Distance of a point from the arc of the unit circle that a locus with a smaller phase margin would cross.
     fn to_phases(&self, x: Complex) -> f64 {
         let largest = self.phase * (1.0 - PRECISION);
         if phase_lag(x) <= largest {
-            return (size_of(x) - 1.0).abs();
+            return (modulus(x) - 1.0).abs();
         }
-        size_of(x + 1.0).min(size_of(x + Complex::cis(largest)))
+        modulus(x + 1.0).min(modulus(x + Complex::cis(largest)))
     }
 
     fn meet_distance(&mut self, distance: f64, cell: Cell) {
@@ -242,16 +243,16 @@ impl<'a> Search<'a> {
     ) -> Option<Complex> {
         let chord = after - before;
         let share = side(before) / (side(before) - side(after));
-        if side(before) * side(after) > 0.0 || is_beyond(distance(before + chord * share), size_of(chord)) {
+        if side(before) * side(after) > 0.0 || is_beyond(distance(before + chord * share), modulus(chord)) {
             return None;
         }
         let value = |w: f64| {
             let guess = before + chord * ((w - cell.low) / (cell.high - cell.low));
             let [a, b] = self.loci(w);
-            if size_of(a - guess) <= size_of(b - guess) { a } else { b }
+            if modulus(a - guess) <= modulus(b - guess) { a } else { b }
         };
         let frequency = root(|w| side(value(w)), (cell.low, side(before)), (cell.high, side(after)));
-        Some(value(frequency)).filter(|&found| side(found).abs() <= ON_LINE * size_of(found))
+        Some(value(frequency)).filter(|&found| side(found).abs() <= ON_LINE * modulus(found))
     }
 
     /// The smallest absolute value of a locus that may still matter.
@@ -261,7 +262,7 @@ impl<'a> Search<'a> {
 
     /// The distance is polished where it was found.
     fn margins(&self) -> Margins {
-        let nearest = |w: f64| self.loci(w).map(|x| size_of(x + 1.0)).into_iter().fold(f64::INFINITY, f64::min);
+        let nearest = |w: f64| self.loci(w).map(|x| modulus(x + 1.0)).into_iter().fold(f64::INFINITY, f64::min);
         let (mut distance, mut distance_frequency) = (self.distance, f64::INFINITY);
         if let Some(cell) = self.nearest {
             distance_frequency = cell.middle();

@@ -52,5 +52,6 @@ pub use stability::{Stability, UNIT_CIRCLE_TOLERANCE, s_from_z};
 pub use state_space::StateSpace;
 pub(crate) use taylor_model::Arithmetic;
 pub use transfer::{TransferFunction, TransferMatrix};
+pub(crate) use transfer::{degree, lowest_power};
 pub(crate) use zero_order_hold::ZeroOrderHold;
 pub use zeros::{TransmissionZero, place_nearest_at_origin, transmission_zeros};

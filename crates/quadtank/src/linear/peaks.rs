@@ -6,7 +6,7 @@ use nalgebra::Matrix2;
 
 use super::Complex;
 use super::return_ratio::{RatioOver, ReturnRatio};
-use super::sensitivity::{largest_singular_value, largest_singular_value_of_inverse};
+use super::sensitivity::{elements, largest_singular_value, largest_singular_value_of_inverse};
 use super::taylor_model::{Cell, TaylorModel};
 use crate::numeric::golden_section;
 
@@ -118,10 +118,6 @@ const SENSITIVITY: Measure = Measure {
         end(-1.0).max(end(1.0)) + rest
     },
 };
-
-fn elements(matrix: &Matrix2<f64>) -> [f64; 4] {
-    [(0, 0), (0, 1), (1, 0), (1, 1)].map(|at| matrix[at])
-}
 
 /// Absolute values of the elements of the inverse.
 fn inverse_sizes(matrix: &Matrix2<f64>) -> Matrix2<f64> {

@@ -2,8 +2,10 @@
 
 use nalgebra::Matrix2;
 
-use super::taylor_model::{Cell, TaylorModel, size_of};
+use super::taylor_model::{Cell, TaylorModel};
+use super::transfer::degree;
 use super::{Complex, TransferFunction, TransferMatrix, series};
+use crate::numeric::modulus;
 
 /// The return ratio `L(s) = G(s) K(s)` of a plant and its controllers, both with two inputs and two outputs.
 #[derive(Clone, Debug)]
@@ -216,7 +218,7 @@ impl Invariants {
         };
         // The factor is 1 in the middle of the cell.
         let [radius, _] = scaled.radii([value; 2]);
-        let distance = if value.re < 0.0 { value.im.abs() } else { size_of(value) };
+        let distance = if value.re < 0.0 { value.im.abs() } else { modulus(value) };
         distance > radius
     }
 
@@ -229,7 +231,7 @@ impl Invariants {
     /// Good where both loci are nearly the same.
     fn radius_by_discriminant(&self) -> f64 {
         let r = self.discriminant.radius();
-        0.5 * self.trace.radius() + r.sqrt().min(r / size_of(self.discriminant.value).sqrt())
+        0.5 * self.trace.radius() + r.sqrt().min(r / modulus(self.discriminant.value).sqrt())
     }
 
     /// By the tangent of the locus. Where the characteristic polynomial `x² − T x + D` is e at a point x of the tangent, the
@@ -241,10 +243,10 @@ impl Invariants {
         let tangent = TaylorModel { value, slope, rest: 0.0 };
         let residual = (tangent * tangent + -(trace * tangent) + determinant).size();
         let gap = tangent.scaled(2.0) + -trace;
-        let least_gap = size_of(gap.value) - gap.radius();
+        let least_gap = modulus(gap.value) - gap.radius();
         let square = least_gap * least_gap - 4.0 * residual;
         if least_gap > 0.0 && square >= 0.0 {
-            size_of(slope) + 2.0 * residual / (least_gap + square.sqrt())
+            modulus(slope) + 2.0 * residual / (least_gap + square.sqrt())
         } else {
             f64::INFINITY
         }
@@ -311,5 +313,5 @@ impl Tail {
 
 /// The coefficients up to the leading one.
 fn leading(coefficients: &[f64]) -> Option<&[f64]> {
-    coefficients.iter().rposition(|&c| c != 0.0).map(|last| &coefficients[..=last])
+    degree(coefficients).map(|last| &coefficients[..=last])
 }

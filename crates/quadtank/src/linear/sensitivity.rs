@@ -3,6 +3,7 @@
 use nalgebra::Matrix2;
 
 use super::{Complex, LoopPeak};
+use crate::numeric::golden_section;
 
 /// Singular values of the sensitivity `S = (I + L)⁻¹` and of the complementary sensitivity `T = L (I + L)⁻¹ = I − S` of a closed
 /// loop at one frequency, each the largest and the smallest: between them lies the amplification of every direction.
@@ -19,7 +20,7 @@ impl LoopGains {
     pub fn of(return_ratio: &Matrix2<Complex>) -> Self {
         let difference = Matrix2::identity() + return_ratio;
         let determinant = size_of_determinant(&difference);
-        let [a, b, c, d] = [(0, 0), (0, 1), (1, 0), (1, 1)].map(|at| difference[at]);
+        let [a, b, c, d] = elements(&difference);
         // The adjugate is det(I + L) S, so that no inverse is needed.
         let [largest_l, smallest_l] = both_singular_values(&(return_ratio * Matrix2::new(d, -b, -c, a)));
         Self {
@@ -34,9 +35,6 @@ const GRID: u32 = 80;
 
 /// How far the grid reaches below the slowest pole.
 const BELOW_SLOWEST: f64 = 0.1;
-
-/// Cuts of the interval around the highest point of the grid by the golden section; each leaves 62 % of it.
-const REFINEMENTS: u32 = 16;
 
 /// Peak Ms of the largest singular value of `S = (I + L)⁻¹` over all frequencies up to Nyquist, for a stable loop with the poles
 /// `poles_s` (1/s), where a narrow peak may hide between two points of the grid, and its frequency (rad/s). `return_ratio` is L(z).
@@ -95,22 +93,11 @@ pub(super) fn delayed_sensitivity_peak(
 }
 
 /// Golden-section search on a logarithmic axis, one point of the grid to either side of the best frequency.
-fn refine(sensitivity: impl Fn(f64) -> f64, highest: (f64, f64), ratio: f64, nyquist: f64) -> LoopPeak {
-    let (value, best) = highest;
-    let mut peak = LoopPeak { value, frequency: best };
-    let golden = (5.0_f64.sqrt() - 1.0) / 2.0;
-    let (mut low, mut high) = ((best / ratio).ln(), (best * ratio).min(nyquist).ln());
-    for _ in 0..REFINEMENTS {
-        let (left, right) = (high - golden * (high - low), low + golden * (high - low));
-        let (at_left, at_right) = (sensitivity(left.exp()), sensitivity(right.exp()));
-        for (value, at) in [(at_left, left), (at_right, right)] {
-            if value > peak.value {
-                peak = LoopPeak { value, frequency: at.exp() };
-            }
-        }
-        if at_left > at_right { high = right } else { low = left }
-    }
-    peak
+fn refine(sensitivity: impl Fn(f64) -> f64, (value, best): (f64, f64), ratio: f64, nyquist: f64) -> LoopPeak {
+    let (low, high) = ((best / ratio).ln(), (best * ratio).min(nyquist).ln());
+    let frequency = golden_section(|x| -sensitivity(x.exp()), low, high).exp();
+    let refined = sensitivity(frequency);
+    if refined > value { LoopPeak { value: refined, frequency } } else { LoopPeak { value, frequency: best } }
 }
 
 /// `1/σ_min` of a 2 × 2 matrix, from `σ₁ σ₂ = |det M|`.
@@ -131,6 +118,12 @@ fn both_singular_values(m: &Matrix2<Complex>) -> [f64; 2] {
     let largest = largest_singular_value(m);
     let smallest = if largest > 0.0 { size_of_determinant(m) / largest } else { 0.0 };
     [largest, smallest]
+}
+
+/// Elements by rows.
+pub(super) fn elements<T: Copy>(matrix: &Matrix2<T>) -> [T; 4] {
+    let [[a, c], [b, d]] = matrix.data.0;
+    [a, b, c, d]
 }
 
 fn size_of_determinant(m: &Matrix2<Complex>) -> f64 {

@@ -3,6 +3,7 @@
 use std::ops::{Add, Mul, Neg};
 
 use super::{Complex, TransferFunction};
+use crate::numeric::modulus;
 
 /// A cell of frequencies (rad per unit of time of the plant).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,12 +78,12 @@ impl TaylorModel {
 
     /// Largest distance from the value in the middle.
     pub fn radius(&self) -> f64 {
-        size_of(self.slope) + self.rest
+        modulus(self.slope) + self.rest
     }
 
     /// Largest absolute value.
     pub fn size(&self) -> f64 {
-        size_of(self.value) + self.radius()
+        modulus(self.value) + self.radius()
     }
 
     pub fn scaled(self, factor: f64) -> Self {
@@ -110,9 +111,9 @@ impl TaylorModel {
     pub fn over(self, divisor: Self) -> Self {
         let value = self.value / divisor.value;
         let slope = (self.slope - value * divisor.slope) / divisor.value;
-        let least = size_of(divisor.value) - divisor.radius();
+        let least = modulus(divisor.value) - divisor.radius();
         // What is left of the dividend without (value + slope x) times the divisor, over the divisor.
-        let rest = self.rest + size_of(value) * divisor.rest + size_of(slope) * divisor.radius();
+        let rest = self.rest + modulus(value) * divisor.rest + modulus(slope) * divisor.radius();
         Self { value, slope, rest: if least > 0.0 { rest / least } else { f64::INFINITY } }
     }
 }
@@ -154,14 +155,29 @@ impl Mul for TaylorModel {
         Self {
             value: self.value * other.value,
             slope: self.value * other.slope + self.slope * other.value,
-            rest: size_of(self.slope) * size_of(other.slope) + self.size() * other.rest + other.size() * self.rest,
+            rest: modulus(self.slope) * modulus(other.slope) + self.size() * other.rest + other.size() * self.rest,
         }
     }
 }
 
-/// |x| of numbers whose squares are numbers.
-pub(super) fn size_of(x: Complex) -> f64 {
-    x.norm_sqr().sqrt()
+/// Rounding of a sum, relative to the size of its terms.
+const ROUNDING: f64 = 1e-15;
+
+/// Dead time of the largest of several terms with dead times over a cell; `None` where the enclosure of their sum contains zero.
+///
+/// The sum is taken in a frame that rotates with that term, so that dead times common to all terms need not be followed.
+pub(super) fn dominant_dead_time<const N: usize>(terms: [(TaylorModel, f64); N], cell: Cell) -> Option<f64> {
+    let sizes = terms.map(|(term, _)| modulus(term.value));
+    let largest = (0..N).max_by(|&i, &j| sizes[i].total_cmp(&sizes[j]))?;
+    let frame = terms[largest].1;
+    let mut sum = TaylorModel { rest: ROUNDING * sizes.iter().sum::<f64>(), ..TaylorModel::ZERO };
+    for (term, dead_time) in terms {
+        let own = dead_time - frame;
+        // A term that turns by more than a radian each way may have any argument.
+        let is_fast = (own * cell.half_width()).abs() > 1.0;
+        sum = sum + if is_fast { term.disc() } else { term * TaylorModel::dead_time(own, cell) };
+    }
+    (sum.radius() < modulus(sum.value)).then_some(frame)
 }
 
 #[cfg(test)]

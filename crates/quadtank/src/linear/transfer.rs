@@ -59,7 +59,7 @@ impl TransferFunction {
 
     /// Degree of a(s).
     fn order(&self) -> usize {
-        self.denominator.iter().rposition(|&c| c != 0.0).unwrap_or(0)
+        degree(&self.denominator).unwrap_or(0)
     }
 
     /// `self · other`: one after the other.
@@ -106,9 +106,9 @@ impl TransferFunction {
             return Err(LinearError::OutOfRange { field: "dead_time", value: self.dead_time });
         }
         let n = self.order();
-        let degree = self.numerator.iter().rposition(|&x| x != 0.0).unwrap_or(0);
-        if degree > n {
-            return Err(LinearError::OutOfRange { field: "relative_degree", value: n as f64 - degree as f64 });
+        let m = degree(&self.numerator).unwrap_or(0);
+        if m > n {
+            return Err(LinearError::OutOfRange { field: "relative_degree", value: n as f64 - m as f64 });
         }
         let leading = self.denominator[n];
         let beta = |k: usize| self.numerator.get(k).copied().unwrap_or(0.0) / leading;
@@ -138,6 +138,16 @@ impl TransferFunction {
     pub fn dc_gain(&self) -> f64 {
         self.at(Complex::ZERO).re
     }
+}
+
+/// Degree of a polynomial by rising powers; `None` for zero.
+pub(crate) fn degree(coefficients: &[f64]) -> Option<usize> {
+    coefficients.iter().rposition(|&c| c != 0.0)
+}
+
+/// Lowest power of a polynomial by rising powers; `None` for zero.
+pub(crate) fn lowest_power(coefficients: &[f64]) -> Option<usize> {
+    coefficients.iter().position(|&c| c != 0.0)
 }
 
 /// Coefficients of the product of two polynomials.

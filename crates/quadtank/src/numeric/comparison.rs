@@ -14,6 +14,12 @@ pub fn smaller(a: f64, b: f64) -> f64 {
     if a < b { a } else { b }
 }
 
+/// Whether a number is 0, so that serde leaves it out of a document.
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes references")]
+pub fn is_zero(number: &f64) -> bool {
+    *number == 0.0
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -18,23 +18,17 @@ pub struct Pump {
     pub voltage_max: f64,
     /// Flow that the straight line of the curve has at 0 V (m³/s); below 0 for a pump that needs some voltage before it lifts
     /// water.
-    #[serde(default, skip_serializing_if = "is_zero")]
+    #[serde(default, skip_serializing_if = "crate::numeric::is_zero")]
     pub offset: f64,
     /// Dead zone: voltage below which the pump gives nothing (V).
-    #[serde(default, skip_serializing_if = "is_zero")]
+    #[serde(default, skip_serializing_if = "crate::numeric::is_zero")]
     pub start_voltage: f64,
     /// Largest flow (m³/s); absent where the voltage alone limits it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub flow_max: Option<f64>,
     /// Transport delay θ of the hose behind the pump (s): what its voltage does to the flow reaches the tanks that much later.
-    #[serde(default, skip_serializing_if = "is_zero")]
+    #[serde(default, skip_serializing_if = "crate::numeric::is_zero")]
     pub delay_s: f64,
-}
-
-/// Whether a number is left out of a document.
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes references")]
-fn is_zero(number: &f64) -> bool {
-    *number == 0.0
 }
 
 impl Pump {

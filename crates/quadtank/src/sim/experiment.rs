@@ -176,14 +176,8 @@ pub struct Experiment {
     pub inflow_steps: Vec<InflowStep>,
     /// Process noise: standard deviation of the white Gaussian noise on the flow of each pump (m³/s), drawn anew at each sample
     /// and held until the next, from the same seed as the noise of the sensors.
-    #[serde(default, skip_serializing_if = "is_zero")]
+    #[serde(default, skip_serializing_if = "crate::numeric::is_zero")]
     pub pump_flow_noise_std: f64,
-}
-
-/// Whether a number is left out of a document.
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes references")]
-fn is_zero(number: &f64) -> bool {
-    *number == 0.0
 }
 
 impl Experiment {

@@ -1,5 +1,6 @@
 //! Zero dynamics of the nonlinear plant: what the upper tanks do while the lower ones stand still.
 
+use crate::numeric::runge_kutta_step;
 use crate::plant::{Disturbance, QuadrupleTank};
 
 /// Step of the integration, as a share of the smaller time constant of the upper tanks at the start.
@@ -34,6 +35,15 @@ pub enum ZeroDynamicsEnd {
         /// When (s from the start).
         after_s: f64,
     },
+}
+
+impl ZeroDynamicsEnd {
+    /// When it ends (s from the start of the prediction).
+    pub const fn after_s(self) -> f64 {
+        match self {
+            Self::Pump { after_s, .. } | Self::Overflow { after_s, .. } => after_s,
+        }
+    }
 }
 
 impl<'a> ZeroDynamics<'a> {
@@ -76,7 +86,7 @@ impl<'a> ZeroDynamics<'a> {
             if let Some(end) = self.end_at(levels, now) {
                 return Some(end);
             }
-            levels = self.after(levels, step);
+            levels = runge_kutta_step(|upper| self.rates(upper), levels, step);
             now += step;
         }
         None
@@ -93,16 +103,6 @@ impl<'a> ZeroDynamics<'a> {
         }
         let over = (0..2).find(|&i| upper[i] > self.plant.tanks[i + 2].height);
         over.map(|i| ZeroDynamicsEnd::Overflow { tank: i + 2, after_s })
-    }
-
-    /// A Runge–Kutta step of order 4.
-    fn after(&self, upper: [f64; 2], step: f64) -> [f64; 2] {
-        let from_here = |k: [f64; 2], by: f64| [upper[0] + by * k[0], upper[1] + by * k[1]];
-        let k1 = self.rates(upper);
-        let k2 = self.rates(from_here(k1, step / 2.0));
-        let k3 = self.rates(from_here(k2, step / 2.0));
-        let k4 = self.rates(from_here(k3, step));
-        [0, 1].map(|i| upper[i] + step / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]))
     }
 }
 

@@ -1,3 +1,4 @@
+use crate::control::Pairing;
 use crate::interaction::{PairingVerdict, niederlinski, recommend_pairing, relative_gain_array};
 use crate::linear::{Complex, LinearError, StateSpace, TransmissionZero, place_nearest_at_origin, transmission_zeros};
 use crate::plant::Jacobian;
@@ -61,6 +62,24 @@ impl LinearPlant {
     /// Whether relative gains are so large that some directions need far more input than others: the plant is hard to control.
     pub fn has_large_relative_gains(&self) -> bool {
         self.rga_11.is_ok_and(|gain| gain.abs() > LARGE_RELATIVE_GAIN)
+    }
+
+    /// The pairing that the relative gains suggest; `None` where they suggest none.
+    pub fn advised_pairing(&self) -> Option<Pairing> {
+        match self.verdict {
+            PairingVerdict::Diagonal(_) => Some(Pairing::Diagonal),
+            PairingVerdict::Swapped(_) => Some(Pairing::Swapped),
+            PairingVerdict::None(_) => None,
+        }
+    }
+
+    /// Niederlinski index of a pairing.
+    pub fn niederlinski_of(&self, pairing: Pairing) -> Option<f64> {
+        let [diagonal, swapped] = self.niederlinski;
+        match pairing {
+            Pairing::Diagonal => diagonal,
+            Pairing::Swapped => swapped,
+        }
     }
 
     /// The right-most transmission zero, which limits the loops.

@@ -66,6 +66,16 @@ impl<R: 'static> Quantity<R> {
     }
 }
 
+/// The largest number of a column; `None` for an empty one.
+pub(super) fn highest(column: &[f64]) -> Option<f64> {
+    column.iter().copied().reduce(f64::max)
+}
+
+/// The smallest number of a column; `None` for an empty one.
+pub(super) fn lowest(column: &[f64]) -> Option<f64> {
+    column.iter().copied().reduce(f64::min)
+}
+
 /// A verdict as a number.
 pub(super) const fn yes(is_so: bool) -> f64 {
     if is_so { 1.0 } else { 0.0 }

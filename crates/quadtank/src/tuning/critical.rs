@@ -3,8 +3,10 @@ use std::f64::consts::{LN_10, TAU};
 use nalgebra::Matrix2;
 
 use super::experiment::poles_off_the_origin;
-use crate::linear::{Complex, LinearError, Series, TransferMatrix, determinant_of_series, elements_as_series};
-use crate::numeric::{golden_section, root, square_root};
+use crate::linear::{
+    Complex, LinearError, Series, TransferFunction, TransferMatrix, determinant_of_series, elements_as_series,
+};
+use crate::numeric::{golden_section, modulus, root, square_root};
 
 /// Cells of the frequency grid for each decade, and most cells of all: a wide range has fewer for each decade.
 const PER_DECADE: f64 = 400.0;
@@ -60,10 +62,23 @@ pub enum GainLimit {
 /// its quickest part, dead times included.
 ///
 /// # Errors
-/// As [`TransferFunction::poles`](crate::linear::TransferFunction::poles).
+/// As [`TransferFunction::poles`].
 pub fn frequency_range(plant: &TransferMatrix) -> Result<(f64, f64), LinearError> {
+    // A plant of gains and integrators alone has no time of its own.
+    let (slowest, quickest) = rate_range(plant.0.as_flattened())?.unwrap_or((1.0, 1.0));
+    Ok((slowest * 0.01, quickest * 100.0))
+}
+
+/// Slowest and quickest rate (per unit of time) of elements: magnitudes of poles off the origin and reciprocals of dead times. `None`
+/// for gains and integrators alone.
+///
+/// # Errors
+/// As [`TransferFunction::poles`].
+pub(super) fn rate_range<'a>(
+    elements: impl IntoIterator<Item = &'a TransferFunction>,
+) -> Result<Option<(f64, f64)>, LinearError> {
     let (mut slowest, mut quickest) = (f64::INFINITY, 0.0_f64);
-    for element in plant.0.as_flattened() {
+    for element in elements {
         let rates = poles_off_the_origin(element)?.into_iter().map(Complex::norm);
         let delay = (element.dead_time() > 0.0).then(|| element.dead_time().recip());
         for rate in rates.chain(delay).filter(|&rate| rate > 0.0) {
@@ -71,8 +86,7 @@ pub fn frequency_range(plant: &TransferMatrix) -> Result<(f64, f64), LinearError
             quickest = quickest.max(rate);
         }
     }
-    // A plant of gains and integrators alone has no time of its own.
-    Ok(if quickest > 0.0 { (slowest * 0.01, quickest * 100.0) } else { (0.01, 100.0) })
+    Ok((quickest > 0.0).then_some((slowest, quickest)))
 }
 
 /// Direction `(k1, k2)` in which loop 2 has the importance r2 relative to loop 1,
@@ -152,11 +166,6 @@ struct Sample {
     determinant: Complex,
 }
 
-/// |x|, without the care of `hypot` for numbers that no plant has.
-fn size_of(x: Complex) -> f64 {
-    x.norm_sqr().sqrt()
-}
-
 impl Sample {
     fn of(plant: &TransferMatrix, frequency: f64) -> Self {
         let g = plant.at(Complex::new(0.0, frequency));
@@ -172,10 +181,10 @@ impl Sample {
     fn equation(&self, direction: [f64; 2]) -> f64 {
         let (t, d) = self.trace_and_determinant(direction);
         if direction.contains(&0.0) {
-            return t.im / size_of(t);
+            return t.im / modulus(t);
         }
         // Relative to its terms: the gain of the plant falls over many decades.
-        let size = d.norm_sqr() + t.norm_sqr() * size_of(d);
+        let size = d.norm_sqr() + t.norm_sqr() * modulus(d);
         (d.im * d.im - t.re * t.im * d.im + d.re * t.im * t.im) / size
     }
 
@@ -183,7 +192,7 @@ impl Sample {
     /// for the cell.
     fn least_factor(&self, direction: [f64; 2]) -> f64 {
         let (t, d) = self.trace_and_determinant(direction);
-        let (t, d) = (size_of(t), size_of(d));
+        let (t, d) = (modulus(t), modulus(d));
         // The positive root, without cancellation.
         0.9 * 2.0 / (t + (t * t + 4.0 * d).sqrt())
     }
@@ -203,8 +212,8 @@ impl Sample {
         let [one, two] = [t + root, t - root].map(|double| double * 0.5);
         // With one loop open one locus is zero.
         let slant = |locus: Complex| {
-            let size = size_of(locus);
-            if size <= f64::EPSILON * size_of(t) { f64::INFINITY } else { (locus.im / size).abs() }
+            let size = modulus(locus);
+            if size <= f64::EPSILON * modulus(t) { f64::INFINITY } else { (locus.im / size).abs() }
         };
         if slant(one) <= slant(two) { (one, slant(one)) } else { (two, slant(two)) }
     }

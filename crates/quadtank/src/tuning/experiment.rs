@@ -1,11 +1,11 @@
 //! Relay tests on a plant with two loops: single, independent, sequential and simultaneous (Campestrini 2006, §3.5 to 3.7).
 
 use crate::control::{IsaPid, ParallelPid, PidMatrix, Relay};
-use crate::linear::{Complex, DelayedPlant, LinearError, SignalPath, TransferFunction, TransferMatrix};
+use crate::linear::{Complex, DelayedPlant, LinearError, SignalPath, TransferFunction, TransferMatrix, lowest_power};
 use crate::sim::{HeldPlant, LoopTrace, MAX_WORK, TwoLoops, run_two_loops_within};
 
 use super::error::positive;
-use super::relay_reading::{Exciter, RelayReading, read_relay_test};
+use super::relay_reading::{RelayReading, read_relay_test};
 use super::{TuningError, TuningRule, UltimatePoint};
 
 /// Length and fineness of a test.
@@ -63,8 +63,7 @@ fn relay_test_within(
     let TestTime { duration, release, step } = time;
     let loops = TwoLoops { relays, controllers, references: [0.0; 2], release, duration, step };
     let trace = run_two_loops_within(plant, &loops, most_work);
-    let exciters = relays.map(|relay| relay.map(|r| Exciter { amplitude: r.amplitude, reversed: r.reversed }));
-    let reading = read_relay_test(&trace, exciters);
+    let reading = read_relay_test(&trace, relays);
     Ok(RelayTest { trace, reading })
 }
 
@@ -86,7 +85,7 @@ pub fn check_stable(plant: &TransferMatrix) -> Result<(), TuningError> {
 /// # Errors
 /// As [`TransferFunction::poles`].
 pub fn poles_off_the_origin(element: &TransferFunction) -> Result<Vec<Complex>, LinearError> {
-    let first = element.denominator().iter().position(|&c| c != 0.0).unwrap_or(0);
+    let first = lowest_power(element.denominator()).unwrap_or(0);
     TransferFunction::new(vec![1.0], element.denominator()[first..].to_vec(), 0.0)?.poles()
 }
 

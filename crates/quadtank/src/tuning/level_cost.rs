@@ -1,7 +1,6 @@
 use serde::{Deserialize, Serialize};
 
-use crate::control::{AntiWindup, ParallelPid, level_loop};
-use crate::linear::LoopStability;
+use crate::control::{AntiWindup, IsaPid, level_loop};
 use crate::plant::level::LevelPlant;
 use crate::sim::level::{LevelController, LevelExperiment, LevelFigures, LevelLog, LevelRunError, LevelSimulation};
 
@@ -142,8 +141,6 @@ impl LevelProblem {
 
 /// Ms of the linear loop around the rest of a simulation; `None` for an unstable loop, or where it is not computed.
 pub fn sensitivity_peak(simulation: &LevelSimulation, gain: f64, integral_time_s: f64) -> Option<f64> {
-    let pid = ParallelPid { proportional: gain, integral: gain / integral_time_s, ..ParallelPid::default() };
-    let linear = level_loop(simulation.gains(), &pid, 0.0, 0.0).ok()?;
-    let is_stable = linear.stability() == LoopStability::Stable;
-    is_stable.then(|| linear.margins()).flatten().map(|margins| margins.distance.recip())
+    let pid = IsaPid { gain, integral_time: integral_time_s, derivative_time: 0.0 };
+    level_loop(simulation.gains(), &pid.into(), 0.0, 0.0).ok()?.sensitivity_peak()
 }

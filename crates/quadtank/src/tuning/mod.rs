@@ -12,6 +12,7 @@ mod level_cost;
 mod limit_cycle;
 mod model_rules;
 mod pair_rules;
+mod pi_tuning;
 mod placement;
 mod process_model;
 mod proposal;
@@ -37,18 +38,18 @@ pub use level_cost::{CostMeasure, LevelCost, LevelProblem, LevelWorth, VIOLATION
 pub use limit_cycle::{LimitCycle, limit_cycles};
 pub use model_rules::ModelRule;
 pub use pair_rules::{PairRule, PairRuleError};
-pub use placement::{ControllerPair, integral_action_may_be_stable, place_both_loci, place_one_locus};
-pub use process_model::ProcessModel;
-pub use proposal::{
-    Action, PlacementMethod, PlacementWarning, Proposal, dynamic_relative_gain, propose, response_at, warnings_of_gains,
+pub use pi_tuning::PiTuning;
+pub use placement::{
+    ControllerPair, dynamic_relative_gain, integral_action_may_be_stable, place_both_loci, place_one_locus,
 };
+pub use process_model::ProcessModel;
+pub use proposal::{Action, PlacementMethod, PlacementWarning, Proposal, propose, response_at, warnings_of_gains};
 pub use reaction_curve::{ReactionError, ReactionFit, ReactionMethod, StepRecord};
 pub use regulation::{
     Regulation, RegulationError, RegulationReason, SetPointStretch, open_loop_regulation, proportional_regulation,
 };
 pub use relay_reading::{
-    CurveDistance, Exciter, LoopMeasurement, Oscillation, RelayReading, RelayVerdict, distance_from_curve,
-    read_relay_test,
+    CurveDistance, LoopMeasurement, Oscillation, RelayReading, RelayVerdict, distance_from_curve, read_relay_test,
 };
 pub use rules::{TuningRule, UltimatePoint};
 pub use tank_elements::tank_transfer_matrix;

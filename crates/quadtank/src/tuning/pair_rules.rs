@@ -158,13 +158,8 @@ fn from_ultimate_point(element: &TransferFunction, number: usize, rule: TuningRu
 /// Settings with gains divided and integral times multiplied by the factor of the BLT method; by 1 where the log modulus is not above
 /// the one wanted anyway.
 fn detuned(plant: &TransferMatrix, settings: [IsaPid; 2]) -> Result<[IsaPid; 2], PairRuleError> {
-    let with = |factor: f64| {
-        settings.map(|IsaPid { gain, integral_time, derivative_time }| IsaPid {
-            gain: gain / factor,
-            integral_time: integral_time * factor,
-            derivative_time,
-        })
-    };
+    // The factor of BLT and the detuning factor f of Campestrini (2006, eqs. 92, 93) are the same for PI.
+    let with = |factor: f64| settings.map(|pid| pid.detuned(factor));
     let is_enough = |factor: f64| -> Result<bool, TuningError> {
         let design = Design::new(plant, PidMatrix::decentralised(with(factor).map(Into::into)))?;
         let is_stable = design.stability() == LoopStability::Stable;

@@ -29,10 +29,14 @@ pub fn place_one_locus(g: &Matrix2<Complex>, target: Complex, ratio: f64) -> [Co
 /// `p1 = (λ/g11)(1 ± √(1 − Λ11))`, `p2 = (λ/g22)(1 ∓ √(1 − Λ11))`; the one with the larger p1 first. Without interaction
 /// (Λ11 = 1) each loop is placed alone. λ is a double eigenvalue: the loci are sensitive there.
 pub fn place_both_loci(g: &Matrix2<Complex>, target: Complex) -> [ControllerPair; 2] {
-    let product = g[(0, 0)] * g[(1, 1)];
-    let relative_gain = product / (product - g[(0, 1)] * g[(1, 0)]);
-    let root = square_root(Complex::ONE - relative_gain);
+    let root = square_root(Complex::ONE - dynamic_relative_gain(g));
     larger_first([root, -root].map(|root| [target / g[(0, 0)] * (root + 1.0), target / g[(1, 1)] * (-root + 1.0)]))
+}
+
+/// `Λ11(jω) = g11 g22/det G`, the dynamic relative gain at a frequency: with method B, `p1 = (λ/g11)(1 ± √(1 − Λ11))`.
+pub fn dynamic_relative_gain(g: &Matrix2<Complex>) -> Complex {
+    let product = g[(0, 0)] * g[(1, 1)];
+    product / (product - g[(0, 1)] * g[(1, 0)])
 }
 
 fn larger_first([one, other]: [ControllerPair; 2]) -> [ControllerPair; 2] {

@@ -168,12 +168,6 @@ pub fn warnings_of_gains(dc_gain: &Matrix2<f64>, controllers: [ParallelPid; 2]) 
     found
 }
 
-/// `Λ11(jω) = g11 g22/det G`, the dynamic relative gain at a frequency: with method B, `p1 = (λ/g11)(1 ± √(1 − Λ11))`.
-pub fn dynamic_relative_gain(g: &Matrix2<Complex>) -> Complex {
-    let product = g[(0, 0)] * g[(1, 1)];
-    product / (product - g[(0, 1)] * g[(1, 0)])
-}
-
 /// G(jω) of a plant.
 pub fn response_at(plant: &TransferMatrix, frequency: f64) -> Matrix2<Complex> {
     plant.at(Complex::new(0.0, frequency))

@@ -2,6 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use crate::control::Relay;
 use crate::linear::Complex;
 use crate::sim::{Halt, LoopTrace};
 
@@ -105,17 +106,8 @@ pub struct RelayReading {
     pub oscillation: Option<Oscillation>,
 }
 
-/// A relay as the reading needs to know it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Exciter {
-    /// Amplitude d.
-    pub amplitude: f64,
-    /// Whether the gain of the loop is negative.
-    pub reversed: bool,
-}
-
 /// Reads a record of relays.
-pub fn read_relay_test(trace: &LoopTrace, exciters: [Option<Exciter>; 2]) -> RelayReading {
+pub fn read_relay_test(trace: &LoopTrace, relays: [Option<Relay>; 2]) -> RelayReading {
     let nothing = |verdict| RelayReading { verdict, oscillation: None };
     let otherwise = |verdict| match trace.halt {
         Some(Halt::Full { time }) => nothing(RelayVerdict::Unfinished { time }),
@@ -126,7 +118,7 @@ pub fn read_relay_test(trace: &LoopTrace, exciters: [Option<Exciter>; 2]) -> Rel
         Some(Halt::Diverged { .. }) => return nothing(RelayVerdict::Diverged),
         Some(Halt::Full { .. }) | None => (),
     }
-    let active: Vec<usize> = (0..2).filter(|&i| exciters[i].is_some()).collect();
+    let active: Vec<usize> = (0..2).filter(|&i| relays[i].is_some()).collect();
     if active.is_empty() || active.iter().any(|&i| trace.switches[i].len() < 4) {
         return otherwise(RelayVerdict::NoOscillation);
     }
@@ -135,13 +127,13 @@ pub fn read_relay_test(trace: &LoopTrace, exciters: [Option<Exciter>; 2]) -> Rel
         let slack = period * TOLERANCE;
         trace.switches[i].iter().filter(|(time, _)| *time > end - period + slack && *time <= end + slack).count()
     };
-    let switches = [0, 1].map(|i| if exciters[i].is_some() { in_period(i) } else { 0 });
+    let switches = [0, 1].map(|i| if relays[i].is_some() { in_period(i) } else { 0 });
     let verdict = if active.iter().all(|&i| switches[i] == 2) {
         RelayVerdict::Unimodal
     } else {
         RelayVerdict::Multimodal { switches }
     };
-    let loops = [0, 1].map(|i| measure(trace, i, exciters[i], period, end));
+    let loops = [0, 1].map(|i| measure(trace, i, relays[i], period, end));
     RelayReading { verdict, oscillation: Some(Oscillation { period, loops }) }
 }
 
@@ -173,7 +165,7 @@ fn comes_again(switches: &[(f64, bool)], period: f64, first: f64, end: f64) -> b
 }
 
 /// Amplitude and first harmonics of one loop over the last three periods.
-fn measure(trace: &LoopTrace, index: usize, exciter: Option<Exciter>, period: f64, end: f64) -> LoopMeasurement {
+fn measure(trace: &LoopTrace, index: usize, relay: Option<Relay>, period: f64, end: f64) -> LoopMeasurement {
     let begin = end - ALIKE * period;
     let w = TAU / period;
     let (times, inputs, outputs) = (&trace.time, &trace.inputs[index], &trace.outputs[index]);
@@ -203,14 +195,14 @@ fn measure(trace: &LoopTrace, index: usize, exciter: Option<Exciter>, period: f6
     let high = window.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let low = window.iter().copied().fold(f64::INFINITY, f64::min);
     let amplitude = 0.5 * (high - low);
-    let signed = |gain: f64, of: Exciter| if of.reversed { -gain } else { gain };
+    let signed = |gain: f64, of: Relay| if of.reversed { -gain } else { gain };
     LoopMeasurement {
         amplitude,
         input,
         output,
-        gain_by_peak: exciter.map(|of| signed(4.0 * of.amplitude / (PI * amplitude), of)),
-        gain_by_harmonic: exciter.map(|of| signed(input.norm() / output.norm(), of)),
-        turn: exciter.map(|of| (input / output * signed(-1.0, of)).arg()),
+        gain_by_peak: relay.map(|of| signed(4.0 * of.amplitude / (PI * amplitude), of)),
+        gain_by_harmonic: relay.map(|of| signed(input.norm() / output.norm(), of)),
+        turn: relay.map(|of| (input / output * signed(-1.0, of)).arg()),
     }
 }
 

@@ -1,6 +1,7 @@
 use std::f64::consts::TAU;
 
 use super::UltimatePoint;
+use super::critical::rate_range;
 use crate::linear::{Complex, LinearError, TransferFunction};
 use crate::numeric::root;
 
@@ -13,20 +14,11 @@ const POINTS: i32 = 600;
 /// # Errors
 /// [`LinearError::NoConvergence`] as [`TransferFunction::poles`].
 pub fn ultimate_point_of(process: &TransferFunction) -> Result<Option<UltimatePoint>, LinearError> {
-    let poles = process.poles()?;
-    let rates = poles.iter().map(|pole| pole.norm());
-    let delay = (process.dead_time() > 0.0).then(|| process.dead_time().recip());
-    let rates: Vec<f64> = rates.chain(delay).filter(|&rate| rate > 0.0).collect();
-    let Some(quickest) = rates.iter().copied().reduce(f64::max) else { return Ok(None) };
-    let slowest = rates.iter().copied().fold(f64::INFINITY, f64::min);
+    let Some((slowest, quickest)) = rate_range([process])? else { return Ok(None) };
     let (low, high) = (0.01 * slowest, 100.0 * quickest);
-    // A process with negative gain is that of the other sign with a controller of the other sign.
     let at = |w: f64| process.at(Complex::new(0.0, w));
-    let sign = {
-        let start = at(low);
-        let integrators = poles.iter().filter(|pole| pole.norm() == 0.0).count();
-        (start * Complex::new(0.0, 1.0).powu(u32::try_from(integrators).unwrap_or(0))).re.signum()
-    };
+    // A process with negative gain is that of the other sign with a controller of the other sign.
+    let sign = process.rest_gain().signum();
     let side = |w: f64| sign * at(w).im;
     let frequency = |k: i32| low * (high / low).powf(f64::from(k) / f64::from(POINTS));
     for k in 1..=POINTS {

@@ -3,9 +3,10 @@
 use quadtank::assess::{BothIndices, IndexVerdict, VarianceIndex};
 use quadtank::literature::andreis::{
     self, CURRENT_TUNING, INDICES, PublishedDisturbance, PublishedIndex, PublishedMethod, PublishedModel,
-    PublishedObjective, PublishedVariance, Tuning, VARIANCES, WRONG_INDICES,
+    PublishedObjective, PublishedVariance, VARIANCES, WRONG_INDICES,
 };
 use quadtank::sim::level::{LevelController, LevelSimulation, SampleStatistics};
+use quadtank::tuning::PiTuning;
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
@@ -16,7 +17,7 @@ use PublishedObjective::{Averaging, Tight};
 
 use crate::within;
 
-fn statistics(disturbance: PublishedDisturbance, model: PublishedModel, tuning: Tuning) -> [SampleStatistics; 2] {
+fn statistics(disturbance: PublishedDisturbance, model: PublishedModel, tuning: PiTuning) -> [SampleStatistics; 2] {
     let plant = if model == Uncertain { andreis::uncertain_plant() } else { andreis::plant() };
     let simulation = LevelSimulation::new(&plant, &disturbance.experiment()).unwrap();
     let log = simulation.run(&LevelController::pi(tuning.gain, tuning.integral_time_s)).unwrap();
@@ -28,7 +29,7 @@ fn tuning(
     objective: PublishedObjective,
     method: PublishedMethod,
     model: PublishedModel,
-) -> Tuning {
+) -> PiTuning {
     PublishedVariance::find(disturbance, objective, method, model).unwrap().tuning
 }
 

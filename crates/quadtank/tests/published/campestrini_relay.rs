@@ -6,7 +6,7 @@ use quadtank::control::Relay;
 use quadtank::linear::{Complex, TransferFunction};
 use quadtank::literature::campestrini::PublishedPlant;
 use quadtank::tuning::{
-    CriticalSearch, CurveDistance, Exciter, LimitCycle, RelayTest, RelayVerdict, TestTime, TuningError, TuningRule,
+    CriticalSearch, CurveDistance, LimitCycle, RelayTest, RelayVerdict, TestTime, TuningError, TuningRule,
     distance_from_curve, frequency_range, independent_tuning, limit_cycles, modulus_estimator, read_relay_test,
     sequential_tuning, simultaneous_test, sine_test, single_loop_test, with_integrator,
 };
@@ -224,13 +224,13 @@ fn a_relay_that_has_stuck_is_not_read_as_an_oscillation() {
     let cycle = only_cycle(plant);
     let time = TestTime { duration: 40.0 * cycle.period, release: cycle.period, step: cycle.period / 100.0 };
     let test = single_loop_test(plant, Relay::ideal(1.0, 1.0), time).unwrap();
-    let exciters = [Some(Exciter { amplitude: 1.0, reversed: false }), None];
+    let relays = [Some(Relay::ideal(1.0, 1.0)), None];
     let mut trace = test.trace.clone();
-    assert_eq!(read_relay_test(&trace, exciters).verdict, RelayVerdict::Unimodal);
+    assert_eq!(read_relay_test(&trace, relays).verdict, RelayVerdict::Unimodal);
     // The record goes on, the switches do not.
     let half = trace.switches[0].len() / 2;
     trace.switches[0].truncate(half);
-    assert_eq!(read_relay_test(&trace, exciters).verdict, RelayVerdict::NotPeriodic);
+    assert_eq!(read_relay_test(&trace, relays).verdict, RelayVerdict::NotPeriodic);
 }
 
 #[test]

@@ -7,7 +7,6 @@ use super::super::session::{Session, use_session};
 use crate::texts::{say, terms, tr};
 use crate::widgets::{Card, Text, marked};
 use quadtank::control::Pairing;
-use quadtank::interaction::PairingVerdict;
 use quadtank::linear::Stability;
 use quadtank::study::quadruple_tank::calmed;
 
@@ -36,7 +35,7 @@ pub fn PairingCard() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
     let pairing = session.part(|s| s.controller.pairing);
-    let swap = move |_| session.edit(|s| s.controller.pairing = other(s.controller.pairing));
+    let swap = move |_| session.edit(|s| s.controller.pairing = s.controller.pairing.other());
     let finding = Memo::new(move |_| finding(session));
     let beside = move || {
         view! {
@@ -71,21 +70,10 @@ pub fn PairingCard() -> impl IntoView {
     }
 }
 
-const fn other(pairing: Pairing) -> Pairing {
-    match pairing {
-        Pairing::Diagonal => Pairing::Swapped,
-        Pairing::Swapped => Pairing::Diagonal,
-    }
-}
-
 fn finding(session: Session) -> Option<Finding> {
     let pairing = session.throttled.setup.with(|s| s.controller.pairing);
     session.throttled.with_analysis(|a| {
-        let advised = match a.linear.verdict {
-            PairingVerdict::Diagonal(_) => Pairing::Diagonal,
-            PairingVerdict::Swapped(_) => Pairing::Swapped,
-            PairingVerdict::None(_) => return Finding::Neither,
-        };
+        let Some(advised) = a.linear.advised_pairing() else { return Finding::Neither };
         match (advised == pairing, a.closed_loop.stability) {
             (false, _) => Finding::Wrong,
             (true, Stability::Stable) => Finding::Right,

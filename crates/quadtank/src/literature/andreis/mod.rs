@@ -17,8 +17,8 @@ pub use indices::{
     remarks_on_table,
 };
 pub use rig::{
-    CURRENT_TUNING, NOMINAL_INFLOW, NOMINAL_LEVEL, STEP_TEST_INFLOW, Tuning, UNCERTAIN_AREA,
-    UNCERTAIN_VALVE_COEFFICIENT, VALVE_COEFFICIENT, plant, uncertain_plant,
+    CURRENT_TUNING, NOMINAL_INFLOW, NOMINAL_LEVEL, STEP_TEST_INFLOW, UNCERTAIN_AREA, UNCERTAIN_VALVE_COEFFICIENT,
+    VALVE_COEFFICIENT, plant, uncertain_plant,
 };
 pub use summaries::{CHANGES, PublishedChange, PublishedRanks, PublishedVerdict, RANKS, VERDICTS};
 pub use tables::{PublishedMethod, PublishedModel, PublishedObjective, PublishedVariance, VARIANCES};

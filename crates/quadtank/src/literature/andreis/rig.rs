@@ -2,15 +2,7 @@ use crate::plant::level::{
     Actuator, ActuatorCurve, Characteristic, ControlValve, Converter, LevelPlant, LevelTank, Outflow, OutputStage,
     SignalRange, Transmitter, ValvePlace,
 };
-
-/// Settings of a series PI controller (Andreis 2017, Eq. 33).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tuning {
-    /// Gain Kp (mA/mA).
-    pub gain: f64,
-    /// Integral time Ti (s).
-    pub integral_time_s: f64,
-}
+use crate::tuning::PiTuning;
 
 /// Level of all experiments (m), Table 4.2.
 pub const NOMINAL_LEVEL: f64 = 1.0;
@@ -25,7 +17,7 @@ pub const UNCERTAIN_VALVE_COEFFICIENT: f64 = 380.0;
 /// Area of the model with errors (m²), §5.1.
 pub const UNCERTAIN_AREA: f64 = 1.1;
 /// The controller of the plant as it is, §5.1.
-pub const CURRENT_TUNING: Tuning = Tuning { gain: 10.0, integral_time_s: 2500.0 };
+pub const CURRENT_TUNING: PiTuning = PiTuning { gain: 10.0, integral_time_s: 2500.0 };
 
 /// `K_V`, from gpm/√psi to m³/s, Table 4.1.
 const UNIT_FACTOR: f64 = 2.401_53e-5;

@@ -1,4 +1,5 @@
-use super::{PublishedDisturbance, Tuning};
+use super::PublishedDisturbance;
+use crate::tuning::PiTuning;
 
 use PublishedDisturbance::{Random, SineH, SineL};
 use PublishedMethod::{Current, Genetic, Gradient, Lambda, Skogestad};
@@ -61,7 +62,7 @@ pub struct PublishedVariance {
     /// The model.
     pub model: PublishedModel,
     /// The controller.
-    pub tuning: Tuning,
+    pub tuning: PiTuning,
     /// As printed: of the level (m²; the unit in print is wrong) or of the outflow ((m³/s)²).
     pub variance: f64,
 }
@@ -75,7 +76,7 @@ const fn row(
     integral_time_s: f64,
     variance: f64,
 ) -> PublishedVariance {
-    PublishedVariance { disturbance, objective, method, model, tuning: Tuning { gain, integral_time_s }, variance }
+    PublishedVariance { disturbance, objective, method, model, tuning: PiTuning { gain, integral_time_s }, variance }
 }
 
 /// Tables 5.1 to 5.6. The row of the current controller is that of the plant in both halves of a table.

@@ -171,9 +171,14 @@ impl LevelExperiment {
             finite("size", step.size)?;
         }
         if self.duration_s < self.log_step_s {
-            return Err(LevelRunError::EmptyLog { duration_s: self.duration_s, log_step_s: self.log_step_s });
+            return Err(self.empty_log());
         }
         Ok(())
+    }
+
+    /// The error for a run with fewer than two rows.
+    pub fn empty_log(&self) -> LevelRunError {
+        LevelRunError::EmptyLog { duration_s: self.duration_s, log_step_s: self.log_step_s }
     }
 }
 

@@ -1,4 +1,5 @@
 use super::LevelRunError;
+use crate::numeric::runge_kutta_step;
 use crate::plant::level::HeatedTank;
 
 /// A run of a heated tank at a constant inflow.
@@ -46,23 +47,13 @@ pub fn heated_run(
     let mut state = [level, temperature];
     let mut row = 0.0;
     while row < steps {
-        state = step(tank, inflow, step_s, state);
+        state = runge_kutta_step(|[level, temperature]| tank.rates(level, temperature, inflow), state, step_s);
         row += 1.0;
         run.time_s.push(row * step_s);
         run.level.push(state[0]);
         run.temperature.push(state[1]);
     }
     Ok(run)
-}
-
-fn step(tank: &HeatedTank, inflow: f64, step: f64, x: [f64; 2]) -> [f64; 2] {
-    let rates = |x: [f64; 2]| tank.rates(x[0], x[1], inflow);
-    let ahead = |k: [f64; 2], by: f64| [x[0] + by * k[0], x[1] + by * k[1]];
-    let k1 = rates(x);
-    let k2 = rates(ahead(k1, 0.5 * step));
-    let k3 = rates(ahead(k2, 0.5 * step));
-    let k4 = rates(ahead(k3, step));
-    std::array::from_fn(|i| x[i] + step / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]))
 }
 
 #[cfg(test)]

@@ -64,8 +64,7 @@ pub fn run_level_loop(setup: &LevelLoopSetup) -> Result<LevelLoopAnswer, LevelLo
     let log = simulation.run(&setup.controller).map_err(at("controller"))?;
     let gain = plant.transmitter.gain();
     let experiment = &setup.experiment;
-    let empty = LevelRunError::EmptyLog { duration_s: experiment.duration_s, log_step_s: experiment.log_step_s };
-    let figures = LevelFigures::of(&log, gain).ok_or(LevelLoopFault { field: "experiment", fault: empty })?;
+    let figures = LevelFigures::of(&log, gain).ok_or_else(|| at("experiment")(experiment.empty_log()))?;
     let reference = reference_figures(setup);
     let indices = reference
         .as_ref()
@@ -92,6 +91,5 @@ fn reference_figures(setup: &LevelLoopSetup) -> Result<LevelFigures, LevelRunErr
     };
     let experiment = &setup.experiment;
     let log = LevelSimulation::new(&model, experiment)?.run(&controller)?;
-    let empty = LevelRunError::EmptyLog { duration_s: experiment.duration_s, log_step_s: experiment.log_step_s };
-    LevelFigures::of(&log, model.transmitter.gain()).ok_or(empty)
+    LevelFigures::of(&log, model.transmitter.gain()).ok_or_else(|| experiment.empty_log())
 }

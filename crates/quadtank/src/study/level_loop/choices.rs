@@ -1,7 +1,6 @@
 use crate::literature::LevelPresetId;
 use crate::literature::andreis::{
     CURRENT_TUNING, PublishedDisturbance, PublishedMethod, PublishedModel, PublishedObjective, PublishedVariance,
-    Tuning,
 };
 use crate::plant::level::{LevelPlant, OutflowLaw};
 use crate::sim::level::{InflowSignal, LevelController, LevelExperiment};
@@ -48,12 +47,6 @@ impl OwnDisturbance {
     }
 }
 
-impl From<Tuning> for PiTuning {
-    fn from(tuning: Tuning) -> Self {
-        Self { gain: tuning.gain, integral_time_s: tuning.integral_time_s }
-    }
-}
-
 impl Objective {
     /// The objective of the source.
     pub const fn published(self) -> PublishedObjective {
@@ -93,7 +86,7 @@ impl LevelLoopSetup {
         let current = PublishedTuning {
             method: PublishedMethod::Current,
             objective: PublishedObjective::Tight,
-            tuning: CURRENT_TUNING.into(),
+            tuning: CURRENT_TUNING,
         };
         let methods =
             [PublishedMethod::Gradient, PublishedMethod::Genetic, PublishedMethod::Skogestad, PublishedMethod::Lambda];
@@ -101,7 +94,7 @@ impl LevelLoopSetup {
         let rows = both.into_iter().flat_map(|objective| methods.map(|method| (objective, method)));
         let printed = rows.filter_map(|(objective, method)| {
             let row = PublishedVariance::find(disturbance, objective, method, PublishedModel::Nominal)?;
-            Some(PublishedTuning { method, objective, tuning: row.tuning.into() })
+            Some(PublishedTuning { method, objective, tuning: row.tuning })
         });
         std::iter::once(current).chain(printed).fold(Vec::new(), |mut known, next| {
             if known.iter().all(|one: &PublishedTuning| one.tuning != next.tuning) {

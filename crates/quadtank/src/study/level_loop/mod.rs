@@ -17,6 +17,7 @@ mod suggestions;
 mod summaries;
 mod trade_off;
 
+pub use crate::tuning::PiTuning;
 pub use answer::{LevelLoopAnswer, LevelLoopFault, run_level_loop};
 pub use choices::{OwnDisturbance, PublishedTuning};
 pub use contour::{ContourMap, ContourSettings};
@@ -30,9 +31,7 @@ pub use published::{
 };
 pub use results::{LevelLoopStudy, PlantAnswer, Results};
 pub use search::{LevelSearch, SearchMethod};
-pub use setup::{
-    Harris, LevelLoopSetup, LevelPlantSpec, ModelError, ModelSource, Objective, PiTuning, SearchSpec, StepTestSpec,
-};
+pub use setup::{Harris, LevelLoopSetup, LevelPlantSpec, ModelError, ModelSource, Objective, SearchSpec, StepTestSpec};
 pub use step_test::{ModelMatch, StepTestAnswer, StepTestFault, run_step_test};
 pub use suggestions::{SuggestedRule, Suggestion, suggest};
 pub use summaries::{ComparedSummary, SUMMARY_TABLES, SummaryEntry, SummaryRow, compare_summary};

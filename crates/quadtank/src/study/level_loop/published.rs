@@ -1,7 +1,6 @@
 use crate::literature::andreis::{
     self, AndreisRemark, CURRENT_TUNING, INDICES, PublishedDisturbance, PublishedFeatures, PublishedIndex,
-    PublishedMethod, PublishedModel, PublishedObjective, PublishedVariance, Tuning, VARIANCES, WRONG_INDICES,
-    remarks_on_table,
+    PublishedMethod, PublishedModel, PublishedObjective, PublishedVariance, VARIANCES, WRONG_INDICES, remarks_on_table,
 };
 use crate::literature::{LevelPresetId, level_slides};
 use crate::plant::level::LevelPlant;
@@ -26,7 +25,7 @@ pub struct Compared {
     /// Model of the row.
     pub model: PublishedModel,
     /// The tuning.
-    pub tuning: Tuning,
+    pub tuning: PiTuning,
     /// As printed.
     pub printed: f64,
     /// As computed.
@@ -132,7 +131,7 @@ impl ComparedTable {
             PublishedObjective::Tight => Objective::Tight,
             PublishedObjective::Averaging => Objective::Averaging { band: setup.usual_band() },
         });
-        setup.set_pi_tuning(row.tuning.into());
+        setup.set_pi_tuning(row.tuning);
         setup
     }
 }
@@ -148,13 +147,12 @@ pub(super) fn plant_of(model: PublishedModel) -> LevelPlant {
 pub(super) fn variances(
     plant: &LevelPlant,
     disturbance: PublishedDisturbance,
-    tuning: Tuning,
+    tuning: PiTuning,
 ) -> Result<[f64; 2], LevelRunError> {
     let experiment = disturbance.experiment();
     let controller = LevelController::pi(tuning.gain, tuning.integral_time_s);
     let log = LevelSimulation::new(plant, &experiment)?.run(&controller)?;
-    let empty = LevelRunError::EmptyLog { duration_s: experiment.duration_s, log_step_s: experiment.log_step_s };
-    Ok(log.statistics(0..log.len()).ok_or(empty)?.map(|of| of.variance))
+    Ok(log.statistics(0..log.len()).ok_or_else(|| experiment.empty_log())?.map(|of| of.variance))
 }
 
 fn compare(
@@ -201,7 +199,7 @@ impl ComparedFeatures {
     /// The loop behind them.
     pub fn setup(&self) -> LevelLoopSetup {
         let mut setup = published_setup(LevelPresetId::Andreis, PublishedDisturbance::SineL);
-        setup.set_pi_tuning(self.printed.tuning.into());
+        setup.set_pi_tuning(self.printed.tuning);
         setup
     }
 }

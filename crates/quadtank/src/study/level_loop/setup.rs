@@ -5,7 +5,7 @@ use crate::literature::{LevelPresetId, andreis};
 use crate::plant::level::LevelPlant;
 use crate::sim::level::{LevelController, LevelExperiment};
 use crate::tuning::search::{Axis, AxisScale};
-use crate::tuning::{CostMeasure, LevelCost, ReactionMethod};
+use crate::tuning::{CostMeasure, LevelCost, PiTuning, ReactionMethod};
 
 /// The loop of a setup: a published one by name, or all its parameters.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -90,17 +90,6 @@ pub struct ModelError {
 impl ModelError {
     /// None.
     pub const NONE: Self = Self { area_factor: 1.0, flow_factor: 1.0 };
-}
-
-/// Gain and integral time of a PI controller.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields)]
-pub struct PiTuning {
-    /// Gain Kp, signal per signal.
-    pub gain: f64,
-    /// Integral time Ti (s).
-    pub integral_time_s: f64,
 }
 
 /// What is searched, and within which limits.

@@ -4,10 +4,11 @@ use crate::assess::{IndexVerdict, VarianceIndex};
 use crate::literature::andreis::{
     AndreisRemark, CHANGES, CURRENT_TUNING, HUNDREDTHS, INDICES, PublishedChange, PublishedDisturbance,
     PublishedMethod, PublishedModel, PublishedObjective, PublishedRanks, PublishedVariance, PublishedVerdict, RANKS,
-    Tuning, VERDICTS, remarks_on_table,
+    VERDICTS, remarks_on_table,
 };
 use crate::sim::level::LevelRunError;
 
+use super::PiTuning;
 use super::published::{Compared, compare_index, plant_of, variances};
 
 /// The tables that [`compare_summary`] computes, 15 for 5.15.
@@ -66,7 +67,7 @@ fn variance(
     disturbance: PublishedDisturbance,
     objective: PublishedObjective,
     model: PublishedModel,
-    tuning: Tuning,
+    tuning: PiTuning,
 ) -> Result<f64, LevelRunError> {
     let [level, outflow] = variances(&plant_of(model), disturbance, tuning)?;
     Ok(if objective == PublishedObjective::Tight { level } else { outflow })
@@ -78,7 +79,7 @@ fn tuning_of(
     objective: PublishedObjective,
     method: PublishedMethod,
     model: PublishedModel,
-) -> Tuning {
+) -> PiTuning {
     PublishedVariance::find(disturbance, objective, method, model)
         .or_else(|| PublishedVariance::find(disturbance, objective, PublishedMethod::Skogestad, model))
         .map_or(CURRENT_TUNING, |row| row.tuning)

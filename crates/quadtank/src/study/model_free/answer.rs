@@ -86,6 +86,13 @@ pub struct ModelFreeAnswer {
     pub predicted: Option<PredictedLoss>,
 }
 
+impl ModelFreeAnswer {
+    /// When the first level is lost (s); `None` where none is.
+    pub fn lost_at_s(&self) -> Option<f64> {
+        self.figures.iter().filter_map(|figures| figures.lost_at_s).reduce(f64::min)
+    }
+}
+
 /// How near to its reference a level counts as held (a share of the reference), and for how long (s): it must not only pass.
 const HELD: f64 = 0.02;
 const HELD_FOR_S: f64 = 10.0;

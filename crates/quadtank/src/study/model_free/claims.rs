@@ -128,12 +128,12 @@ fn case_b() -> Result<CheckedClaim, StudyError> {
     let of_a = run((A, S2), None)?.0.figures[0].iae;
     Ok(CheckedClaim {
         claim: Claim::CaseB,
-        standing: match (lost_at(&answer), long_verdict) {
+        standing: match (answer.lost_at_s(), long_verdict) {
             (None, ModelFreeVerdict::Settled(_)) => Standing::Reproduced,
             (None, _) => Standing::LimitedTime,
             _ => Standing::Refuted,
         },
-        figures: [answer.figures[0].iae, of_a, ends_s, lost_at(&long).unwrap_or(f64::INFINITY)],
+        figures: [answer.figures[0].iae, of_a, ends_s, long.lost_at_s().unwrap_or(f64::INFINITY)],
         case,
         duration_s: LONG_RUN_S,
     })
@@ -141,7 +141,7 @@ fn case_b() -> Result<CheckedClaim, StudyError> {
 
 fn any_zero() -> Result<CheckedClaim, StudyError> {
     let case = (B, S3);
-    let lost_s = lost_at(&run(case, None)?.0);
+    let lost_s = run(case, None)?.0.lost_at_s();
     let setup = ModelFreeSetup::published(case.0, case.1);
     let theory = analyse_model_free(&setup);
     let plant = theory.linear.as_ref().and_then(|plant| plant.as_ref().ok());
@@ -212,9 +212,4 @@ fn model_gain() -> CheckedClaim {
         case,
         duration_s: setup.experiment.duration_s,
     }
-}
-
-/// When the first level was lost (s).
-fn lost_at(answer: &ModelFreeAnswer) -> Option<f64> {
-    answer.figures.iter().filter_map(|figures| figures.lost_at_s).reduce(f64::min)
 }

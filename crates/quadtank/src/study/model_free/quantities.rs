@@ -3,8 +3,8 @@
 use crate::control::{ModelFreePoles, Pairing};
 use crate::linear::{Stability, TransmissionZero};
 use crate::plant::OperatingPoint;
-use crate::sim::{EventKind, TrackingMetrics, Trajectory, ZeroDynamicsEnd};
-use crate::study::quantity::yes;
+use crate::sim::{EventKind, TrackingMetrics, Trajectory};
+use crate::study::quantity::{highest, lowest, yes};
 use crate::study::{LinearPlant, Quantity};
 
 use super::{ModelFreeAnswer, ModelFreeVerdict, PredictedLoss, Results};
@@ -33,11 +33,7 @@ fn rightmost(results: &Results) -> Option<&TransmissionZero> {
 }
 
 fn niederlinski(results: &Results) -> Option<f64> {
-    let [diagonal, swapped] = linear(results)?.niederlinski;
-    match results.setup.controller.pairing {
-        Pairing::Diagonal => diagonal,
-        Pairing::Swapped => swapped,
-    }
+    linear(results)?.niederlinski_of(results.setup.controller.pairing)
 }
 
 fn poles(results: &Results) -> Option<&ModelFreePoles> {
@@ -75,11 +71,6 @@ fn compared(results: &Results, index: usize) -> Option<TrackingMetrics> {
     Some(answer(results)?.comparison.as_ref()?.1[index])
 }
 
-/// When the first level is lost.
-fn lost_at(results: &Results) -> Option<f64> {
-    answer(results)?.figures.iter().filter_map(|figures| figures.lost_at_s).reduce(f64::min)
-}
-
 fn predicted(results: &Results) -> Option<PredictedLoss> {
     answer(results)?.predicted
 }
@@ -87,23 +78,12 @@ fn predicted(results: &Results) -> Option<PredictedLoss> {
 /// When the zero dynamics end the tracking.
 fn foretold_end(results: &Results) -> Option<f64> {
     let predicted = predicted(results)?;
-    let after_s = match predicted.ends? {
-        ZeroDynamicsEnd::Pump { after_s, .. } | ZeroDynamicsEnd::Overflow { after_s, .. } => after_s,
-    };
-    Some(predicted.from_s + after_s)
+    Some(predicted.from_s + predicted.ends?.after_s())
 }
 
 fn verdict(results: &Results, is_meant: fn(&ModelFreeVerdict) -> bool) -> Option<f64> {
     let verdict = ModelFreeVerdict::of(&results.setup, answer(results)?, &results.analysis);
     Some(yes(is_meant(&verdict)))
-}
-
-fn highest(column: &[f64]) -> Option<f64> {
-    column.iter().copied().reduce(f64::max)
-}
-
-fn lowest(column: &[f64]) -> Option<f64> {
-    column.iter().copied().reduce(f64::min)
 }
 
 fn happened(results: &Results, is_meant: fn(EventKind) -> bool) -> Option<f64> {
@@ -164,7 +144,7 @@ pub const QUANTITIES: &[Quantity<Results>] = &[
     q("run.duration", "s", "How long the experiment lasts.", |r| Some(r.setup.experiment.duration_s)),
     q("run.time_at_limit", "s", "How long the outputs of both loops are at a limit, added.", |r| Some(figures(r, 0)?.saturated_s + figures(r, 1)?.saturated_s)),
     q("run.iae_sum", "m s", "∫ |r − h| dt over the whole run, both levels added.", |r| Some(figures(r, 0)?.iae + figures(r, 1)?.iae)),
-    q("run.lost_at", "s", "When the first level leaves its reference for good; none where none does.", lost_at),
+    q("run.lost_at", "s", "When the first level leaves its reference for good; none where none does.", |r| answer(r)?.lost_at_s()),
     q("run.foretold_from", "s", "From when on the zero dynamics foretell an end of the tracking.", |r| Some(predicted(r)?.from_s)),
     q("run.foretold_end", "s", "When the zero dynamics say that a pump or an upper tank ends the tracking; none where they foretell no end.", foretold_end),
     q("run.final_level1", "m", "Level 1 at the end of the run.", |r| ran(r)?.levels[0].last().copied()),

@@ -76,7 +76,7 @@ impl ModelFreeVerdict {
     pub fn of(setup: &ModelFreeSetup, answer: &ModelFreeAnswer, analysis: &ModelFreeAnalysis) -> Self {
         let run = &answer.run.trajectory;
         let predicted = answer.predicted.and_then(|predicted| Some((predicted.ends?, predicted.from_s)));
-        let foretold = predicted.map(|(ends, from_s)| (ends, from_s + after_s(ends)));
+        let foretold = predicted.map(|(ends, from_s)| (ends, from_s + ends.after_s()));
         let losses = answer.figures.iter().enumerate().filter_map(|(level, f)| Some((level, f.lost_at_s?)));
         if let Some((level, at_s)) = losses.min_by(|a, b| a.1.total_cmp(&b.1)) {
             return Self::Lost { level, at_s, by: loss_by(&setup.plant_at(at_s), run, at_s), foretold };
@@ -104,13 +104,6 @@ impl ModelFreeVerdict {
 fn is_settled(figures: &TrackingMetrics) -> bool {
     let stays = !matches!(figures.no_response, Some(NoResponse::UnstableLoop | NoResponse::MarginalLoop));
     figures.looks_settled && stays
-}
-
-/// Time from the prediction on (s).
-fn after_s(ends: ZeroDynamicsEnd) -> f64 {
-    match ends {
-        ZeroDynamicsEnd::Pump { after_s, .. } | ZeroDynamicsEnd::Overflow { after_s, .. } => after_s,
-    }
 }
 
 /// Largest error and largest reference of a level in the last quarter of a run (m).

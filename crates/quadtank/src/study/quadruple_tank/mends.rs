@@ -1,5 +1,3 @@
-use crate::control::Pairing;
-use crate::interaction::PairingVerdict;
 use crate::linear::Stability;
 use crate::sim::NoResponse;
 
@@ -33,10 +31,7 @@ impl Mend {
             Self::CalmLoops => calmed(setup),
             Self::AdvisedPairing => {
                 let mut tried = setup.clone();
-                tried.controller.pairing = match setup.controller.pairing {
-                    Pairing::Diagonal => Pairing::Swapped,
-                    Pairing::Swapped => Pairing::Diagonal,
-                };
+                tried.controller.pairing = setup.controller.pairing.other();
                 calmed(&tried)
             }
             Self::PublishedValves => {
@@ -53,15 +48,11 @@ impl Mend {
 /// What makes an unstable loop stable. A pairing that is advised against comes before gains. On the border of stability, as with a
 /// singular gain, no gains help: other valves do. `analysis` is `None` where no voltages hold the levels that are asked for.
 pub fn mend_loop(setup: &Setup, analysis: Option<&Analysis>) -> Option<Mend> {
-    let candidates = match analysis.map(|analysis| (analysis.closed_loop.stability, analysis.linear.verdict)) {
+    let candidates = match analysis.map(|analysis| (analysis.closed_loop.stability, analysis.linear.advised_pairing()))
+    {
         Some((Stability::Stable, _)) => &[][..],
         None | Some((Stability::Marginal, _)) => &[Mend::PublishedValves],
-        Some((Stability::Unstable, verdict)) => {
-            let advised = match verdict {
-                PairingVerdict::Diagonal(_) => Some(Pairing::Diagonal),
-                PairingVerdict::Swapped(_) => Some(Pairing::Swapped),
-                PairingVerdict::None(_) => None,
-            };
+        Some((Stability::Unstable, advised)) => {
             if advised.is_some_and(|advised| advised != setup.controller.pairing) {
                 &[Mend::AdvisedPairing]
             } else {
@@ -120,6 +111,7 @@ fn is_free(setup: &Setup) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::control::Pairing;
     use crate::literature::PresetId;
     use crate::study::quadruple_tank::{analyse, setup_of};
 

@@ -1,11 +1,10 @@
 //! The numbers of the home bench by their names.
 
 use crate::control::{AntiWindup, LoopMode, Pairing};
-use crate::interaction::PairingVerdict;
 use crate::linear::{LinearError, Stability, TransmissionZero};
 use crate::sim::{EventKind, LoopMetrics, Settling};
 use crate::study::Quantity;
-use crate::study::quantity::yes;
+use crate::study::quantity::{highest, lowest, yes};
 
 use super::{Analysis, FrequencyCurves, GuaranteedMargins, Results, Run};
 
@@ -38,19 +37,11 @@ fn gain_determinant(results: &Results) -> Option<f64> {
 }
 
 fn niederlinski_of(results: &Results, pairing: Pairing) -> Option<f64> {
-    let [diagonal, swapped] = theory(results)?.linear.niederlinski;
-    match pairing {
-        Pairing::Diagonal => diagonal,
-        Pairing::Swapped => swapped,
-    }
+    theory(results)?.linear.niederlinski_of(pairing)
 }
 
 fn recommended_is_diagonal(results: &Results) -> Option<f64> {
-    match theory(results)?.linear.verdict {
-        PairingVerdict::Diagonal(_) => Some(1.0),
-        PairingVerdict::Swapped(_) => Some(0.0),
-        PairingVerdict::None(_) => None,
-    }
+    Some(yes(theory(results)?.linear.advised_pairing()? == Pairing::Diagonal))
 }
 
 fn has_anti_windup(results: &Results, index: usize) -> bool {
@@ -93,14 +84,6 @@ fn costs_of_pump(results: &Results, pump: usize) -> Option<&LoopMetrics> {
 
 fn last(column: &[f64]) -> Option<f64> {
     column.last().copied()
-}
-
-fn highest(column: &[f64]) -> Option<f64> {
-    column.iter().copied().reduce(f64::max)
-}
-
-fn lowest(column: &[f64]) -> Option<f64> {
-    column.iter().copied().reduce(f64::min)
 }
 
 fn happened(results: &Results, is_meant: fn(EventKind) -> bool) -> Option<f64> {

@@ -1,6 +1,6 @@
 use thiserror::Error;
 
-use crate::linear::{LinearError, TransferFunction};
+use crate::linear::{LinearError, TransferFunction, degree};
 use crate::tuning::poles_off_the_origin;
 use serde::{Deserialize, Serialize};
 
@@ -74,11 +74,6 @@ impl Element {
         let rightmost = self.transfer_function().and_then(|element| poles_off_the_origin(&element)).ok()?.last()?.re;
         (rightmost >= 0.0).then_some(ElementFault::Unstable { real_part: rightmost })
     }
-}
-
-/// Degree of a polynomial by rising powers; `None` for zero.
-fn degree(coefficients: &[f64]) -> Option<usize> {
-    coefficients.iter().rposition(|&c| c != 0.0)
 }
 
 #[cfg(test)]

@@ -40,10 +40,10 @@ pub struct GivenPid {
     #[serde(default)]
     pub derivative_time: f64,
     /// Integral gain ki of the parallel form; 0 in the others.
-    #[serde(default, skip_serializing_if = "is_zero")]
+    #[serde(default, skip_serializing_if = "crate::numeric::is_zero")]
     pub integral_gain: f64,
     /// Derivative gain kd of the parallel form; 0 in the others.
-    #[serde(default, skip_serializing_if = "is_zero")]
+    #[serde(default, skip_serializing_if = "crate::numeric::is_zero")]
     pub derivative_gain: f64,
     /// Time constant Tf of the derivative filter; a hundredth of the derivative time kd/kp where it is absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -53,11 +53,6 @@ pub struct GivenPid {
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks by reference")]
 fn is_isa(form: &PidForm) -> bool {
     *form == PidForm::Isa
-}
-
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks by reference")]
-fn is_zero(value: &f64) -> bool {
-    *value == 0.0
 }
 
 /// Why a controller has no other form.
