@@ -161,9 +161,6 @@ enum Kind {
     QuickOpening,
 }
 
-/// Rangeability of an equal-percentage valve: that of the source.
-const RANGEABILITY: f64 = 30.0;
-
 #[component]
 fn CharacteristicSwitch() -> impl IntoView {
     let session = use_session();
@@ -186,7 +183,8 @@ fn CharacteristicSwitch() -> impl IntoView {
                 s.edit_plant(|plant| {
                     plant.valve.characteristic = match kind {
                         Kind::Linear => Characteristic::Linear,
-                        Kind::EqualPercentage => Characteristic::EqualPercentage { rangeability: RANGEABILITY },
+                        // That of the source.
+                        Kind::EqualPercentage => andreis::plant().valve.characteristic,
                         Kind::QuickOpening => Characteristic::QuickOpening,
                     };
                 });

@@ -2,7 +2,7 @@
 
 use leptos::prelude::*;
 use quadtank::sim::level::LevelController;
-use quadtank::study::level_loop::{LevelLoopSetup, Objective, PiTuning};
+use quadtank::study::level_loop::{LevelLoopSetup, Objective};
 
 use super::assess::AssessCard;
 use super::course::CourseCard;
@@ -62,16 +62,12 @@ const TRIES: [Try; 3] = [
     ("try-off", |setup| LevelLoopSetup { controller: LevelController::off(), ..tuned(setup, true) }),
 ];
 
-/// The default tunings of the two jobs, where the source has none for the loop and its disturbance.
-const USUAL: [PiTuning; 2] =
-    [PiTuning { gain: 17.4, integral_time_s: 23.5 }, PiTuning { gain: 0.2, integral_time_s: 588.0 }];
-
 fn tuned(setup: &LevelLoopSetup, averaging: bool) -> LevelLoopSetup {
     let mut setup = setup.clone();
     let objective = if averaging { Objective::Averaging { band: setup.usual_band() } } else { Objective::Tight };
     setup.set_objective(objective);
-    let published = !setup.published_tunings().is_empty();
-    setup.set_pi_tuning(if published { setup.reference } else { USUAL[usize::from(averaging)] });
+    let best = setup.best_known_tuning();
+    setup.set_pi_tuning(best);
     setup
 }
 

@@ -7,7 +7,7 @@ use super::sentences::in_cm;
 use super::session::{Session, load, use_session};
 use crate::texts::{say, tr};
 use crate::widgets::{Card, marked};
-use quadtank::study::model_free::{CheckedClaim, Claim, Standing, check_claims};
+use quadtank::study::model_free::{CheckedClaim, Claim, ClaimFigures, Standing, check_claims};
 
 const IDS: [&str; 5] = ["claim-a", "claim-b", "claim-zero", "claim-c", "claim-alpha"];
 
@@ -67,7 +67,7 @@ fn Item(claim: CheckedClaim, id: &'static str) -> impl IntoView {
 
 fn standing(session: Session, claim: &CheckedClaim) -> String {
     let lab = session.lab;
-    match (claim.claim, claim.standing) {
+    match (claim.claim(), claim.standing) {
         (Claim::ModelGain, Standing::Reproduced) => tr!(lab, free.enough),
         (_, Standing::Reproduced) => tr!(lab, free.reproduced),
         (_, Standing::EqualSetPoints) => tr!(lab, free.equal_set_points),
@@ -81,32 +81,31 @@ fn texts(session: Session, claim: &CheckedClaim) -> (String, String) {
     let lab = session.lab;
     let style = lab.number_style();
     let number = |value: f64, digits| style.fixed(value, digits);
-    let [one, two, three, four] = claim.figures;
-    match claim.claim {
-        Claim::CaseA => {
-            let (iae, overshoot) = (number(in_cm(one), 0), number(100.0 * two, 0));
-            let (share, time) = (number(100.0 * three, 0), number(four, 0));
+    match claim.figures {
+        ClaimFigures::CaseA { iae, overshoot, share_at_limit, settling_s } => {
+            let (iae, overshoot) = (number(in_cm(iae), 0), number(100.0 * overshoot, 0));
+            let (share, time) = (number(100.0 * share_at_limit, 0), number(settling_s, 0));
             let found = tr!(lab, free.found_a, iae = iae, overshoot = overshoot, share = share, time = time);
             (tr!(lab, free.claim_a), found)
         }
-        Claim::CaseB => {
-            let (b, a) = (number(in_cm(one), 0), number(in_cm(two), 0));
-            let found = tr!(lab, free.found_b, b = b, a = a, ends = number(three, 0), lost = number(four, 0));
+        ClaimFigures::CaseB { iae, iae_of_case_a, ends_s, lost_s } => {
+            let (b, a) = (number(in_cm(iae), 0), number(in_cm(iae_of_case_a), 0));
+            let found = tr!(lab, free.found_b, b = b, a = a, ends = number(ends_s, 0), lost = number(lost_s, 0));
             (tr!(lab, free.claim_b), found)
         }
-        Claim::AnyZero => {
-            let (after, rga) = (number(one, 0), number(two, 2));
-            let (index, pole) = (number(three, 2), style.significant(four, 2));
+        ClaimFigures::AnyZero { lost_after_s, rga_11, niederlinski, rightmost_pole } => {
+            let (after, rga) = (number(lost_after_s, 0), number(rga_11, 2));
+            let (index, pole) = (number(niederlinski, 2), style.significant(rightmost_pole, 2));
             let found = tr!(lab, free.found_zero, after = after, rga = rga, index = index, pole = pole);
             (tr!(lab, free.claim_zero), found)
         }
-        Claim::CaseC => {
-            let (equal, apart) = (number(in_cm(one), 2), number(in_cm(two), 1));
-            let found = tr!(lab, free.found_c, equal = equal, apart = apart, unequal = number(in_cm(three), 2));
+        ClaimFigures::CaseC { error, apart, error_unequal } => {
+            let (equal, apart) = (number(in_cm(error), 2), number(in_cm(apart), 1));
+            let found = tr!(lab, free.found_c, equal = equal, apart = apart, unequal = number(in_cm(error_unequal), 2));
             (tr!(lab, free.claim_c), found)
         }
-        Claim::ModelGain => {
-            let (smallest, alone) = (number(in_cm(one), 4), number(in_cm(two), 4));
+        ClaimFigures::ModelGain { smallest, smallest_of_tank_1 } => {
+            let (smallest, alone) = (number(in_cm(smallest), 4), number(in_cm(smallest_of_tank_1), 4));
             let found = tr!(lab, free.found_alpha, smallest = smallest, alone = alone);
             (tr!(lab, free.claim_alpha), found)
         }

@@ -53,7 +53,7 @@ pub fn ReferenceMark(level: usize, drawing: NodeRef<Svg>) -> impl IntoView {
     };
     let on_drag = move |drag: Drag| {
         if let Some((size, metres_per_px)) = grabbed.get_value() {
-            set(drag.moved.1.mul_add(-metres_per_px, size));
+            set(size - drag.moved.1 * metres_per_px);
         }
     };
     let on_nudge = move |by: Nudge| {

@@ -139,7 +139,7 @@ fn on_the_line_the_zero_is_at_the_origin_and_beside_it_on_its_side() {
 #[test]
 fn every_claim_of_the_paper_stands_as_the_documentation_says() -> Result<(), StudyError> {
     let claims = check_claims()?;
-    let standing: Vec<(Claim, Standing)> = claims.iter().map(|claim| (claim.claim, claim.standing)).collect();
+    let standing: Vec<(Claim, Standing)> = claims.iter().map(|claim| (claim.claim(), claim.standing)).collect();
     assert_eq!(
         standing,
         [
@@ -154,12 +154,12 @@ fn every_claim_of_the_paper_stands_as_the_documentation_says() -> Result<(), Stu
     for claim in claims {
         let setup = claim.setup();
         let seen = ModelFreeVerdict::of(&setup, &run_model_free(&setup)?, &analyse_model_free(&setup));
-        let fails = match claim.claim {
+        let fails = match claim.claim() {
             // It shows what is too small.
             Claim::ModelGain => !matches!(seen, ModelFreeVerdict::Unsettled { .. }),
             _ => matches!(seen, ModelFreeVerdict::Lost { .. } | ModelFreeVerdict::Rippling { apart: Some(_), .. }),
         };
-        assert_eq!(fails, claim.standing != Standing::Reproduced, "{:?}: {seen:?}", claim.claim);
+        assert_eq!(fails, claim.standing != Standing::Reproduced, "{:?}: {seen:?}", claim.claim());
     }
     Ok(())
 }

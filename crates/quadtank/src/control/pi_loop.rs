@@ -132,7 +132,7 @@ impl<'a> PiLoop<'a> {
     /// An element of the plant over the delay of its input, as a function of w = 1/z. A dry tank has none: its sensor is left out.
     fn element<T: Arithmetic>(&self, lower: usize, input: usize, w: T) -> T {
         let upper = lower + 2;
-        let lag = |tank: usize| w.over(T::real(1.0) + -(T::real(self.transition[(tank, tank)]) * w));
+        let lag = |tank: usize| w / (T::real(1.0) - T::real(self.transition[(tank, tank)]) * w);
         let arriving = |tank: usize| T::real(self.input[(tank, input)]) + T::real(self.late[(tank, input)]) * w;
         if self.sensor[lower] == 0.0 {
             return T::real(0.0);
@@ -149,7 +149,7 @@ const WHOLE: f64 = 1e-9;
 /// `det(I + L)` times `1 − w` for each loop that acts, whose law has its pole there: with `L = G K`, columns by loops.
 impl DelayedLoop for PiLoop<'_> {
     fn terms<T: Arithmetic>(&self, w: T) -> [T; 4] {
-        let difference = T::real(1.0) + -w;
+        let difference = T::real(1.0) - w;
         let parts = self.controller.loops.map(|settings| {
             let integral = self.controller.sampling_time_s / (2.0 * settings.integral_time_s);
             // Tustin's rule, (z + 1)/(z − 1) = (1 + w)/(1 − w).
@@ -158,7 +158,7 @@ impl DelayedLoop for PiLoop<'_> {
         });
         let [(own_1, law_1), (own_2, law_2)] = parts;
         let g = [0, 1].map(|lower| [0, 1].map(|input| self.element(lower, input, w)));
-        let determinant = g[0][0] * g[1][1] + -(g[0][1] * g[1][0]);
+        let determinant = g[0][0] * g[1][1] - g[0][1] * g[1][0];
         [own_1 * own_2, g[0][0] * law_1 * own_2, g[1][1] * law_2 * own_1, determinant * law_1 * law_2]
     }
 

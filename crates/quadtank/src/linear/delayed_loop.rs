@@ -70,7 +70,7 @@ mod tests {
 
     impl DelayedLoop for Integrator {
         fn terms<T: Arithmetic>(&self, w: T) -> [T; 4] {
-            [T::real(1.0) + -w, T::real(self.gain) * w, T::real(0.0), T::real(0.0)]
+            [T::real(1.0) - w, T::real(self.gain) * w, T::real(0.0), T::real(0.0)]
         }
 
         fn delays(&self) -> [f64; 4] {

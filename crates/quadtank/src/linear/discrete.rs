@@ -62,15 +62,6 @@ impl DiscreteStateSpace {
         Ok(&self.c * state + &self.d * input)
     }
 
-    /// State one sample later, `x[k+1] = A x[k] + B u[k]`.
-    ///
-    /// # Errors
-    /// [`LinearError::Dimension`] when state or input has the wrong length.
-    pub fn next_state(&self, state: &DVector<f64>, input: &DVector<f64>) -> Result<DVector<f64>, LinearError> {
-        self.check(state, input)?;
-        Ok(&self.a * state + &self.b * input)
-    }
-
     /// Poles: the eigenvalues of A (z-plane), by rising real part.
     ///
     /// # Errors
@@ -113,7 +104,7 @@ mod tests {
         let input = dvector![2.0];
         let mut state = dvector![0.0];
         for _ in 0..30 {
-            state = sampled.next_state(&state, &input).unwrap();
+            state = &sampled.a * state + &sampled.b * &input;
         }
         let expected = 4.0 * (1.0 - (-1.5_f64).exp()) + 0.5;
         assert_relative_eq!(sampled.output(&state, &input).unwrap()[0], expected, max_relative = 1e-14);
@@ -142,7 +133,7 @@ mod tests {
     fn vectors_of_the_wrong_length_are_refused() {
         let model = StateSpace::strictly_proper(dmatrix![-1.0], dmatrix![1.0], dmatrix![1.0]).unwrap();
         let sampled = model.sampled(1.0).unwrap();
-        let error = sampled.next_state(&dvector![1.0, 2.0], &dvector![1.0]);
+        let error = sampled.output(&dvector![1.0, 2.0], &dvector![1.0]);
         assert!(matches!(error, Err(LinearError::Dimension { matrix: "A", .. })));
         assert!(matches!(sampled.output(&dvector![1.0], &dvector![]), Err(LinearError::Dimension { matrix: "B", .. })));
     }

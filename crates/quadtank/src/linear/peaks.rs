@@ -89,7 +89,7 @@ const LOG_MODULUS: Measure = Measure {
         if change < 1.0 { at_end + change / (1.0 - change) / least } else { f64::INFINITY }
     },
     over: |ratio| {
-        let modulus = TaylorModel::ONE + -TaylorModel::ONE.over(return_difference(ratio));
+        let modulus = TaylorModel::ONE - TaylorModel::ONE / return_difference(ratio);
         modulus.size()
     },
 };
@@ -106,7 +106,7 @@ const SENSITIVITY: Measure = Measure {
         let [[a, b], [c, d]] = ratio.elements;
         let difference = return_difference(ratio);
         let adjugate = [[TaylorModel::ONE + d, -b], [-c, TaylorModel::ONE + a]];
-        let s = adjugate.map(|row| row.map(|element| element.over(difference)));
+        let s = adjugate.map(|row| row.map(|element| element / difference));
         // A norm is convex: along a straight line it is largest at an end.
         let end = |side: f64| {
             largest_singular_value(&Matrix2::from_fn(|row, column| {
@@ -114,8 +114,9 @@ const SENSITIVITY: Measure = Measure {
                 element.value + element.slope * side
             }))
         };
-        let rest = s.as_flattened().iter().map(|element| element.rest * element.rest).sum::<f64>().sqrt();
-        end(-1.0).max(end(1.0)) + rest
+        let remainder =
+            s.as_flattened().iter().map(|element| element.remainder * element.remainder).sum::<f64>().sqrt();
+        end(-1.0).max(end(1.0)) + remainder
     },
 };
 

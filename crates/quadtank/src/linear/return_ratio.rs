@@ -138,7 +138,7 @@ impl<'a> ReturnRatio<'a> {
     /// The trace and the determinant of L over a cell.
     pub(super) fn invariants(&self, cell: Cell) -> Invariants {
         let RatioOver { largest, elements: [[a, b], [c, d]], determinant } = self.over(cell);
-        let half_difference = (a + -d).scaled(0.5);
+        let half_difference = (a - d) * 0.5;
         Invariants {
             largest,
             ratio: Matrix2::new(a.value, b.value, c.value, d.value),
@@ -240,9 +240,9 @@ impl Invariants {
     fn radius_along(&self, value: Complex) -> f64 {
         let (trace, determinant) = (self.trace, self.determinant);
         let slope = self.slope_along(value);
-        let tangent = TaylorModel { value, slope, rest: 0.0 };
-        let residual = (tangent * tangent + -(trace * tangent) + determinant).size();
-        let gap = tangent.scaled(2.0) + -trace;
+        let tangent = TaylorModel { value, slope, remainder: 0.0 };
+        let residual = (tangent * tangent - trace * tangent + determinant).size();
+        let gap = tangent * 2.0 - trace;
         let least_gap = modulus(gap.value) - gap.radius();
         let square = least_gap * least_gap - 4.0 * residual;
         if least_gap > 0.0 && square >= 0.0 {
@@ -265,7 +265,7 @@ fn over(matrix: &TransferMatrix, cell: Cell) -> [[TaylorModel; 2]; 2] {
 }
 
 fn determinant([[a, b], [c, d]]: &[[TaylorModel; 2]; 2]) -> TaylorModel {
-    *a * *d + -(*b * *c)
+    *a * *d - *b * *c
 }
 
 /// The frequency below which a polynomial is its lowest power, to a relative deviation; infinite for a single power.

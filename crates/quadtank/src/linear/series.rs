@@ -1,7 +1,10 @@
 //! Transfer functions near s = 0 as power series: what an integrating plant is at rest, where its value is not finite.
 
-use super::{TransferFunction, TransferMatrix};
+use std::ops::{Add, Mul, Sub};
+
 use nalgebra::Matrix2;
+
+use super::{TransferFunction, TransferMatrix};
 
 /// Terms that are kept. A determinant of elements of the highest order that is simulated begins at s⁻¹⁶ at the lowest, and only terms
 /// up to s⁰ matter.
@@ -40,7 +43,7 @@ impl Series {
         for k in 1..TERMS {
             delay.coefficients[k] = delay.coefficients[k - 1] * -function.dead_time() / k as f64;
         }
-        quotient.times(&delay)
+        quotient * delay
     }
 
     /// A polynomial from its lowest power on; `None` for zero.
@@ -51,37 +54,6 @@ impl Series {
             *kept = *c;
         }
         Some(series)
-    }
-
-    pub(crate) fn times(&self, other: &Self) -> Self {
-        let at = |k: usize| (0..=k).map(|i| self.coefficients[i] * other.coefficients[k - i]).sum();
-        Self { lowest: self.lowest + other.lowest, coefficients: std::array::from_fn(at) }
-    }
-
-    pub(crate) fn scaled(&self, factor: f64) -> Self {
-        Self { coefficients: self.coefficients.map(|c| c * factor), ..*self }
-    }
-
-    /// The sum, without what rounding leaves where terms cancel.
-    pub(crate) fn plus(&self, other: &Self) -> Self {
-        if self.is_zero() || other.is_zero() {
-            return if self.is_zero() { *other } else { *self };
-        }
-        let lowest = self.lowest.min(other.lowest);
-        let at = |of: &Self, k: usize| {
-            let index = usize::try_from(lowest - of.lowest)
-                .map_or_else(|_| k.checked_sub(usize::try_from(of.lowest - lowest).unwrap_or(usize::MAX)), |_| Some(k));
-            index.and_then(|index| of.coefficients.get(index)).copied().unwrap_or(0.0)
-        };
-        let sum = |k: usize| {
-            let (x, y) = (at(self, k), at(other, k));
-            if (x + y).abs() <= ROUNDING * (x.abs() + y.abs()) { 0.0 } else { x + y }
-        };
-        Self { lowest, coefficients: std::array::from_fn(sum) }
-    }
-
-    pub(crate) fn minus(&self, other: &Self) -> Self {
-        self.plus(&other.scaled(-1.0))
     }
 
     fn is_zero(&self) -> bool {
@@ -106,19 +78,63 @@ impl Series {
     }
 }
 
+impl Add for Series {
+    type Output = Self;
+
+    /// The sum, without what rounding leaves where terms cancel.
+    fn add(self, other: Self) -> Self {
+        if self.is_zero() || other.is_zero() {
+            return if self.is_zero() { other } else { self };
+        }
+        let lowest = self.lowest.min(other.lowest);
+        let mut sum = Self { lowest, ..Self::ZERO };
+        for (power, c) in (lowest..).zip(&mut sum.coefficients) {
+            let (x, y) = (self.coefficient(power), other.coefficient(power));
+            *c = if (x + y).abs() <= ROUNDING * (x.abs() + y.abs()) { 0.0 } else { x + y };
+        }
+        sum
+    }
+}
+
+impl Sub for Series {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        self + other * -1.0
+    }
+}
+
+impl Mul for Series {
+    type Output = Self;
+
+    #[expect(clippy::suspicious_arithmetic_impl, reason = "powers add up in a product")]
+    fn mul(self, other: Self) -> Self {
+        let at = |k: usize| (0..=k).map(|i| self.coefficients[i] * other.coefficients[k - i]).sum();
+        Self { lowest: self.lowest + other.lowest, coefficients: std::array::from_fn(at) }
+    }
+}
+
+impl Mul<f64> for Series {
+    type Output = Self;
+
+    fn mul(self, factor: f64) -> Self {
+        Self { coefficients: self.coefficients.map(|c| c * factor), ..self }
+    }
+}
+
 /// The elements of a matrix.
 pub(crate) fn elements(matrix: &TransferMatrix) -> Matrix2<Series> {
     Matrix2::from_fn(|row, column| Series::of(&matrix.0[row][column]))
 }
 
 pub(crate) fn determinant(matrix: &Matrix2<Series>) -> Series {
-    matrix[(0, 0)].times(&matrix[(1, 1)]).minus(&matrix[(0, 1)].times(&matrix[(1, 0)]))
+    matrix[(0, 0)] * matrix[(1, 1)] - matrix[(0, 1)] * matrix[(1, 0)]
 }
 
 /// `det(I + G K)` of series.
 pub(crate) fn return_difference(g: &Matrix2<Series>, k: &Matrix2<Series>) -> Series {
     let trace = (0..2)
         .flat_map(|row| (0..2).map(move |column| (row, column)))
-        .fold(Series::ZERO, |sum, (row, column)| sum.plus(&g[(row, column)].times(&k[(column, row)])));
-    Series::constant(1.0).plus(&trace).plus(&determinant(g).times(&determinant(k)))
+        .fold(Series::ZERO, |sum, (row, column)| sum + g[(row, column)] * k[(column, row)]);
+    Series::constant(1.0) + trace + determinant(g) * determinant(k)
 }

@@ -1,6 +1,6 @@
 //! Enclosures of functions of frequency over a cell: Taylor models of order one (Makino and Berz 2003, in the form for complex values).
 
-use std::ops::{Add, Mul, Neg};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::{Complex, TransferFunction};
 use crate::numeric::modulus;
@@ -28,20 +28,16 @@ impl Cell {
 }
 
 /// Numbers that a characteristic function is computed with: values of it, or enclosures over a cell.
-pub(crate) trait Arithmetic: Copy + Add<Output = Self> + Mul<Output = Self> + Neg<Output = Self> {
+pub(crate) trait Arithmetic:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
+{
     /// A constant.
     fn real(value: f64) -> Self;
-    /// The quotient.
-    fn over(self, divisor: Self) -> Self;
 }
 
 impl Arithmetic for Complex {
     fn real(value: f64) -> Self {
         Self::from(value)
-    }
-
-    fn over(self, divisor: Self) -> Self {
-        self / divisor
     }
 }
 
@@ -49,18 +45,14 @@ impl Arithmetic for TaylorModel {
     fn real(value: f64) -> Self {
         Self::constant(Complex::from(value))
     }
-
-    fn over(self, divisor: Self) -> Self {
-        Self::over(self, divisor)
-    }
 }
 
-/// A complex function over a cell: within `rest` of `value + slope x`, where x goes from −1 to 1 across the cell.
+/// A complex function over a cell: within `remainder` of `value + slope x`, where x goes from −1 to 1 across the cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct TaylorModel {
     pub value: Complex,
     pub slope: Complex,
-    pub rest: f64,
+    pub remainder: f64,
 }
 
 impl TaylorModel {
@@ -68,7 +60,7 @@ impl TaylorModel {
     pub const ONE: Self = Self::constant(Complex::ONE);
 
     const fn constant(value: Complex) -> Self {
-        Self { value, slope: Complex::ZERO, rest: 0.0 }
+        Self { value, slope: Complex::ZERO, remainder: 0.0 }
     }
 
     /// The frequency, relative to the middle of the cell.
@@ -78,7 +70,7 @@ impl TaylorModel {
 
     /// Largest distance from the value in the middle.
     pub fn radius(&self) -> f64 {
-        modulus(self.slope) + self.rest
+        modulus(self.slope) + self.remainder
     }
 
     /// Largest absolute value.
@@ -86,39 +78,25 @@ impl TaylorModel {
         modulus(self.value) + self.radius()
     }
 
-    pub fn scaled(self, factor: f64) -> Self {
-        Self { value: self.value * factor, slope: self.slope * factor, rest: self.rest * factor.abs() }
-    }
-
     /// A disc around zero that holds the function, whatever its argument does.
     pub fn disc(&self) -> Self {
-        Self { rest: self.size(), ..Self::ZERO }
+        Self { remainder: self.size(), ..Self::ZERO }
     }
 
     /// `e^(−jωθ)`.
     pub fn dead_time(dead_time: f64, cell: Cell) -> Self {
         let angle = dead_time * cell.half_width();
         let value = Complex::cis(-dead_time * cell.middle());
-        Self { value, slope: value * Complex::new(0.0, -angle), rest: 0.5 * angle * angle }
+        Self { value, slope: value * Complex::new(0.0, -angle), remainder: 0.5 * angle * angle }
     }
 
-    /// The rational part `b(jω)/a(jω)` of a transfer function. The rest is infinite where a may have a zero in the cell.
+    /// The rational part `b(jω)/a(jω)` of a transfer function. The remainder is infinite where a may have a zero in the cell.
     pub fn rational(function: &TransferFunction, cell: Cell) -> Self {
-        polynomial(function.numerator(), cell).over(polynomial(function.denominator(), cell))
-    }
-
-    /// The quotient of two functions. The rest is infinite where the divisor may have a zero in the cell.
-    pub fn over(self, divisor: Self) -> Self {
-        let value = self.value / divisor.value;
-        let slope = (self.slope - value * divisor.slope) / divisor.value;
-        let least = modulus(divisor.value) - divisor.radius();
-        // What is left of the dividend without (value + slope x) times the divisor, over the divisor.
-        let rest = self.rest + modulus(value) * divisor.rest + modulus(slope) * divisor.radius();
-        Self { value, slope, rest: if least > 0.0 { rest / least } else { f64::INFINITY } }
+        polynomial(function.numerator(), cell) / polynomial(function.denominator(), cell)
     }
 }
 
-/// A polynomial in jω with real coefficients by rising powers; the rest bounds its second derivative over the cell.
+/// A polynomial in jω with real coefficients by rising powers; the remainder bounds its second derivative over the cell.
 fn polynomial(coefficients: &[f64], cell: Cell) -> TaylorModel {
     let (s, half) = (Complex::new(0.0, cell.middle()), cell.half_width());
     let (mut value, mut derivative) = (Complex::ZERO, Complex::ZERO);
@@ -129,14 +107,26 @@ fn polynomial(coefficients: &[f64], cell: Cell) -> TaylorModel {
         value = value * s + c;
         bound = [bound[0] * cell.high + c.abs(), bound[1] * cell.high + bound[0], bound[2] * cell.high + bound[1]];
     }
-    TaylorModel { value, slope: derivative * Complex::new(0.0, half), rest: bound[2] * half * half }
+    TaylorModel { value, slope: derivative * Complex::new(0.0, half), remainder: bound[2] * half * half }
 }
 
 impl Add for TaylorModel {
     type Output = Self;
 
     fn add(self, other: Self) -> Self {
-        Self { value: self.value + other.value, slope: self.slope + other.slope, rest: self.rest + other.rest }
+        Self {
+            value: self.value + other.value,
+            slope: self.slope + other.slope,
+            remainder: self.remainder + other.remainder,
+        }
+    }
+}
+
+impl Sub for TaylorModel {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        self + -other
     }
 }
 
@@ -144,7 +134,7 @@ impl Neg for TaylorModel {
     type Output = Self;
 
     fn neg(self) -> Self {
-        Self { value: -self.value, slope: -self.slope, rest: self.rest }
+        Self { value: -self.value, slope: -self.slope, remainder: self.remainder }
     }
 }
 
@@ -155,8 +145,32 @@ impl Mul for TaylorModel {
         Self {
             value: self.value * other.value,
             slope: self.value * other.slope + self.slope * other.value,
-            rest: modulus(self.slope) * modulus(other.slope) + self.size() * other.rest + other.size() * self.rest,
+            remainder: modulus(self.slope) * modulus(other.slope)
+                + self.size() * other.remainder
+                + other.size() * self.remainder,
         }
+    }
+}
+
+impl Mul<f64> for TaylorModel {
+    type Output = Self;
+
+    fn mul(self, factor: f64) -> Self {
+        Self { value: self.value * factor, slope: self.slope * factor, remainder: self.remainder * factor.abs() }
+    }
+}
+
+impl Div for TaylorModel {
+    type Output = Self;
+
+    /// The remainder is infinite where the divisor may have a zero in the cell.
+    fn div(self, divisor: Self) -> Self {
+        let value = self.value / divisor.value;
+        let slope = (self.slope - value * divisor.slope) / divisor.value;
+        let least = modulus(divisor.value) - divisor.radius();
+        // What is left of the dividend without (value + slope x) times the divisor, over the divisor.
+        let remainder = self.remainder + modulus(value) * divisor.remainder + modulus(slope) * divisor.radius();
+        Self { value, slope, remainder: if least > 0.0 { remainder / least } else { f64::INFINITY } }
     }
 }
 
@@ -170,7 +184,7 @@ pub(super) fn dominant_dead_time<const N: usize>(terms: [(TaylorModel, f64); N],
     let sizes = terms.map(|(term, _)| modulus(term.value));
     let largest = (0..N).max_by(|&i, &j| sizes[i].total_cmp(&sizes[j]))?;
     let frame = terms[largest].1;
-    let mut sum = TaylorModel { rest: ROUNDING * sizes.iter().sum::<f64>(), ..TaylorModel::ZERO };
+    let mut sum = TaylorModel { remainder: ROUNDING * sizes.iter().sum::<f64>(), ..TaylorModel::ZERO };
     for (term, dead_time) in terms {
         let own = dead_time - frame;
         // A term that turns by more than a radian each way may have any argument.
@@ -191,7 +205,7 @@ mod tests {
             let x = f64::from(k) / 100.0 - 1.0;
             let exact = function(cell.middle() + x * cell.half_width());
             let off = (exact - model.value - model.slope * x).norm();
-            assert!(off <= model.rest + 1e-14 * model.size(), "{off} is more than {}", model.rest);
+            assert!(off <= model.remainder + 1e-14 * model.size(), "{off} is more than {}", model.remainder);
             used = used.max((exact - model.value).norm() / model.radius());
         }
         used
@@ -209,7 +223,7 @@ mod tests {
             assert!(holds(&one, cell, |w| at(&resonance, w)) > 0.5);
             assert!(holds(&delayed, cell, |w| at(&lags, w)) > 0.5);
             holds(&(one * TaylorModel::relative_frequency(cell)), cell, |w| at(&resonance, w) * (w / cell.middle()));
-            holds(&(one * delayed + -one), cell, |w| at(&resonance, w) * (at(&lags, w) - 1.0));
+            holds(&(one * delayed - one), cell, |w| at(&resonance, w) * (at(&lags, w) - 1.0));
             holds(&delayed.disc(), cell, |w| at(&lags, w));
         }
     }
@@ -217,8 +231,8 @@ mod tests {
     #[test]
     fn a_cell_with_a_pole_has_no_bound() {
         let integrator = TransferFunction::new(vec![1.0], vec![0.0, 1.0], 0.0).unwrap();
-        assert_eq!(TaylorModel::rational(&integrator, Cell { low: 0.0, high: 1.0 }).rest, f64::INFINITY);
+        assert_eq!(TaylorModel::rational(&integrator, Cell { low: 0.0, high: 1.0 }).remainder, f64::INFINITY);
         let oscillator = TransferFunction::new(vec![1.0], vec![1.0, 0.0, 1.0], 0.0).unwrap();
-        assert_eq!(TaylorModel::rational(&oscillator, Cell { low: 0.9, high: 1.2 }).rest, f64::INFINITY);
+        assert_eq!(TaylorModel::rational(&oscillator, Cell { low: 0.9, high: 1.2 }).remainder, f64::INFINITY);
     }
 }

@@ -8,6 +8,8 @@ use crate::control::{PidMatrix, Relay};
 use crate::linear::{DelayedPlant, least_real_part};
 use crate::numeric::root;
 
+use super::course::MAX_ROWS;
+
 /// A plant whose inputs are held between changes, in deviations from its rest.
 pub trait HeldPlant {
     /// Both outputs now.
@@ -140,8 +142,6 @@ const HASTY_SWITCHES: u32 = 12;
 const HASTY: f64 = 1e-6;
 /// Outputs beyond this many times the excitation have diverged.
 const DIVERGED: f64 = 1e12;
-/// Most rows of a record.
-pub const MAX_ROWS: usize = 200_000;
 /// Most work of one run, in multiplications: about 30 ms in WebAssembly, three times what a published relay test takes.
 pub const MAX_WORK: f64 = 1e7;
 /// What a motion takes besides those of the plant, controllers and rows included; measured.

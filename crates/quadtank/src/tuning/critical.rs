@@ -131,8 +131,8 @@ impl AtRest {
 
     /// Coefficients of `1 + a T + a² D` at the lowest power of s that occurs in it: that of s⁰ for a plant without integrators.
     fn coefficients(&self, [c1, c2]: [f64; 2]) -> [f64; 3] {
-        let trace = self.diagonal[0].scaled(c1).plus(&self.diagonal[1].scaled(c2));
-        let determinant = self.determinant.scaled(c1 * c2);
+        let trace = self.diagonal[0] * c1 + self.diagonal[1] * c2;
+        let determinant = self.determinant * (c1 * c2);
         let lowest = |series: &Series| series.leading().map_or(0, |(_, power)| power);
         let power = lowest(&trace).min(lowest(&determinant)).min(0);
         [if power == 0 { 1.0 } else { 0.0 }, trace.coefficient(power), determinant.coefficient(power)]

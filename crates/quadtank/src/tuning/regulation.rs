@@ -68,6 +68,10 @@ pub struct RegulationError {
 const LEAST_ROWS: usize = 10;
 /// Distance from the start that counts as a return.
 const RETURN: f64 = 0.1;
+/// Late move from which on a stretch is a ramp, as a share of the largest move.
+const RAMP: f64 = 0.05;
+/// Least height of a plateau for a ramp, as a share of the largest move.
+const PLATEAU: f64 = 0.5;
 /// Offset per set-point step that counts as none.
 const OFFSET: f64 = 0.01;
 
@@ -94,12 +98,14 @@ pub fn open_loop_regulation(start: f64, between: &[f64], after: &[f64]) -> Resul
     }
     let (up, back) = (late_move(between) / largest, late_move(after) / largest);
     let away = (end - start) / largest;
-    Ok(if up.abs() <= SETTLED && back.abs() <= SETTLED && away.abs() <= RETURN {
+    let (settles, ramps) = (|share: f64| share.abs() <= SETTLED, |share: f64| share.abs() > RAMP);
+    let is_high = (plateau - start).abs() > PLATEAU * largest;
+    let goes_on = (end - plateau) * (plateau - start) > 0.0;
+    Ok(if settles(up) && settles(back) && away.abs() <= RETURN {
         Regulation::SelfRegulating(RegulationReason::ReturnsToStart { share: away })
-    } else if up.abs() > 0.05 && (plateau - start).abs() > 0.5 * largest && back.abs() <= SETTLED && away.abs() > RETURN
-    {
+    } else if ramps(up) && is_high && settles(back) && away.abs() > RETURN {
         Regulation::Integrating(RegulationReason::StaysAway { share: away })
-    } else if up.abs() > 0.05 && back.abs() > 0.05 && (end - plateau) * (plateau - start) > 0.0 {
+    } else if ramps(up) && ramps(back) && goes_on {
         Regulation::Integrating(RegulationReason::RampsOn { share: back })
     } else {
         Regulation::Undecided(RegulationReason::StillMoves { share: if up.abs() > back.abs() { up } else { back } })

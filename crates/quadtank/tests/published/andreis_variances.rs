@@ -168,7 +168,8 @@ fn step_test() {
     };
     let simulation = LevelSimulation::new(&andreis::plant(), &experiment).unwrap();
     let output = andreis::plant().output.signal;
-    let steps = vec![SignalStep { time_s: 0.0, size: output.at_share(0.5583) - simulation.rest().output }];
+    let steps =
+        vec![SignalStep { time_s: 0.0, size: (output.low + 0.5583 * output.span()) - simulation.rest().output }];
     let log = simulation.run(&LevelController::Manual { steps }).unwrap();
     let vector = [
         (0, 1.0),

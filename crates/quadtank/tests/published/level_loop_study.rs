@@ -13,7 +13,7 @@ use quadtank::study::level_loop::{
     published_setup, run_level_loop, trade_off,
 };
 use quadtank::tuning::search::GeneticSettings;
-use quadtank::tuning::{LevelWorth, ModelRule, ProcessModel, ReactionError, Regulation, TuningError};
+use quadtank::tuning::{LevelWorth, ModelRule, ProcessModel, ReactionError, ReactionMethod, Regulation, TuningError};
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
@@ -279,7 +279,7 @@ fn tests_that_show_no_model_say_why() {
     assert!(matches!(test.regulation, Some(Ok(Regulation::Integrating(_)))), "{:?}", test.regulation);
     // As a ramp it has a model, and all rules for integrating processes suggest something.
     let mut ramp = pumped(None);
-    ramp.test = ramp.test.with_method_for(&ramp.plant());
+    ramp.test.method = ReactionMethod::Ramp;
     let shown = results(&ramp);
     let fit = shown.test.as_ref().as_ref().unwrap().fit.unwrap();
     assert!(matches!(fit.model, ProcessModel::Integrating { .. }));

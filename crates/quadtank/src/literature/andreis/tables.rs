@@ -15,17 +15,6 @@ pub enum PublishedObjective {
     Averaging,
 }
 
-impl PublishedObjective {
-    /// The other one.
-    #[must_use]
-    pub const fn other(self) -> Self {
-        match self {
-            Self::Tight => Self::Averaging,
-            Self::Averaging => Self::Tight,
-        }
-    }
-}
-
 /// Where a tuning comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PublishedMethod {

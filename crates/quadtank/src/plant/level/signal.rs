@@ -45,11 +45,6 @@ impl SignalRange {
         (signal - self.low) / self.span()
     }
 
-    /// The signal at a share of its range.
-    pub fn at_share(&self, share: f64) -> f64 {
-        self.low + share * self.span()
-    }
-
     /// The signal within its range.
     #[inline]
     pub fn clip(&self, signal: f64) -> f64 {
@@ -175,7 +170,7 @@ mod tests {
     #[test]
     fn ranges_shares_and_clips() {
         let range = SignalRange::CURRENT;
-        assert_eq!((range.at_share(0.5), range.share(8.0)), (12.0, 0.25));
+        assert_eq!(range.share(8.0), 0.25);
         assert_eq!([3.0, 11.0, 21.0].map(|signal| range.clip(signal)), [4.0, 11.0, 20.0]);
         let open = OutputStage { signal: range, clips: false };
         assert_eq!((open.sent(21.0), OutputStage { clips: true, ..open }.sent(21.0)), (21.0, 20.0));

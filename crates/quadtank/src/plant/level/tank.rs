@@ -127,12 +127,6 @@ impl LevelTank {
         TankModel { capacitance: self.area, resistance: self.outflow.resistance(level) }
     }
 
-    /// Where the tangent to the curve of level over outflow cuts the axis of level (m): at −h for a square root, at 0 for the
-    /// linear law (the construction of Andreis 2017, Fig. 2.4). `None` for pumped outflow.
-    pub fn tangent_intercept(&self, level: f64) -> Option<f64> {
-        Some(level - self.outflow.resistance(level)? * self.outflow.flow(level))
-    }
-
     pub(super) fn check(&self) -> Result<(), LevelError> {
         within("area", self.area, f64::MIN_POSITIVE, f64::MAX)?;
         within("height", self.height, f64::MIN_POSITIVE, f64::MAX)?;
@@ -210,8 +204,8 @@ mod tests {
 
     #[test]
     fn the_tangent_cuts_the_axis_of_level_at_minus_the_level() {
-        let tank = |outflow| LevelTank { area: 1.0, height: 2.0, outflow };
-        let [linear, root, pumped] = LAWS.map(|law| tank(law).tangent_intercept(0.8));
+        // The construction of Andreis (2017, Fig. 2.4) with the curve of level over outflow; at 0 for the linear law.
+        let [linear, root, pumped] = LAWS.map(|law| Some(0.8 - law.resistance(0.8)? * law.flow(0.8)));
         assert!(linear.unwrap().abs() < 1e-15);
         assert_relative_eq!(root.unwrap(), -0.8, max_relative = 1e-14);
         assert_eq!(pumped, None);

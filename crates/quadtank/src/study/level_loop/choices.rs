@@ -8,6 +8,10 @@ use crate::tuning::{CostMeasure, ModelRule, ProcessModel};
 
 use super::{LevelLoopSetup, LevelPlantSpec, Objective, PiTuning, PlantAnswer};
 
+/// SIMC for tight and Lambda tuning for averaging control (Andreis 2017, Tables 5.1 and 5.2), for a loop without published tunings.
+const USUAL_TUNINGS: [PiTuning; 2] =
+    [PiTuning { gain: 17.4, integral_time_s: 23.5 }, PiTuning { gain: 0.2, integral_time_s: 588.0 }];
+
 /// A published tuning of the loop that a setup is about.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PublishedTuning {
@@ -122,6 +126,17 @@ impl LevelLoopSetup {
         let published = self.published_tunings().into_iter().find(of_objective).map(|best| best.tuning);
         if let Some(tuning) = published.or_else(|| self.tuning_by_rule()) {
             self.reference = tuning;
+        }
+    }
+
+    /// The best tuning known for the objective: the reference where the source has tunings for the loop and its disturbance, else one
+    /// of a usual kind.
+    pub fn best_known_tuning(&self) -> PiTuning {
+        let [tight, averaging] = USUAL_TUNINGS;
+        match self.objective {
+            _ if !self.published_tunings().is_empty() => self.reference,
+            Objective::Tight => tight,
+            Objective::Averaging { .. } => averaging,
         }
     }
 

@@ -88,10 +88,10 @@ pub fn compare_table(table: u32) -> Result<ComparedTable, LevelRunError> {
     let methods = [PublishedMethod::Current, PublishedMethod::Gradient, PublishedMethod::Genetic];
     let wrong = WRONG_INDICES.iter().filter(|row| Some(row.objective) == wrong_objective).flat_map(|row| {
         methods.into_iter().zip(row.variances).map(|(method, printed)| {
-            let of = PublishedObjective::other(row.objective);
-            compare(row.disturbance, row.objective, method, PublishedModel::Nominal, printed, |of_level, of_outflow| {
-                if of == PublishedObjective::Tight { of_level } else { of_outflow }
-            })
+            // The variance of the variable that is not the objective.
+            let is_level = row.objective == PublishedObjective::Averaging;
+            let number = |level, outflow| if is_level { level } else { outflow };
+            compare(row.disturbance, row.objective, method, PublishedModel::Nominal, printed, number)
         })
     });
     let mut numbers = variances.chain(indices).chain(wrong).collect::<Result<Vec<_>, _>>()?;

@@ -7,8 +7,7 @@ use crate::sim::level::{
     SignalStep,
 };
 use crate::tuning::{
-    ProcessModel, ReactionError, ReactionFit, ReactionMethod, Regulation, RegulationError, StepRecord,
-    open_loop_regulation,
+    ProcessModel, ReactionError, ReactionFit, Regulation, RegulationError, StepRecord, open_loop_regulation,
 };
 
 use super::{PlantAnswer, StepTestSpec};
@@ -126,13 +125,4 @@ fn answer_of(model: &ProcessModel, test: &StepTestSpec, log: &LevelLog) -> Vec<f
     };
     let back = |time: f64| test.return_time_s.map_or(0.0, |at| since(time, at, -test.step));
     log.time_s.iter().map(|&time| start + since(time, test.step_time_s, test.step) + back(time)).collect()
-}
-
-impl StepTestSpec {
-    /// The test with the method that suits a tank: two points, or a ramp where pumped outflow makes it integrate.
-    #[must_use]
-    pub fn with_method_for(self, plant: &LevelPlant) -> Self {
-        let integrates = plant.tank.outflow.resistance(self.level).is_none();
-        Self { method: if integrates { ReactionMethod::Ramp } else { ReactionMethod::TwoPoint }, ..self }
-    }
 }

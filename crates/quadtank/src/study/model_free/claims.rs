@@ -44,39 +44,94 @@ pub enum Standing {
 /// A claim with what was computed about it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CheckedClaim {
-    /// Which one.
-    pub claim: Claim,
     /// What is left of it.
     pub standing: Standing,
-    /// The figures behind it, see [`check_claims`].
-    pub figures: [f64; 4],
+    /// The figures behind it.
+    pub figures: ClaimFigures,
     /// The case that shows it.
     pub case: (PublishedValves, PublishedExperiment),
     /// How long it has to run to show it (s).
     pub duration_s: f64,
 }
 
+/// What was computed about a claim. Figures of a run are infinite for what does not happen in it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ClaimFigures {
+    /// Of level 1 in case a, from empty tanks.
+    CaseA {
+        /// IAE (m s).
+        iae: f64,
+        /// Overshoot, as a share of the step.
+        overshoot: f64,
+        /// Time with a pump at a limit, as a share of the run.
+        share_at_limit: f64,
+        /// Settling time (s).
+        settling_s: f64,
+    },
+    /// Of level 1 in case b.
+    CaseB {
+        /// IAE over 320 s (m s).
+        iae: f64,
+        /// The same in case a (m s).
+        iae_of_case_a: f64,
+        /// When an upper tank overflows or a pump stops (s).
+        ends_s: f64,
+        /// When a level is lost (s).
+        lost_s: f64,
+    },
+    /// Of a step of one level in case b.
+    AnyZero {
+        /// How long after the step the level is lost (s).
+        lost_after_s: f64,
+        /// λ11.
+        rga_11: f64,
+        /// Niederlinski index.
+        niederlinski: f64,
+        /// Right-most pole of the loop in continuous time without estimator (1/s).
+        rightmost_pole: f64,
+    },
+    /// Of case c.
+    CaseC {
+        /// Largest error late in the run for equal set-points (m).
+        error: f64,
+        /// By how much the upper tanks are further apart in the last quarter of a long run than in the one before (m).
+        apart: f64,
+        /// Largest error late in a long run for unequal set-points (m).
+        error_unequal: f64,
+    },
+    /// Of the model gain α̂.
+    ModelGain {
+        /// Smallest α̂ by the poles of the whole loop (m/(s V)).
+        smallest: f64,
+        /// Smallest α̂ by those of tank 1 alone (m/(s V)).
+        smallest_of_tank_1: f64,
+    },
+}
+
 impl CheckedClaim {
+    /// Which claim it is.
+    pub const fn claim(&self) -> Claim {
+        match self.figures {
+            ClaimFigures::CaseA { .. } => Claim::CaseA,
+            ClaimFigures::CaseB { .. } => Claim::CaseB,
+            ClaimFigures::AnyZero { .. } => Claim::AnyZero,
+            ClaimFigures::CaseC { .. } => Claim::CaseC,
+            ClaimFigures::ModelGain { .. } => Claim::ModelGain,
+        }
+    }
+
     /// The setup that shows it; for the model gain with one that is too small.
     pub fn setup(&self) -> ModelFreeSetup {
         let mut setup = ModelFreeSetup::published(self.case.0, self.case.1);
         setup.experiment.duration_s = self.duration_s;
-        if self.claim == Claim::ModelGain {
-            setup.controller.loops.iter_mut().for_each(|settings| settings.model_gain = TOO_SMALL * self.figures[0]);
+        if let ClaimFigures::ModelGain { smallest, .. } = self.figures {
+            setup.controller.loops.iter_mut().for_each(|settings| settings.model_gain = TOO_SMALL * smallest);
         }
         setup
     }
 }
 
-/// Computes every claim anew. The figures are
-/// - case a, from empty tanks: IAE (m s), overshoot (share), time at a limit (share), settling time (s) of level 1;
-/// - case b: IAE of level 1 over 320 s in cases b and a (m s), when an upper tank runs over or a pump stops, when a level is
-///   lost (s);
-/// - any zero: how long after the step one level of case b is lost (s), λ11, Niederlinski index, right-most pole of the loop in
-///   continuous time without estimator (1/s);
-/// - case c: largest error late in the run for equal set-points, by how much further apart the upper tanks are in the last
-///   quarter of a long run than in the one before (m), and the largest error late in that for unequal ones (m);
-/// - model gain: smallest α̂ by the poles of the whole loop and of tank 1 alone (m/(s V)).
+/// Computes every claim anew.
 ///
 /// # Errors
 /// What [`run_model_free`] finds, which no published case has.
@@ -104,14 +159,13 @@ fn case_a() -> Result<CheckedClaim, StudyError> {
     let saturates = first.saturated_s > 0.0 && second.saturated_s > 0.0;
     let duration_s = ModelFreeSetup::published(case.0, case.1).experiment.duration_s;
     Ok(CheckedClaim {
-        claim: Claim::CaseA,
         standing: if settles && saturates { Standing::Reproduced } else { Standing::Refuted },
-        figures: [
-            first.iae,
-            first.overshoot.unwrap_or(0.0),
-            first.saturated_s / duration_s,
-            first.settling_s.unwrap_or(f64::INFINITY),
-        ],
+        figures: ClaimFigures::CaseA {
+            iae: first.iae,
+            overshoot: first.overshoot.unwrap_or(0.0),
+            share_at_limit: first.saturated_s / duration_s,
+            settling_s: first.settling_s.unwrap_or(f64::INFINITY),
+        },
         case,
         duration_s,
     })
@@ -127,13 +181,17 @@ fn case_b() -> Result<CheckedClaim, StudyError> {
     };
     let of_a = run((A, S2), None)?.0.figures[0].iae;
     Ok(CheckedClaim {
-        claim: Claim::CaseB,
         standing: match (answer.lost_at_s(), long_verdict) {
             (None, ModelFreeVerdict::Settled(_)) => Standing::Reproduced,
             (None, _) => Standing::LimitedTime,
             _ => Standing::Refuted,
         },
-        figures: [answer.figures[0].iae, of_a, ends_s, long.lost_at_s().unwrap_or(f64::INFINITY)],
+        figures: ClaimFigures::CaseB {
+            iae: answer.figures[0].iae,
+            iae_of_case_a: of_a,
+            ends_s,
+            lost_s: long.lost_at_s().unwrap_or(f64::INFINITY),
+        },
         case,
         duration_s: LONG_RUN_S,
     })
@@ -148,14 +206,13 @@ fn any_zero() -> Result<CheckedClaim, StudyError> {
     let poles = theory.continuous_poles.and_then(Result::ok).unwrap_or_default();
     let step_s = setup.experiment.set_point_steps.first().map_or(0.0, |step| step.time_s);
     Ok(CheckedClaim {
-        claim: Claim::AnyZero,
         standing: if lost_s.is_some() { Standing::Refuted } else { Standing::Reproduced },
-        figures: [
-            lost_s.unwrap_or(f64::INFINITY) - step_s,
-            plant.and_then(|plant| plant.rga_11.ok()).unwrap_or(f64::NAN),
-            plant.and_then(|plant| plant.niederlinski[0]).unwrap_or(f64::NAN),
-            poles.iter().map(|pole| pole.re).fold(f64::NEG_INFINITY, f64::max),
-        ],
+        figures: ClaimFigures::AnyZero {
+            lost_after_s: lost_s.unwrap_or(f64::INFINITY) - step_s,
+            rga_11: plant.and_then(|plant| plant.rga_11.ok()).unwrap_or(f64::NAN),
+            niederlinski: plant.and_then(|plant| plant.niederlinski[0]).unwrap_or(f64::NAN),
+            rightmost_pole: poles.iter().map(|pole| pole.re).fold(f64::NEG_INFINITY, f64::max),
+        },
         case,
         duration_s: setup.experiment.duration_s,
     })
@@ -171,22 +228,20 @@ fn case_c() -> Result<CheckedClaim, StudyError> {
     let unequal = run((C, S3), Some(LONG_RUN_S))?.1;
     let apart = equal_long.and_then(|(_, apart)| apart);
     Ok(CheckedClaim {
-        claim: Claim::CaseC,
         standing: match (equal, equal_long, apart, ripple(unequal)) {
             (None, ..) => Standing::Refuted,
             (_, Some(_), None, Some(_)) => Standing::Reproduced,
             (_, Some(_), None, None) => Standing::EqualSetPoints,
             _ => Standing::LimitedTime,
         },
-        figures: [
-            equal.map_or(f64::NAN, |(error, _)| error),
-            apart.unwrap_or(0.0),
-            match unequal {
+        figures: ClaimFigures::CaseC {
+            error: equal.map_or(f64::NAN, |(error, _)| error),
+            apart: apart.unwrap_or(0.0),
+            error_unequal: match unequal {
                 ModelFreeVerdict::Unsettled { error: [one, two], .. } => one.max(two),
                 _ => f64::NAN,
             },
-            0.0,
-        ],
+        },
         case: (C, S2),
         duration_s: LONG_RUN_S,
     })
@@ -202,13 +257,12 @@ fn model_gain() -> CheckedClaim {
     let smallest = theory.smallest_model_gain.unwrap_or(f64::NAN);
     let alone = theory.smallest_of_integrators.map_or(f64::NAN, |[first, _]| first);
     CheckedClaim {
-        claim: Claim::ModelGain,
         standing: if setup.controller.loops[0].model_gain > smallest {
             Standing::Reproduced
         } else {
             Standing::Refuted
         },
-        figures: [smallest, alone, 0.0, 0.0],
+        figures: ClaimFigures::ModelGain { smallest, smallest_of_tank_1: alone },
         case,
         duration_s: setup.experiment.duration_s,
     }

@@ -8,7 +8,7 @@ mod setup;
 mod verdict;
 
 pub use answer::{ModelFreeAnalysis, ModelFreeAnswer, PredictedLoss, analyse_model_free, run_analysed, run_model_free};
-pub use claims::{CheckedClaim, Claim, LONG_RUN_S, Standing, check_claims};
+pub use claims::{CheckedClaim, Claim, ClaimFigures, LONG_RUN_S, Standing, check_claims};
 pub use results::{ModelFreeStudy, Results};
 pub use setup::{ModelFreeSetup, StartSpec};
 pub use verdict::{LossBy, ModelFreeVerdict};

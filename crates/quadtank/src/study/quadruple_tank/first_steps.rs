@@ -37,7 +37,7 @@ pub fn fitted_duration_s(setup: &Setup) -> f64 {
         if let Ok(run) = run(&tried) {
             let settled = run.metrics.iter().filter_map(|m| Some((m.step_time_s?, m.settling_2_percent?)));
             let ends = settled.map(|(step_s, settling)| match settling {
-                Settling::After { time_s } => 2.0f64.mul_add(time_s, step_s),
+                Settling::After { time_s } => step_s + 2.0 * time_s,
                 Settling::Never => f64::INFINITY,
             });
             let end = ends.reduce(f64::max).unwrap_or(f64::INFINITY);
