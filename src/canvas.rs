@@ -20,11 +20,11 @@ pub const FINE: u32 = 8;
 type CanvasError = <CanvasBackend as DrawingBackend>::ErrorType;
 type Outcome<T = ()> = Result<T, DrawingErrorKind<CanvasError>>;
 
-/// Draws in the place of the canvas backend of plotters, which remains to begin and to end a picture. Its pixels are finer
-/// than those of the screen, because plotters counts in whole ones. Shapes alike are joined into one path and settings are
-/// made once, because a dotted curve is hundreds of strokes and each call out of WebAssembly with a text costs about a
-/// microsecond. And text is measured by the canvas, because the original measures it by adding a styled element to the
-/// page, which costs a layout and which the content security policy forbids.
+/// Drawing backend that replaces that of plotters, which is kept only to begin and end a picture. Its pixels are finer
+/// than those of the screen, because plotters counts in whole ones. Shapes alike are joined into one path and settings
+/// are made once, because a dotted curve is hundreds of strokes and each call out of WebAssembly with a text costs
+/// about a microsecond. And text is measured by the canvas, because the original measures it by adding a styled element
+/// to the page, which costs a layout and which the content security policy forbids.
 struct FineCanvas {
     inner: CanvasBackend,
     context: CanvasRenderingContext2d,
@@ -42,7 +42,7 @@ struct FineCanvas {
 type Ink = (u8, u8, u8);
 
 impl FineCanvas {
-    /// What follows is painted by this pen, together with what is pending if that is by the same.
+    /// Selects the pen of the following shapes; a pending path in another pen is painted first.
     fn take_pen(&mut self, color: BackendColor, width: Option<u32>) {
         let pen = (color.rgb, width);
         if self.pen != Some(pen) {

@@ -11,7 +11,7 @@ use super::widgets::{NumberField, Scale, Segmented, SliderField};
 use quadtank_scenario::params::{self, Param};
 use quadtank_scenario::{BenchDocument, Limits};
 
-/// A stretch of numbers that depends on a setup.
+/// Range of a slider as a function of the setup, in the shown unit.
 type Range<S> = fn(&S) -> (f64, f64);
 
 /// A number of a setup, or a pair of alike ones: an index of 0 or 1 says which.
@@ -135,7 +135,7 @@ pub fn ParamRow<B: Bench>(
     let &ParamControl { ids, smallest, class, .. } = control;
     let (id, class, lab) = (ids[index], class[index], session.lab);
     let label = Signal::derive(move || (control.label)(lab, index));
-    let Wires { name, value, on_change, limits, scale, digits, disabled } = wires(session, control, index);
+    let Binding { name, value, on_change, limits, scale, digits, disabled } = bind(session, control, index);
     let on_change = act.unwrap_or(on_change);
     let unit = unit_text(session, control, index);
     let Some(travel) = control.travel else {
@@ -165,7 +165,7 @@ pub fn ParamNumber<B: Bench>(
     index: usize,
 ) -> impl IntoView {
     let &ParamControl { ids, smallest, .. } = control;
-    let Wires { name, value, on_change, limits, scale, digits, disabled } = wires(session, control, index);
+    let Binding { name, value, on_change, limits, scale, digits, disabled } = bind(session, control, index);
     let grid = Signal::derive(move || session.read(control.grid));
     view! { <NumberField id=ids[index].1 name value on_change limits scale digits smallest grid disabled /> }
 }
@@ -196,8 +196,8 @@ where
     view! { <Segmented label choices value on_choose disabled=session.lab.locks(lock) /> }
 }
 
-/// What connects a field with a document.
-struct Wires {
+/// Signals and callbacks that bind a field to a document.
+struct Binding {
     name: Signal<String>,
     value: Signal<f64>,
     on_change: Callback<f64>,
@@ -207,12 +207,12 @@ struct Wires {
     disabled: Signal<bool>,
 }
 
-fn wires<B: Bench>(session: Session<B>, control: &'static ParamControl<SetupOf<B>>, index: usize) -> Wires {
+fn bind<B: Bench>(session: Session<B>, control: &'static ParamControl<SetupOf<B>>, index: usize) -> Binding {
     let (lab, locked) = (session.lab, session.lab.locks(control.lock));
     let scale = session.document.with_untracked(|document| control.scale(document.setup(), index));
     let finer = control.finer.map(|finer| Memo::new(move |_| session.read(finer)));
     // No memos: fields read the next four when texts are updated or a key is pressed, and do not follow them.
-    Wires {
+    Binding {
         name: Signal::derive(move || (control.name)(lab, index)),
         value: Signal::derive(move || session.read(|s| control.shown(s, index))),
         on_change: Callback::new(move |shown| session.edit(|s| control.set_shown(s, index, shown))),

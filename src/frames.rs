@@ -12,16 +12,17 @@ use leptos::prelude::*;
 
 use super::timing::Stopwatch;
 
-/// Computes what changed and returns what hands it to the panels; nothing once the document is gone.
+/// Computes the results of the changed document and returns a closure that publishes them to the views; `None` once the
+/// document has been disposed of.
 type Compute = Rc<dyn Fn() -> Option<Box<dyn FnOnce()>>>;
 
 /// Follows a document. A handle: copying it copies nothing.
 #[derive(Clone, Copy)]
 pub struct FrameScheduler {
-    backstage: StoredValue<Backstage, LocalStorage>,
+    state: StoredValue<SchedulerState, LocalStorage>,
 }
 
-struct Backstage {
+struct SchedulerState {
     stopwatch: Stopwatch,
     compute: Compute,
     update_texts: Rc<dyn Fn()>,
@@ -32,16 +33,17 @@ struct Backstage {
 }
 
 impl FrameScheduler {
-    /// From now on every change of `document`, which is computed as it stands, is computed, and texts follow.
+    /// Computes the results after every change of `document`, whose present state is computed already, and updates the
+    /// texts after each frame.
     pub fn follow<T: Clone + PartialEq + Send + Sync + 'static>(
         document: RwSignal<T>,
         compute: impl Fn() -> Option<Box<dyn FnOnce()>> + 'static,
         update_texts: impl Fn() + 'static,
     ) {
         let (stopwatch, compute, update_texts) = (Stopwatch::default(), Rc::new(compute), Rc::new(update_texts));
-        let backstage =
-            StoredValue::new_local(Backstage { stopwatch, compute, update_texts, next: None, after_texts: None });
-        let scheduler = Self { backstage };
+        let state =
+            StoredValue::new_local(SchedulerState { stopwatch, compute, update_texts, next: None, after_texts: None });
+        let scheduler = Self { state };
         // The effect below runs for the first time after this function has returned. A lesson or a link that has set another document
         // by then needs a frame, or the page keeps showing the results of the first one.
         let mut computed = Some(document.get_untracked());
@@ -55,21 +57,21 @@ impl FrameScheduler {
     }
 
     fn request_frame(self) {
-        if self.backstage.try_update_value(|b| b.stopwatch.begin()) == Some(true) {
+        if self.state.try_update_value(|b| b.stopwatch.begin()) == Some(true) {
             request_animation_frame(move || self.frame());
         }
     }
 
-    /// One frame: compute what changed since the last one, hand it to the panels, and note how long it took.
+    /// One animation frame: computes the changes since the last one, publishes the results and records the time.
     fn frame(self) {
-        let Some(compute) = self.backstage.try_update_value(|b| {
+        let Some(compute) = self.state.try_update_value(|b| {
             b.stopwatch.start_computing();
             b.compute.clone()
         }) else {
             return;
         };
         let publish = compute();
-        self.backstage.try_update_value(|b| b.stopwatch.stop_computing());
+        self.state.try_update_value(|b| b.stopwatch.stop_computing());
         if let Some(publish) = publish {
             publish();
         }
@@ -79,7 +81,7 @@ impl FrameScheduler {
 
     /// The charts are on the screen: the texts follow, at once if it is time for them.
     fn painted(self) {
-        let due = self.backstage.try_update_value(|b| {
+        let due = self.state.try_update_value(|b| {
             b.stopwatch.end();
             (b.stopwatch.are_texts_due(), b.stopwatch.pause_ms())
         });
@@ -93,11 +95,11 @@ impl FrameScheduler {
 
     fn after(self, delay_ms: u32, next: fn(Self)) {
         let timer = Timeout::new(delay_ms, move || next(self));
-        self.backstage.try_update_value(|b| b.next = Some(timer));
+        self.state.try_update_value(|b| b.next = Some(timer));
     }
 
     fn update_texts(self) {
-        let Some(update_texts) = self.backstage.try_update_value(|b| {
+        let Some(update_texts) = self.state.try_update_value(|b| {
             b.stopwatch.begin_texts();
             b.update_texts.clone()
         }) else {
@@ -105,7 +107,7 @@ impl FrameScheduler {
         };
         update_texts();
         let after = Timeout::new(0, move || self.texts_updated());
-        self.backstage.try_update_value(|b| b.after_texts = Some(after));
+        self.state.try_update_value(|b| b.after_texts = Some(after));
     }
 
     fn texts_updated(self) {
@@ -113,6 +115,6 @@ impl FrameScheduler {
         if let Some(page) = document().body() {
             page.offset_height();
         }
-        self.backstage.try_update_value(|b| b.stopwatch.end_texts());
+        self.state.try_update_value(|b| b.stopwatch.end_texts());
     }
 }

@@ -135,7 +135,7 @@ pub struct Stage {
     pub is_covered: bool,
 }
 
-/// A picture of the page, for who shows it elsewhere.
+/// A chart of a card, registered so that the handout can print it.
 #[derive(Clone)]
 pub struct Figure {
     /// Its charts.

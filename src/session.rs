@@ -159,7 +159,7 @@ impl<B: Bench> Session<B> {
         session
     }
 
-    /// Computes what changed; what it returns hands that to the panels.
+    /// Computes the results of the changed document; the returned closure publishes them to the views.
     fn compute(self) -> Option<Box<dyn FnOnce()>> {
         let update = |document: &B::Document| {
             self.results.with_untracked(|last| B::Study::update(document.setup(), document.pinned(), Some(last)))

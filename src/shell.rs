@@ -71,7 +71,7 @@ pub fn Laboratory(
         // By the next frame a menu that was pressed is open.
         request_animation_frame(keep_menus_in_sight);
     });
-    // What was done is handed over also when the page goes.
+    // The progress of a lesson is saved when the page is left, too.
     let on_hide = window_event_listener(ev::pagehide, move |_| room.close());
     let on_key = window_event_listener(ev::keydown, move |event| match event.key().as_str() {
         "Escape" => {
@@ -81,7 +81,7 @@ pub fn Laboratory(
             lab.present(false);
         }
         "f" | "F" if is_plain(&event) => lab.present(!untrack(|| lab.is_presenting())),
-        // The keys of a presenter in the hand. Sliders and handles have a use for them of their own.
+        // Wireless presenters send Page Up and Page Down. Sliders and handles have a use for them of their own.
         key @ ("PageDown" | "PageUp")
             if is_plain(&event) && !is_slider(&event) && lab.scene.get_untracked().is_some() =>
         {

@@ -22,7 +22,8 @@ pub struct Stopwatch {
     entries: u32,
 }
 
-/// Changes wait together to be taken up; one that comes in while others are worked on gets the other of two marks.
+/// A batch of changes that waits for a frame or for the texts. Changes that arrive while a batch is being processed use
+/// the second of two marks.
 #[derive(Clone, Copy, Debug, Default)]
 struct Turn {
     waiting: bool,

@@ -1,7 +1,7 @@
 use quadtank::study::level_loop::{
     ContourMap, ContourSettings, LevelLoopSetup, Objective, run_level_loop, run_step_test, trade_off,
 };
-use quadtank::tuning::LevelWorth;
+use quadtank::tuning::Evaluation;
 use quadtank_figure::{
     self, Chart, CostCell, CostMapChart, LevelLoopCharts, LevelLoopTexts, LevelRunColumns, NamedPoint, Role, Shape,
     Size, StepTestCharts, StepTestTexts, Style, TradeOffChart, to_svg,
@@ -102,10 +102,10 @@ fn cost_map(setup: &LevelLoopSetup, style: &Style) -> Result<String, AnswerError
     let cells: Vec<CostCell> = map
         .cells()
         .iter()
-        .map(|worth| match worth {
-            Some(LevelWorth::Cost(cost)) => CostCell::Cost(*cost),
-            Some(LevelWorth::Violates(_)) => CostCell::Violates,
-            Some(LevelWorth::NoRun(_)) | None => CostCell::None,
+        .map(|evaluation| match evaluation {
+            Some(Evaluation::Cost(cost)) => CostCell::Cost(*cost),
+            Some(Evaluation::Violates(_)) => CostCell::Violates,
+            Some(Evaluation::NoRun(_)) | None => CostCell::None,
         })
         .collect();
     let [gains, times_s] = setup.search.axes().map(|axis| (axis.low, axis.high));

@@ -130,7 +130,7 @@ fn MeasureSwitch() -> impl IntoView {
     }
 }
 
-/// What the cost may not pay for.
+/// Constraints of the cost.
 #[component]
 fn Constraints() -> impl IntoView {
     let session = use_session();

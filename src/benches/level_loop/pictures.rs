@@ -4,7 +4,7 @@ use leptos::prelude::*;
 use quadtank::literature::andreis::PublishedMethod;
 use quadtank::plant::level::{LevelPlant, SignalUnit};
 use quadtank::study::level_loop::{ContourMap, Element, HeatedAnswer, LevelLoopAnswer, PiTuning, TradeOff};
-use quadtank::tuning::{LevelWorth, ProcessModel};
+use quadtank::tuning::{Evaluation, ProcessModel};
 use quadtank_figure::{
     self, Axis, Chart, CostCell, CostMapChart, Course, Layer, LevelLoopCharts, LevelLoopTexts, LevelRunColumns,
     NamedPoint, Pen, Role, Series, Shape, StaticCurve, StepTestCharts, StepTestTexts, TradeOffChart,
@@ -170,7 +170,7 @@ pub fn cost_map(
         let [gains, times] = setup.search.axes().map(|axis| (axis.low, axis.high));
         let (size, cells): ([usize; 2], Vec<CostCell>) = map.with(|map| match map {
             Some(Shown(map)) => {
-                (map.value.size(), map.value.cells().iter().map(|worth| cell(worth.as_ref())).collect())
+                (map.value.size(), map.value.cells().iter().map(|evaluation| cell(evaluation.as_ref())).collect())
             }
             None => ([CELLS; 2], vec![CostCell::Pending; CELLS * CELLS]),
         });
@@ -208,12 +208,12 @@ impl<T> PartialEq for Shown<T> {
     }
 }
 
-fn cell(worth: Option<&LevelWorth>) -> CostCell {
-    match worth {
+fn cell(evaluation: Option<&Evaluation>) -> CostCell {
+    match evaluation {
         None => CostCell::Pending,
-        Some(LevelWorth::Cost(cost)) => CostCell::Cost(*cost),
-        Some(LevelWorth::Violates(_)) => CostCell::Violates,
-        Some(LevelWorth::NoRun(_)) => CostCell::None,
+        Some(Evaluation::Cost(cost)) => CostCell::Cost(*cost),
+        Some(Evaluation::Violates(_)) => CostCell::Violates,
+        Some(Evaluation::NoRun(_)) => CostCell::None,
     }
 }
 

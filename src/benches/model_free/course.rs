@@ -1,4 +1,4 @@
-//! The run: what is controlled, what that does to the upper tanks, and what the law believes.
+//! The run: what is controlled, what that does to the upper tanks, and the estimate of the law.
 
 use leptos::prelude::*;
 

@@ -52,10 +52,10 @@ pub fn of_run(session: Session) -> (bool, String) {
     };
     let verdict = session.throttled.analysis.with(|analysis| ModelFreeVerdict::of(&setup, answer, analysis));
     let text = match verdict {
-        ModelFreeVerdict::Lost { level, at_s, by, foretold } => {
+        ModelFreeVerdict::Lost { level, at_s, by, predicted } => {
             let lost = tr!(lab, free.is_lost, level = level + 1, time = seconds(at_s));
-            let foretold = foretold.map(|(by, ends_s)| tr!(lab, free.foretold, end = end(by, ends_s)));
-            lost + &cause(by) + &foretold.unwrap_or_default()
+            let predicted = predicted.map(|(by, ends_s)| tr!(lab, free.foretold, end = end(by, ends_s)));
+            lost + &cause(by) + &predicted.unwrap_or_default()
         }
         ModelFreeVerdict::Leaving { ends_s, by, e_folding_s } => {
             let pace = e_folding_s.map(|time| tr!(lab, free.e_folding, time = seconds(time)));

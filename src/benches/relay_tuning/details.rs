@@ -8,7 +8,7 @@ use crate::widgets::{Folded, Row, TableContent};
 use quadtank::linear::Complex;
 use quadtank::study::relay_tuning::{ControllerForms, Recovered, Tested};
 
-/// What the test tells besides.
+/// Further results of the relay test, folded away.
 #[component]
 pub fn TestDetails() -> impl IntoView {
     let session = use_session();

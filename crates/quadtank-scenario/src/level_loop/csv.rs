@@ -5,7 +5,7 @@ use quadtank::sim::level::LevelLog;
 use quadtank::study::level_loop::{
     ContourMap, LevelLoopAnswer, LevelLoopSetup, LevelSearch, StepTestAnswer, TradeOff, TradeOffPoint,
 };
-use quadtank::tuning::LevelWorth;
+use quadtank::tuning::Evaluation;
 
 /// A table whose columns have one value for each row of the first.
 fn table(columns: &[(&str, &[f64])]) -> String {
@@ -81,12 +81,12 @@ pub fn trade_off_to_csv(trade_off: &TradeOff) -> String {
 /// those without a run, and nothing for those that are not computed yet.
 pub fn cost_map_to_csv(map: &ContourMap) -> String {
     let mut text = "gain,integral_time_s,cost\n".to_owned();
-    for (cell, worth) in map.cells().iter().enumerate() {
+    for (cell, evaluation) in map.cells().iter().enumerate() {
         let [gain, integral_time_s] = map.settings_of(cell);
-        let cost = match worth {
-            Some(LevelWorth::Cost(cost)) => cost.to_string(),
-            Some(LevelWorth::Violates(_)) => "violates".to_owned(),
-            Some(LevelWorth::NoRun(_)) => "none".to_owned(),
+        let cost = match evaluation {
+            Some(Evaluation::Cost(cost)) => cost.to_string(),
+            Some(Evaluation::Violates(_)) => "violates".to_owned(),
+            Some(Evaluation::NoRun(_)) => "none".to_owned(),
             None => String::new(),
         };
         // Writing to a String cannot fail.

@@ -45,12 +45,15 @@ fn case_b_looks_settled_while_the_upper_tanks_leave_and_is_lost_when_told() -> R
     assert!((e_folding_s.unwrap() - 2.0 * 54.38 * 1.5_f64.sqrt()).abs() < 0.05, "{e_folding_s:?}");
     let seen = verdict(PublishedValves::B, PublishedExperiment::S2, LONG)?;
     let ModelFreeVerdict::Lost {
-        at_s, by: LossBy::Overflow { tank: 2, time_s }, foretold: Some((by, foretold_s)), ..
+        at_s,
+        by: LossBy::Overflow { tank: 2, time_s },
+        predicted: Some((by, predicted_s)),
+        ..
     } = seen
     else {
         panic!("{seen:?}");
     };
-    assert!((time_s - ends_s).abs() < 5.0 && (time_s - foretold_s).abs() < 5.0 && at_s > time_s);
+    assert!((time_s - ends_s).abs() < 5.0 && (time_s - predicted_s).abs() < 5.0 && at_s > time_s);
     assert!(matches!(by, ZeroDynamicsEnd::Overflow { tank: 2, .. }), "{by:?}");
     Ok(())
 }

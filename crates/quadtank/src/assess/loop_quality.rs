@@ -44,10 +44,10 @@ impl LoopQuality {
         Ok(Some(Self { stability, margins }))
     }
 
-    /// Largest sensitivity peak of a loop that forgives errors of its model (Åström and Hägglund 2006, §4.6: 1.2 to 2).
+    /// Largest sensitivity peak of a robust loop (Åström and Hägglund 2006, §4.6: 1.2 to 2).
     const ROBUST: f64 = 2.0;
 
-    /// Whether the loop is not stable, or has a larger sensitivity peak than loops that are built to last.
+    /// Whether the loop is not stable, or has a sensitivity peak above 2.
     pub fn is_fragile(&self) -> bool {
         self.sensitivity_peak().is_none_or(|peak| peak > Self::ROBUST)
     }

@@ -49,14 +49,14 @@ pub enum Quadrature {
     Trapezoidal,
 }
 
-/// Which input the estimator is told.
+/// Which input signal the estimator uses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum FedWith {
-    /// What the pump got, within its limits.
+    /// The controller output after the pump limits.
     Applied,
-    /// What the law asked for. At a limit the estimate then runs away with it.
+    /// The output that the law computes before the limits; while a pump is at a limit the estimate then drifts.
     Commanded,
 }
 
@@ -71,7 +71,7 @@ pub struct EstimatorSettings {
     pub window: Window,
     /// How the integrals become sums.
     pub quadrature: Quadrature,
-    /// Which input the estimator is told.
+    /// Which input signal the estimator uses.
     pub fed_with: FedWith,
 }
 

@@ -150,7 +150,7 @@ struct ModelFreeLoop {
     constant: f64,
     /// Ki ∫ e dt (m/s).
     integral: f64,
-    /// What the estimator is told at the next sample (V); `None` before the first.
+    /// Input signal for the estimator at the next sample (V); `None` before the first.
     last: Option<f64>,
 }
 

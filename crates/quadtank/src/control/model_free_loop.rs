@@ -20,9 +20,10 @@ const SMALLEST: f64 = 1e-4;
 /// Poles of the linear loop of a law that does not touch its limits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModelFreePoles {
-    /// The poles in the s-plane (1/s), by falling real part. With a block window the loop repeats itself only from window to
-    /// window, and these are `ln(μ)/T` of the multipliers μ over one window; else `ln(z)/Ts`. Those at z = 0, of the memory of a
-    /// sliding window say, have no image and are left out, with all that rounding does not tell from them.
+    /// The poles in the s-plane (1/s), by falling real part. With a block window the loop repeats itself only from
+    /// window to window, and these are `ln(μ)/T` of the multipliers μ over one window; else `ln(z)/Ts`. Multipliers at
+    /// z = 0, as those of the memory of a sliding window, have no image; they are left out, with all that are zero
+    /// within rounding.
     pub poles_s: Vec<Complex>,
     /// The verdict.
     pub stability: Stability,
@@ -45,8 +46,8 @@ pub fn model_free_poles(jacobian: &Jacobian, law: &ModelFree, power_gain: f64) -
     let nothing = linear.shifted();
     let multipliers = eigenvalues(&map)?;
     let stability = Stability::of_poles(&multipliers);
-    let told = multipliers.into_iter().filter(|z| z.norm() > nothing);
-    let mut poles_s: Vec<Complex> = told.filter_map(|z| s_from_z(z, period_s)).collect();
+    let nonzero = multipliers.into_iter().filter(|z| z.norm() > nothing);
+    let mut poles_s: Vec<Complex> = nonzero.filter_map(|z| s_from_z(z, period_s)).collect();
     poles_s.sort_by(falling);
     Ok(ModelFreePoles { poles_s, stability })
 }
@@ -174,7 +175,7 @@ impl<'a> ModelFreeLoop<'a> {
         })
     }
 
-    /// Modulus up to which a multiplier is not told from zero.
+    /// Modulus below which a multiplier counts as zero.
     fn shifted(&self) -> f64 {
         match &self.estimator {
             Some((settings, weights)) if settings.window == Window::Sliding => {

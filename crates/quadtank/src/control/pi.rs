@@ -16,14 +16,14 @@ pub enum AntiWindup {
     },
 }
 
-/// Who moves the output of a loop.
+/// Whether the controller or an operator sets the output of a loop.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum LoopMode {
     /// The controller.
     Automatic,
-    /// A person, until the given time; then the controller takes over without a bump.
+    /// Manual until the given time; the transfer to automatic is bumpless.
     Manual {
         /// Controller output while in manual mode (V).
         output: f64,

@@ -12,11 +12,11 @@ const EQUAL: f64 = 1e-12;
 /// A parallel PID controller `kp + ki/s + kd s` (Campestrini 2006, §5). Times are in the unit of the plant.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ParallelPid {
-    /// kp.
+    /// Proportional gain kp (plant input per plant output).
     pub proportional: f64,
-    /// ki (per unit of time).
+    /// Integral gain ki (input per output and unit of time of the plant).
     pub integral: f64,
-    /// kd (units of time); 0 for PI.
+    /// Derivative gain kd (input per output times unit of time); 0 for PI.
     pub derivative: f64,
     /// Time constant of the derivative filter where it is not that of [`filter_time`](Self::filter_time).
     pub filter: Option<f64>,
@@ -25,22 +25,22 @@ pub struct ParallelPid {
 /// A PID controller without interaction of its actions, `K (1 + 1/(Ti s) + Td s)` (Campestrini 2006, eq. 9).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct IsaPid {
-    /// K.
+    /// Gain K (input per output).
     pub gain: f64,
-    /// Ti; infinite without integral action.
+    /// Integral time Ti (unit of time of the plant); infinite without integral action.
     pub integral_time: f64,
-    /// Td; 0 without derivative action.
+    /// Derivative time Td (unit of time of the plant); 0 without derivative action.
     pub derivative_time: f64,
 }
 
 /// A PID controller in series, `K′ (1 + 1/(Ti′ s)) (1 + Td′ s)` (Campestrini 2006, eq. 10).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SeriesPid {
-    /// K′.
+    /// Gain K′ (input per output).
     pub gain: f64,
-    /// Ti′.
+    /// Integral time Ti′ (unit of time of the plant).
     pub integral_time: f64,
-    /// Td′.
+    /// Derivative time Td′ (unit of time of the plant).
     pub derivative_time: f64,
 }
 
@@ -221,7 +221,7 @@ impl PidMatrix {
         }
     }
 
-    /// At rest and ready to take samples, one every `sampling_time`.
+    /// At rest and ready to take samples, one every `sampling_time` (unit of time of the plant).
     pub fn start(&self, sampling_time: f64) -> RunningPidMatrix {
         let running = |pid: ParallelPid| RunningPid { pid, sampling_time, integral: 0.0, derivative: 0.0, error: 0.0 };
         RunningPidMatrix(self.0.map(|row| row.map(running)))
@@ -254,7 +254,8 @@ impl RunningPid {
 pub struct RunningPidMatrix([[RunningPid; 2]; 2]);
 
 impl RunningPidMatrix {
-    /// What the next sample makes of the errors e that it finds, `u₀ + K e`: u₀ and K.
+    /// Outputs of the next sample as a function of its errors e, `u₀ + K e`, without taking it: u₀ (by input) and K
+    /// (row by input, column by error).
     pub fn at_once(&self) -> ([f64; 2], Matrix2<f64>) {
         let of = |errors: [f64; 2]| Self::step(&mut self.clone(), errors);
         let (offset, first, second) = (of([0.0; 2]), of([1.0, 0.0]), of([0.0, 1.0]));
@@ -262,7 +263,8 @@ impl RunningPidMatrix {
         (offset, Matrix2::from_fn(change))
     }
 
-    /// One sample: from both errors to both inputs.
+    /// One sample: from both errors (r − y) to both inputs, the integral by the trapezoidal rule, the filtered
+    /// derivative by backward differences.
     pub fn step(&mut self, errors: [f64; 2]) -> [f64; 2] {
         self.0.each_mut().map(|[first, second]| first.step(errors[0]) + second.step(errors[1]))
     }

@@ -5,11 +5,11 @@ use crate::linear::Complex;
 /// How much a relay excites and where it switches.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Relay {
-    /// Amplitude d of the output, positive; the sign of the gain of the loop is `reversed`.
+    /// Amplitude d of the output (unit of the plant input), positive; the sign of the gain of the loop is `reversed`.
     pub amplitude: f64,
     /// Half width ε of the hysteresis, in units of the control error; 0 for an ideal relay.
     pub hysteresis: f64,
-    /// Mean of both output values.
+    /// Mean of both output values (unit of the plant input).
     pub bias: f64,
     /// For a loop with negative gain: a positive error lowers the input.
     pub reversed: bool,

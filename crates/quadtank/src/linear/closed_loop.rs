@@ -42,7 +42,7 @@ impl ClosedLoop {
         let mut poles_z = eigenvalues(state_matrix)?;
         poles_z.sort_by(|x, y| y.norm().total_cmp(&x.norm()).then(y.im.total_cmp(&x.im)));
         let stability = Stability::of_poles(&poles_z);
-        // What rounding leaves of a pole at z = 1 would be told as a growth or a decay.
+        // A pole at z = 1 is moved by rounding, which would be reported as growth or decay.
         let is_one = |z: Complex| (z - Complex::ONE).norm() < UNIT_CIRCLE_TOLERANCE;
         let image = |&z: &Complex| if is_one(z) { Some(Complex::ZERO) } else { s_from_z(z, sampling_time_s) };
         let poles_s: Vec<Complex> = poles_z.iter().filter_map(image).collect();

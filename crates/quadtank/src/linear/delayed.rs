@@ -16,9 +16,9 @@ pub struct SignalPath {
     pub element: TransferFunction,
 }
 
-/// A path on its way.
+/// A path with its state.
 #[derive(Clone, Debug)]
-struct Moving {
+struct PathState {
     input: usize,
     output: usize,
     dead_time: f64,
@@ -36,12 +36,12 @@ struct Moving {
 /// every path moves exactly (to rounding). The unit of time is that of the plant.
 #[derive(Clone, Debug)]
 pub struct DelayedPlant {
-    paths: Vec<Moving>,
+    paths: Vec<PathState>,
     inputs: [f64; 2],
     /// Changes of each input: time and new value.
     changes: [Vec<(f64, f64)>; 2],
     time: f64,
-    pace: f64,
+    search_step: f64,
     /// The latest durations of a motion, oldest first.
     regular: Vec<Regular>,
 }
@@ -73,11 +73,18 @@ impl DelayedPlant {
             let motion = Motion::new(&path.element)?;
             let dead_time = path.element.dead_time();
             let (input, output) = (path.input, path.output);
-            Ok(Moving { input, output, dead_time, motion, state: [0.0; MAX_ORDER], acting: 0.0, awaited: 0 })
+            Ok(PathState { input, output, dead_time, motion, state: [0.0; MAX_ORDER], acting: 0.0, awaited: 0 })
         };
         let paths = paths.iter().map(moving).collect::<Result<Vec<_>, LinearError>>()?;
-        let pace = paths.iter().map(|path| 0.5 * path.motion.unit()).fold(f64::INFINITY, f64::min);
-        Ok(Self { paths, inputs: [0.0; 2], changes: [Vec::new(), Vec::new()], time: 0.0, pace, regular: Vec::new() })
+        let search_step = paths.iter().map(|path| 0.5 * path.motion.unit()).fold(f64::INFINITY, f64::min);
+        Ok(Self {
+            paths,
+            inputs: [0.0; 2],
+            changes: [Vec::new(), Vec::new()],
+            time: 0.0,
+            search_step,
+            regular: Vec::new(),
+        })
     }
 
     /// Time since the start.
@@ -101,7 +108,7 @@ impl DelayedPlant {
         self.sum(|path| path.motion.output(&path.state, path.acting))
     }
 
-    /// Both outputs `duration` from now, which must be no longer than [`quiet`](Self::quiet).
+    /// Both outputs `duration` from now, which must be no longer than [`time_to_arrival`](Self::time_to_arrival).
     pub fn outputs_after(&self, duration: f64) -> [f64; 2] {
         match self.leaps(duration) {
             Some(leaps) => {
@@ -127,14 +134,14 @@ impl DelayedPlant {
         gain
     }
 
-    /// How long nothing arrives: until the next change of an input has passed a dead time. Infinite when none is on its way.
-    pub fn quiet(&self) -> f64 {
+    /// Time until the next delayed change of an input arrives; infinite where none is pending.
+    pub fn time_to_arrival(&self) -> f64 {
         self.paths.iter().filter_map(|path| self.arrival(path)).fold(f64::INFINITY, f64::min) - self.time
     }
 
-    /// A time within which no path turns there and back: half its mean time constant.
-    pub fn pace(&self) -> f64 {
-        self.pace
+    /// Time within which no path has more than one extremum: half of the shortest mean time constant.
+    pub fn search_step(&self) -> f64 {
+        self.search_step
     }
 
     /// Multiplications, at most, of a motion over a `duration` without arrivals.
@@ -145,16 +152,16 @@ impl DelayedPlant {
         }
     }
 
-    /// Moves on, over any number of arrivals.
+    /// Advances by `duration`, across any number of arrivals.
     pub fn advance(&mut self, duration: f64) {
         let end = self.time + duration;
         loop {
-            let quiet = self.quiet();
-            if self.time + quiet >= end {
+            let time_to_arrival = self.time_to_arrival();
+            if self.time + time_to_arrival >= end {
                 break;
             }
-            let arrival = self.time + quiet;
-            self.glide(quiet);
+            let arrival = self.time + time_to_arrival;
+            self.glide(time_to_arrival);
             self.time = arrival;
             self.take_arrivals();
         }
@@ -194,7 +201,7 @@ impl DelayedPlant {
     }
 
     /// When the awaited change arrives at the end of a path.
-    fn arrival(&self, path: &Moving) -> Option<f64> {
+    fn arrival(&self, path: &PathState) -> Option<f64> {
         self.changes[path.input].get(path.awaited).map(|(time, _)| time + path.dead_time)
     }
 
@@ -211,7 +218,7 @@ impl DelayedPlant {
         }
     }
 
-    fn sum(&self, mut of_path: impl FnMut(&Moving) -> f64) -> [f64; 2] {
+    fn sum(&self, mut of_path: impl FnMut(&PathState) -> f64) -> [f64; 2] {
         let mut outputs = [0.0; 2];
         for path in &self.paths {
             outputs[path.output] += of_path(path);
@@ -256,16 +263,16 @@ mod tests {
             let expected = step(t - dead_time) - step(t - 3.0 * 0.7 - dead_time);
             assert_relative_eq!(plant.outputs()[0], expected, epsilon = 1e-13);
         }
-        assert_eq!(plant.quiet(), f64::INFINITY);
+        assert_eq!(plant.time_to_arrival(), f64::INFINITY);
     }
 
     #[test]
     fn looking_ahead_is_what_happens() {
         let mut plant = DelayedPlant::new(&[one(1.0), one(0.25)]).unwrap();
         plant.set_inputs([1.0, 0.0]);
-        assert_relative_eq!(plant.quiet(), 0.25);
+        assert_relative_eq!(plant.time_to_arrival(), 0.25);
         plant.advance(0.5);
-        assert_relative_eq!(plant.quiet(), 0.5);
+        assert_relative_eq!(plant.time_to_arrival(), 0.5);
         let ahead = plant.outputs_after(0.3)[0];
         plant.advance(0.3);
         assert_relative_eq!(plant.outputs()[0], ahead, max_relative = 1e-14);

@@ -21,12 +21,13 @@ pub enum LoopStability {
     },
     /// A locus passes through −1, to rounding: an oscillation that stays.
     Marginal {
-        /// Its frequency; 0 for a pole at the origin.
+        /// Its frequency (rad per unit of time of the plant); 0 for a pole at the origin.
         frequency: f64,
     },
     /// The encirclements are too many to count within the bound on work.
     NotComputed {
-        /// Frequency up to which the loop has to be followed; infinite where it never becomes small.
+        /// Frequency up to which the loop has to be followed (rad per unit of time of the plant); infinite where it
+        /// never becomes small.
         frequency: f64,
     },
     /// The loop closes through the direct feedthrough of a biproper element, and an eigenvalue of L(∞) is −1 or beyond: the equation
@@ -39,7 +40,7 @@ pub enum LoopStability {
 
 /// Most cells of frequency that the count looks at. Of 1,000 random loops half take 210, and one 940.
 const MOST_CELLS: u32 = 5_000;
-/// Width of a cell, relative to its frequency, in which a determinant that is not told from zero is zero.
+/// Width of a cell, relative to its frequency, at which a determinant whose enclosure contains zero counts as zero.
 const NARROWEST: f64 = 1e-15;
 /// Relative deviation of the elements from powers of s at the lowest frequency.
 const SETTLED: f64 = 1e-12;

@@ -79,6 +79,8 @@ impl Leap {
 }
 
 impl Motion {
+    /// The state space of a proper element, without its dead time.
+    ///
     /// # Errors
     /// [`LinearError::OutOfRange`] with the relative degree when the element is not proper, with the order when it is beyond
     /// [`MAX_ORDER`].

@@ -16,9 +16,10 @@ use crate::numeric::{golden_section, modulus, root};
 /// How far a loop is from instability when all of it is scaled or turned. Meant for stable loops.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Margins {
-    /// Shortest distance of a locus from −1.
+    /// Shortest distance of a locus from −1. For a loop with one input and output its reciprocal is Ms.
     pub distance: f64,
-    /// Frequency of that; infinite where the distance is that which the loci have in the end, 1 without direct feedthrough.
+    /// Frequency of that (rad per unit of time of the plant); infinite where the distance is that which the loci have
+    /// in the end, 1 without direct feedthrough.
     pub distance_frequency: f64,
     /// Smallest factor above 1 on all gains at which a locus reaches −1; `None` where there is none up to 10⁶.
     pub gain_up: Option<f64>,

@@ -2,8 +2,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::numeric::{larger, smaller};
 
-/// A pump with its voltage limits and its curve: a straight line, `gain × voltage` (Cocota 2009, eq. 2.25), that need not
-/// begin at 0 V nor go on for ever.
+/// A pump with its voltage limits and its curve: a straight line, `gain × voltage` (Cocota 2009, eq. 2.25), with an
+/// optional offset, dead zone and saturation.
 ///
 /// The flow at a voltage `v` is `k v + offset` from `start_voltage` on, never below 0 nor above `flow_max`, and 0 before.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -27,7 +27,7 @@ impl Sensor {
         self.gain * level
     }
 
-    /// What the real sensor makes of the ideal `signal` (V): limited to its range, then rounded to its resolution.
+    /// Signal of the real sensor for the ideal `signal` (both V): limited to its range, then rounded to its resolution.
     #[inline]
     pub fn quantise(&self, signal: f64) -> f64 {
         let limited = signal.max(0.0).min(self.gain * self.range);
@@ -67,7 +67,7 @@ fn is_nothing(inflow: &[f64; 4]) -> bool {
     *inflow == [0.0; 4]
 }
 
-/// Loads that act on the plant beside its inputs.
+/// Loads that act on the plant besides its inputs.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Disturbance {
     /// Flow added to that of each pump, ahead of its valve (m³/s); may be negative.
@@ -91,7 +91,7 @@ impl Disturbance {
         from_fn(|i| (valves[i] + self.valve_change[i]).clamp(0.0, 1.0))
     }
 
-    /// What each outlet has of its area under the load, as a share.
+    /// Area of each outlet under the load as a share of its area without, at least 0.
     #[inline]
     pub fn outlet_share(&self) -> [f64; 4] {
         self.outlet_change.map(|change| larger(1.0 + change, 0.0))

@@ -39,7 +39,7 @@ fn pass(water: &mut Hydraulics, duration: f64) {
     }
 }
 
-/// Walls are left to whoever looks at the levels.
+/// Ignores overflows and empty tanks: this plant reports no events.
 struct Unwatched;
 
 impl Watch for Unwatched {
@@ -82,7 +82,7 @@ impl HeldPlant for HeldTank<'_> {
         self.pairing.by_loop(taken)
     }
 
-    fn quiet(&self) -> f64 {
+    fn time_to_arrival(&self) -> f64 {
         f64::INFINITY
     }
 
@@ -96,7 +96,7 @@ impl HeldPlant for HeldTank<'_> {
         pass(&mut self.water, duration);
     }
 
-    fn pace(&self) -> f64 {
+    fn search_step(&self) -> f64 {
         PACE_S
     }
 

@@ -114,7 +114,7 @@ impl Hydraulics {
 
     /// How fast √h of a tank may change, as a share of itself (1/s): `max(inflow, outflow)/(2 A h)`, which is 1/T of its
     /// linear model at rest. 0 for a tank whose level cannot move, full or dry.
-    #[expect(clippy::inline_always, reason = "as above")]
+    #[expect(clippy::inline_always, reason = "measured: part of every integration step")]
     #[inline(always)]
     fn rate(&self, i: usize) -> f64 {
         let root = self.root_level[i];
@@ -137,7 +137,7 @@ impl Hydraulics {
     }
 
     /// Takes over the √h at the end of a step, without what rounding has left above a wall.
-    #[expect(clippy::inline_always, reason = "as above")]
+    #[expect(clippy::inline_always, reason = "measured: part of every integration step")]
     #[inline(always)]
     pub(super) fn take(&mut self, ends: [f64; 4]) {
         for (i, end) in ends.into_iter().enumerate() {

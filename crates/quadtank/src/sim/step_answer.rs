@@ -102,7 +102,7 @@ impl StepAnswer {
 impl StepFigures {
     fn of(response: &Response<'_>) -> Self {
         let no_response = response.refusal();
-        // How a level that was under way goes on is counted as well, for who asks with the reason in view.
+        // Figures of a level that was not at rest are computed too; the reason is reported with them.
         let is_counted = no_response.is_none_or(|reason| matches!(reason, NoResponse::NotAtRest { .. }));
         let counted = Some(response).filter(|_| is_counted);
         Self {

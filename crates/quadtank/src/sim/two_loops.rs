@@ -14,20 +14,20 @@ use super::course::MAX_ROWS;
 pub trait HeldPlant {
     /// Both outputs now.
     fn outputs(&self) -> [f64; 2];
-    /// Both inputs from now on. Gives back what the plant takes of them: pumps have limits.
+    /// Both inputs from now on. Returns the inputs that the plant applies, which its limits may reduce.
     fn set_inputs(&mut self, inputs: [f64; 2]) -> [f64; 2];
     /// What each output does at once when an input jumps, row by output; zero for a plant without direct feedthrough.
     fn instant_gain(&self) -> Matrix2<f64> {
         Matrix2::zeros()
     }
-    /// How long the outputs are smooth if no input changes.
-    fn quiet(&self) -> f64;
-    /// Both outputs `duration` from now, at most [`quiet`](Self::quiet).
+    /// Time for which the outputs stay smooth without a change of the inputs: until the next delayed change arrives.
+    fn time_to_arrival(&self) -> f64;
+    /// Both outputs `duration` from now, at most [`time_to_arrival`](Self::time_to_arrival).
     fn outputs_after(&self, duration: f64) -> [f64; 2];
-    /// Moves on by at most [`quiet`](Self::quiet).
+    /// Advances the plant by `duration`, at most [`time_to_arrival`](Self::time_to_arrival).
     fn advance(&mut self, duration: f64);
-    /// A time within which an output does not turn there and back.
-    fn pace(&self) -> f64;
+    /// Time within which an output has at most one extremum, for the search for switches.
+    fn search_step(&self) -> f64;
     /// Multiplications, at most, of [`outputs_after`](Self::outputs_after) and of [`advance`](Self::advance) over a smooth piece
     /// of at most `duration`.
     fn multiplications(&self, duration: f64) -> f64;
@@ -47,8 +47,8 @@ impl HeldPlant for DelayedPlant {
         self.instant_gain()
     }
 
-    fn quiet(&self) -> f64 {
-        self.quiet()
+    fn time_to_arrival(&self) -> f64 {
+        self.time_to_arrival()
     }
 
     fn outputs_after(&self, duration: f64) -> [f64; 2] {
@@ -59,8 +59,8 @@ impl HeldPlant for DelayedPlant {
         self.advance(duration);
     }
 
-    fn pace(&self) -> f64 {
-        self.pace()
+    fn search_step(&self) -> f64 {
+        self.search_step()
     }
 
     fn multiplications(&self, duration: f64) -> f64 {
@@ -68,21 +68,22 @@ impl HeldPlant for DelayedPlant {
     }
 }
 
-/// Who acts on the plant and what is asked of it.
+/// Two loops with relays, PID controllers or both around a plant, and the experiment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TwoLoops {
     /// A relay in loop 1, in loop 2, or none.
     pub relays: [Option<Relay>; 2],
     /// Sampled controllers, added to the relays.
     pub controllers: PidMatrix,
-    /// References from the start on.
+    /// References from the start on (unit of the outputs).
     pub references: [f64; 2],
-    /// When relays begin to switch. Until then they hold their first value: at rest every relay stands exactly on its
-    /// threshold, and where the paths across are the quicker ones they would switch each other for ever.
+    /// When relays begin to switch (unit of time of the plant). Until then they hold their first value: at rest every
+    /// relay stands exactly on its threshold, and where the paths across are the quicker ones they would switch each
+    /// other for ever.
     pub release: f64,
-    /// How long (units of time of the plant).
+    /// Duration (unit of time of the plant).
     pub duration: f64,
-    /// Time between rows, which is the sampling time of the controllers.
+    /// Time between rows, which is the sampling time of the controllers (unit of time of the plant).
     pub step: f64,
 }
 
@@ -137,7 +138,7 @@ pub struct LoopTrace {
 }
 
 /// Switches in a row, each after next to nothing, that are taken for chattering, and what is next to nothing, as a share of the
-/// pace of the plant.
+/// search step of the plant.
 const HASTY_SWITCHES: u32 = 12;
 const HASTY: f64 = 1e-6;
 /// Outputs beyond this many times the excitation have diverged.
@@ -290,8 +291,8 @@ impl<'a> Run<'a> {
                 self.trace.halt = Some(Halt::Full { time: self.time });
                 return;
             }
-            let (left, quiet) = (end - self.time, self.plant.quiet());
-            let piece = quiet.min(self.watched()).min(left);
+            let (left, time_to_arrival) = (end - self.time, self.plant.time_to_arrival());
+            let piece = time_to_arrival.min(self.watched()).min(left);
             if let Some((relay, instant)) = self.first_switch(piece) {
                 self.switch(relay, instant);
                 continue;
@@ -299,7 +300,7 @@ impl<'a> Run<'a> {
             self.advance(piece);
             // Exactly, or the last piece would leave a rounding error to go.
             self.time = if piece == left { end } else { self.time + piece };
-            if piece == quiet && piece < left {
+            if piece == time_to_arrival && piece < left {
                 self.row();
             }
         }
@@ -312,7 +313,7 @@ impl<'a> Run<'a> {
         } else if self.time < self.loops.release {
             self.loops.release - self.time
         } else {
-            self.plant.pace()
+            self.plant.search_step()
         }
     }
 
@@ -320,7 +321,7 @@ impl<'a> Run<'a> {
         self.advance(instant);
         self.time += instant;
         self.positive[relay] = !self.positive[relay];
-        self.hasty = if instant <= HASTY * self.plant.pace() { self.hasty + 1 } else { 0 };
+        self.hasty = if instant <= HASTY * self.plant.search_step() { self.hasty + 1 } else { 0 };
         self.trace.switches[relay].push((self.time, self.positive[relay]));
         self.act();
         self.row();

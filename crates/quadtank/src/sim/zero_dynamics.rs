@@ -1,4 +1,4 @@
-//! Zero dynamics of the nonlinear plant: what the upper tanks do while the lower ones stand still.
+//! Zero dynamics of the nonlinear plant: the motion of the upper levels while levels 1 and 2 are held constant.
 
 use crate::numeric::runge_kutta_step;
 use crate::plant::{Disturbance, QuadrupleTank};

@@ -37,7 +37,7 @@ pub enum StudyFault {
 }
 
 impl StudyError {
-    /// Makes errors of a lower floor errors at a field of the setup.
+    /// Attaches the field of the setup at which an error of a lower-level module arises.
     pub(super) fn at<E: Into<StudyFault>>(field: &'static str) -> impl Fn(E) -> Self {
         move |error| Self { field, fault: error.into() }
     }

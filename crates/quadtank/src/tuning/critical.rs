@@ -28,7 +28,7 @@ pub struct CriticalPoint {
 }
 
 impl CriticalPoint {
-    /// Period Tc of the oscillation.
+    /// Period Tc of the oscillation (unit of time of the plant).
     pub fn period(&self) -> f64 {
         TAU / self.frequency
     }

@@ -26,6 +26,8 @@ pub struct Design<'a> {
 }
 
 impl<'a> Design<'a> {
+    /// The loop of a plant (2 × 2) and its controllers, K with derivative filters.
+    ///
     /// # Errors
     /// [`TuningError::UnstablePlant`], or [`TuningError::Linear`] for gains that are not finite.
     pub fn new(plant: &'a TransferMatrix, controllers: PidMatrix) -> Result<Self, TuningError> {

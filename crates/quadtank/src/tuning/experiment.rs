@@ -11,11 +11,11 @@ use super::{TuningError, TuningRule, UltimatePoint};
 /// Length and fineness of a test.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TestTime {
-    /// Duration (units of time of the plant).
+    /// Duration (unit of time of the plant).
     pub duration: f64,
-    /// When relays begin to switch, see [`TwoLoops::release`].
+    /// When relays begin to switch (unit of time of the plant), see [`TwoLoops::release`].
     pub release: f64,
-    /// Time between rows, and sampling time of controllers in the other loop.
+    /// Time between rows, and sampling time of controllers in the other loop (unit of time of the plant).
     pub step: f64,
 }
 

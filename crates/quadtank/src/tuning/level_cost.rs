@@ -21,14 +21,15 @@ pub enum CostMeasure {
     Itae,
 }
 
-/// A cost with what it may not pay for.
+/// Cost of a level loop: a measure, a penalty on the moves of the output, and constraints.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct LevelCost {
     /// The measure.
     pub measure: CostMeasure,
-    /// Added to the cost for each square of a move of the output from row to row.
+    /// Weight of the sum of the squared moves of the output from row to row (unit of the measure per squared unit of
+    /// the output).
     pub move_penalty: f64,
     /// Largest sensitivity peak Ms of the linear loop; `None` for any loop.
     pub largest_sensitivity: Option<f64>,
@@ -43,9 +44,9 @@ impl LevelCost {
     }
 }
 
-/// What a pair of settings is worth.
+/// Evaluation of a pair of settings.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum LevelWorth {
+pub enum Evaluation {
     /// The cost of settings that keep to all constraints.
     Cost(f64),
     /// By what share a constraint is violated: Ms of its limit, the level of the width of its band. Infinite for an unstable loop.
@@ -54,9 +55,9 @@ pub enum LevelWorth {
     NoRun(LevelRunError),
 }
 
-/// Where the costs of settings begin that violate a constraint; those that do not are far below.
+/// Smallest cost of settings that violate a constraint; feasible costs are far below it (Deb 2000).
 pub const VIOLATION: f64 = 1e12;
-/// Largest violation that counts.
+/// Largest relative violation that is distinguished.
 const WORST: f64 = 1e6;
 
 /// A level loop whose PI settings are sought.
@@ -85,34 +86,34 @@ impl LevelProblem {
         Ok(Self { simulation, transmitter_gain, cost, anti_windup, log: LevelLog::default() })
     }
 
-    /// Cost of a gain and an integral time (s) as a number to be searched: settings that violate a constraint are dearer than all
-    /// that do not, by how much they violate it (Deb 2000); without a run they are infinitely dear.
+    /// Cost of a gain and an integral time (s) for a search: every feasible pair costs less than any that violates a
+    /// constraint, and those cost more the larger the violation (Deb 2000). Infinite for settings without a run.
     pub fn cost(&mut self, settings: [f64; 2]) -> f64 {
-        match self.worth(settings) {
-            LevelWorth::Cost(cost) => cost,
-            LevelWorth::Violates(share) => VIOLATION * (1.0 + share.min(WORST)),
-            LevelWorth::NoRun(_) => f64::INFINITY,
+        match self.evaluate(settings) {
+            Evaluation::Cost(cost) => cost,
+            Evaluation::Violates(share) => VIOLATION * (1.0 + share.min(WORST)),
+            Evaluation::NoRun(_) => f64::INFINITY,
         }
     }
 
-    /// What a gain and an integral time (s) are worth.
-    pub fn worth(&mut self, [gain, integral_time_s]: [f64; 2]) -> LevelWorth {
+    /// Evaluates a gain and an integral time (s).
+    pub fn evaluate(&mut self, [gain, integral_time_s]: [f64; 2]) -> Evaluation {
         let controller = LevelController::Pi { gain, integral_time_s, anti_windup: self.anti_windup };
         if let Err(error) = controller.check() {
-            return LevelWorth::NoRun(error);
+            return Evaluation::NoRun(error);
         }
         if let Some(share) = self.sensitivity_violation(gain, integral_time_s) {
-            return LevelWorth::Violates(share);
+            return Evaluation::Violates(share);
         }
         if let Err(error) = self.simulation.run_into(&controller, &mut self.log) {
-            return LevelWorth::NoRun(error);
+            return Evaluation::NoRun(error);
         }
         // A run has two rows at least.
         let Some(figures) = LevelFigures::of(&self.log, self.transmitter_gain) else {
-            return LevelWorth::Violates(f64::INFINITY);
+            return Evaluation::Violates(f64::INFINITY);
         };
         if let Some(share) = self.band_violation(&figures) {
-            return LevelWorth::Violates(share);
+            return Evaluation::Violates(share);
         }
         let measured = match self.cost.measure {
             CostMeasure::LevelVariance => figures.level.variance,
@@ -121,7 +122,7 @@ impl LevelProblem {
             CostMeasure::Ise => figures.ise,
             CostMeasure::Itae => figures.itae,
         };
-        LevelWorth::Cost(measured + self.cost.move_penalty * figures.squared_moves)
+        Evaluation::Cost(measured + self.cost.move_penalty * figures.squared_moves)
     }
 
     /// By what share Ms is too large; `None` where it is not.

@@ -16,7 +16,7 @@ const POINTS: u32 = 400;
 /// A symmetric unimodal oscillation of a relay `u = −d sign(y)` and a linear plant.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LimitCycle {
-    /// Period 2 h*.
+    /// Period 2 h* (unit of time of the plant).
     pub period: f64,
     /// Peak of the output for a relay of amplitude 1.
     pub amplitude: f64,

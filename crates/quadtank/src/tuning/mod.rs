@@ -34,7 +34,7 @@ pub use experiment::{
     ultimate_point, with_integrator,
 };
 pub use identification::{complete_response, sine_test};
-pub use level_cost::{CostMeasure, LevelCost, LevelProblem, LevelWorth, VIOLATION, sensitivity_peak};
+pub use level_cost::{CostMeasure, Evaluation, LevelCost, LevelProblem, VIOLATION, sensitivity_peak};
 pub use limit_cycle::{LimitCycle, limit_cycles};
 pub use model_rules::ModelRule;
 pub use pair_rules::{PairRule, PairRuleError};

@@ -3,16 +3,16 @@ use thiserror::Error;
 
 use super::reaction_curve::SETTLED;
 
-/// Whether a process finds a level of its own, with the reason (Rice and Cooper 2015; Andreis 2017, §2.1).
+/// Whether a process is self-regulating or integrating, with the reason (Rice and Cooper 2015; Andreis 2017, §2.1).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(tag = "verdict", content = "reason", rename_all = "kebab-case")]
 pub enum Regulation {
-    /// It does.
+    /// Self-regulating.
     SelfRegulating(RegulationReason),
-    /// It does not.
+    /// Integrating.
     Integrating(RegulationReason),
-    /// The test does not show it.
+    /// Undecided by the test.
     Undecided(RegulationReason),
 }
 

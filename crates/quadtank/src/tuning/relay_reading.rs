@@ -51,11 +51,11 @@ pub enum RelayVerdict {
 /// Measurements of one loop over the last whole periods.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoopMeasurement {
-    /// Half of what the output moves from peak to peak, a.
+    /// Half of what the output moves from peak to peak, a (unit of the output).
     pub amplitude: f64,
-    /// First harmonic of the input, as a complex amplitude.
+    /// First harmonic of the input, a complex amplitude in the unit of the plant input.
     pub input: Complex,
-    /// First harmonic of the output.
+    /// First harmonic of the output, a complex amplitude in the unit of the plant output.
     pub output: Complex,
     /// `Kc = 4 d/(π a)` with the sign of the loop (Campestrini 2006, eqs. 48 and 95); `None` without a relay in the loop.
     pub gain_by_peak: Option<f64>,
@@ -69,7 +69,7 @@ pub struct LoopMeasurement {
 /// A periodic oscillation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Oscillation {
-    /// Period.
+    /// Period (unit of time of the plant).
     pub period: f64,
     /// Both loops.
     pub loops: [LoopMeasurement; 2],

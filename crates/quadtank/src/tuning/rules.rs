@@ -8,9 +8,9 @@ use crate::linear::Complex;
 /// The ultimate point of a loop: the gain at which it oscillates for ever, and the period of that.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct UltimatePoint {
-    /// Kc; negative for a plant with negative gain.
+    /// Ultimate gain Kc (plant input per plant output), with the sign of the plant gain.
     pub gain: f64,
-    /// Tc.
+    /// Ultimate period Tc (unit of time of the plant).
     pub period: f64,
 }
 

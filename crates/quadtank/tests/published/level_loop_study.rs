@@ -13,7 +13,7 @@ use quadtank::study::level_loop::{
     published_setup, run_level_loop, trade_off,
 };
 use quadtank::tuning::search::GeneticSettings;
-use quadtank::tuning::{LevelWorth, ModelRule, ProcessModel, ReactionError, ReactionMethod, Regulation, TuningError};
+use quadtank::tuning::{Evaluation, ModelRule, ProcessModel, ReactionError, ReactionMethod, Regulation, TuningError};
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
@@ -137,7 +137,7 @@ fn the_map_shows_the_bound_and_the_flat_valley() {
     within(gain, 0.2, 1e-12, "Kp");
     within(time, 6000.0, 1e-9, "Ti");
     // One cell below, at a fifth of the time, the cost is the same to 2 %.
-    let Some(LevelWorth::Cost(beside)) = map.cells()[best - 9] else { panic!("it has a cost") };
+    let Some(Evaluation::Cost(beside)) = map.cells()[best - 9] else { panic!("it has a cost") };
     assert!(beside > cost && beside < 1.03 * cost, "{beside} {cost}");
     // A coarse grid comes first.
     let mut coarse = ContourMap::new(&setup, ContourSettings { size: [9, 7] }).unwrap();

@@ -43,7 +43,7 @@ impl Side {
     }
 }
 
-/// What a visit began with, and what tells that something was tried.
+/// State at the start of a visit, with which the present one is compared to detect what was tried.
 #[derive(Clone, Debug, PartialEq)]
 struct Start {
     references: [f64; 2],

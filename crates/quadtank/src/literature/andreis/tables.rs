@@ -11,7 +11,7 @@ use PublishedObjective::{Averaging, Tight};
 pub enum PublishedObjective {
     /// The level is to stay at its set-point: least variance of the level.
     Tight,
-    /// The tank is to swallow the disturbance: least variance of the outflow.
+    /// The tank is to absorb the disturbance: least variance of the outflow.
     Averaging,
 }
 

@@ -50,12 +50,12 @@ pub struct LevelExperiment {
     pub set_point_scale: SetPointScale,
 }
 
-/// Who moves the output of a level loop. The bias is the output at rest.
+/// What sets the output of a level loop. The bias is the output at rest.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum LevelController {
-    /// A person: the output is the bias with steps, in its unit.
+    /// Manual: the output is the bias plus steps, in its unit.
     Manual {
         /// The steps.
         steps: Vec<SignalStep>,

@@ -55,14 +55,14 @@ struct Slopes {
 
 /// A state with its derivatives, where they are known under the present law and reference.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Moving {
+pub(super) struct LoopState {
     pub state: State,
     slopes: Option<Slopes>,
     /// A valve near that of the state.
     valve: ValvePoint,
 }
 
-impl Moving {
+impl LoopState {
     /// Forgets the derivatives, after law or reference have changed.
     pub fn renew(&mut self) {
         self.slopes = None;
@@ -188,10 +188,10 @@ impl Kernel {
         }
     }
 
-    pub(super) fn start(&self, rest: &LevelSignals) -> Moving {
+    pub(super) fn start(&self, rest: &LevelSignals) -> LoopState {
         let state = [rest.level, self.static_signal(rest.level), rest.actuator_pressure, 0.0, 0.0];
         let valve = ValvePoint { travel: rest.travel, opening: self.opening(rest.travel) };
-        Moving { state, slopes: None, valve }
+        LoopState { state, slopes: None, valve }
     }
 
     #[inline]
@@ -316,7 +316,7 @@ impl Kernel {
     /// anew in pieces, which brings runs at their limits from 1e-3 to 2e-5 of the exact ones. Gives back how many steps of the
     /// method it took.
     #[inline]
-    pub(super) fn step(&self, law: &Law, reference: f64, step: f64, inflow: [f64; 3], moving: &mut Moving) -> usize {
+    pub(super) fn step(&self, law: &Law, reference: f64, step: f64, inflow: [f64; 3], moving: &mut LoopState) -> usize {
         let begin = moving.state;
         let known = moving.valve;
         let first = moving.slopes.unwrap_or_else(|| self.slopes(law, reference, &begin, known));
@@ -331,7 +331,7 @@ impl Kernel {
             }
             steps += PIECES_AT_KINKS;
         }
-        *moving = Moving { state: end, slopes: Some(last), valve: self.known_near(last.travel, known) };
+        *moving = LoopState { state: end, slopes: Some(last), valve: self.known_near(last.travel, known) };
         steps
     }
 

@@ -1,5 +1,5 @@
 use super::experiment::{LevelController, LevelExperiment, LevelRunError, SetPointScale, SignalStep};
-use super::kernel::{Kernel, Law, Moving, share_of};
+use super::kernel::{Kernel, Law, LoopState, share_of};
 use super::log::LevelLog;
 use crate::control::{AntiWindup, Pi};
 use crate::plant::level::{LevelGains, LevelPlant, LevelSignals};
@@ -197,7 +197,7 @@ impl LevelSimulation {
     }
 }
 
-/// Who moves the output while a run goes on.
+/// What sets the output during a run.
 enum Actor<'a> {
     Manual(&'a [SignalStep]),
     Continuous,
@@ -211,7 +211,7 @@ struct Running<'a> {
     law: Law,
     /// Pieces of a step of integration.
     pieces: usize,
-    moving: Moving,
+    moving: LoopState,
     reference: f64,
 }
 

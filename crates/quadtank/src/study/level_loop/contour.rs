@@ -1,6 +1,6 @@
 use crate::sim::level::LevelRunError;
 use crate::tuning::search::{Axis, AxisError};
-use crate::tuning::{LevelProblem, LevelWorth};
+use crate::tuning::{Evaluation, LevelProblem};
 
 use super::LevelLoopSetup;
 
@@ -21,7 +21,7 @@ pub struct ContourMap {
     size: [usize; 2],
     order: Vec<usize>,
     /// Worth of each cell, by gain first, as far as it is known.
-    cells: Vec<Option<LevelWorth>>,
+    cells: Vec<Option<Evaluation>>,
     done: usize,
 }
 
@@ -52,7 +52,7 @@ impl ContourMap {
     pub fn advance(&mut self, budget: usize) -> bool {
         for _ in 0..budget {
             let Some(&cell) = self.order.get(self.done) else { return false };
-            self.cells[cell] = Some(self.problem.worth(self.settings_of(cell)));
+            self.cells[cell] = Some(self.problem.evaluate(self.settings_of(cell)));
             self.done += 1;
         }
         self.done < self.order.len()
@@ -75,14 +75,14 @@ impl ContourMap {
     }
 
     /// Worth of each cell, gains first; `None` where it is not computed yet.
-    pub fn cells(&self) -> &[Option<LevelWorth>] {
+    pub fn cells(&self) -> &[Option<Evaluation>] {
         &self.cells
     }
 
     /// The best cell so far, with its cost.
     pub fn best(&self) -> Option<(usize, f64)> {
-        let costs = self.cells.iter().enumerate().filter_map(|(cell, worth)| match worth {
-            Some(LevelWorth::Cost(cost)) if cost.is_finite() => Some((cell, *cost)),
+        let costs = self.cells.iter().enumerate().filter_map(|(cell, evaluation)| match evaluation {
+            Some(Evaluation::Cost(cost)) if cost.is_finite() => Some((cell, *cost)),
             _ => None,
         });
         costs.min_by(|a, b| a.1.total_cmp(&b.1))

@@ -58,7 +58,7 @@ pub struct StepTestSpec {
 pub enum Objective {
     /// The level is to stay at its set-point.
     Tight,
-    /// The tank is to swallow the disturbance, the level within a band (m).
+    /// The tank is to absorb the disturbance, the level within a band (m).
     Averaging {
         /// Lowest and highest level; 30 to 70 % of the range is usual (Foley 2000; Horton 2003).
         band: [f64; 2],

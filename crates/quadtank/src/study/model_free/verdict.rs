@@ -30,7 +30,7 @@ pub enum LossBy {
     Other,
 }
 
-/// What a run shows to whoever sees all of it, not the two lower levels alone.
+/// Verdict on a run that takes the upper tanks and the zero dynamics into account, not only the controlled levels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ModelFreeVerdict {
     /// A level followed its reference and then left it for good.
@@ -41,19 +41,20 @@ pub enum ModelFreeVerdict {
         at_s: f64,
         /// By what.
         by: LossBy,
-        /// What the zero dynamics had said would end it, and when (s).
-        foretold: Option<(ZeroDynamicsEnd, f64)>,
+        /// The end that the zero dynamics predicted, and its time (s).
+        predicted: Option<(ZeroDynamicsEnd, f64)>,
     },
-    /// Both levels are where they should be, and the upper tanks are leaving: it cannot go on.
+    /// Both controlled levels are at their references while the upper tanks diverge along the unstable zero dynamics,
+    /// until a pump or a tank reaches a limit.
     Leaving {
         /// When it will end, by the zero dynamics (s).
         ends_s: f64,
         /// What will end it.
         by: ZeroDynamicsEnd,
-        /// The time in which the upper tanks part by another factor e (s), by the right-most zero.
+        /// Time in which the upper levels diverge by another factor e, 1/z of the right-most zero (s).
         e_folding_s: Option<f64>,
     },
-    /// Valves move, and the levels follow.
+    /// The valves move and both levels follow their references.
     Rippling {
         /// How far from their references they are in the last quarter of the run (m).
         error: [f64; 2],
@@ -75,15 +76,14 @@ impl ModelFreeVerdict {
     /// The verdict on a run with what theory says of its setup.
     pub fn of(setup: &ModelFreeSetup, answer: &ModelFreeAnswer, analysis: &ModelFreeAnalysis) -> Self {
         let run = &answer.run.trajectory;
-        let predicted = answer.predicted.and_then(|predicted| Some((predicted.ends?, predicted.from_s)));
-        let foretold = predicted.map(|(ends, from_s)| (ends, from_s + ends.after_s()));
+        let predicted = answer.predicted.and_then(|loss| loss.ends.map(|ends| (ends, loss.from_s + ends.after_s())));
         let losses = answer.figures.iter().enumerate().filter_map(|(level, f)| Some((level, f.lost_at_s?)));
         if let Some((level, at_s)) = losses.min_by(|a, b| a.1.total_cmp(&b.1)) {
-            return Self::Lost { level, at_s, by: loss_by(&setup.plant_at(at_s), run, at_s), foretold };
+            return Self::Lost { level, at_s, by: loss_by(&setup.plant_at(at_s), run, at_s), predicted };
         }
         let late = [0, 1].map(|level| late_error(run, level));
         let within = |share: f64| late.iter().all(|&(error, reference)| error <= share * reference);
-        if let Some((by, ends_s)) = foretold.filter(|_| within(SETTLED)) {
+        if let Some((by, ends_s)) = predicted.filter(|_| within(SETTLED)) {
             let plant = analysis.linear.as_ref().and_then(|plant| plant.as_ref().ok());
             let zero = plant.and_then(|plant| Some(plant.rightmost_zero()?.value.re)).filter(|&zero| zero > 0.0);
             return Self::Leaving { ends_s, by, e_folding_s: zero.map(f64::recip) };

@@ -45,7 +45,7 @@ impl PlantStudy {
     /// published controllers.
     ///
     /// # Errors
-    /// What is wrong with the plant.
+    /// [`TuningError::UnstablePlant`] or [`TuningError::Linear`], as [`Design::new`](crate::tuning::Design::new).
     pub fn compare_published(&self, setup: &TuningSetup) -> Result<Vec<ComparedControllers>, TuningError> {
         if setup.plant != TuningPlant::Published(PublishedPlant::WoodBerry) {
             return Ok(Vec::new());
@@ -69,7 +69,7 @@ impl PlantStudy {
     /// What the controllers at work do, as the others are judged: without a decoupler.
     ///
     /// # Errors
-    /// What is wrong with the plant.
+    /// [`TuningError::UnstablePlant`] or [`TuningError::Linear`], as [`Design::new`](crate::tuning::Design::new).
     pub fn judge_root(&self, root: &DesignRoot, setup: &TuningSetup) -> Result<JudgedControllers, TuningError> {
         self.judge(root.controllers, root.pairing, setup)
     }

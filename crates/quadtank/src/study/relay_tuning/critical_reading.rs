@@ -27,7 +27,7 @@ impl CriticalReading {
     /// The reading of results.
     ///
     /// # Errors
-    /// What is wrong with the plant.
+    /// The error of the study of the plant; as [`Design::new`](crate::tuning::Design::new).
     pub fn of(results: &Results) -> Result<Self, TuningError> {
         let study = results.study.as_ref().as_ref().map_err(|&error| error)?;
         let importance = results.setup.importance().ok().filter(|r| !r.is_nan()).map(f64::abs);

@@ -36,7 +36,7 @@ pub struct Designed {
 pub struct CriticalResponse {
     /// Gains of the critical point.
     pub gains: [f64; 2],
-    /// Critical frequency.
+    /// Critical frequency (rad per unit of time of the plant).
     pub frequency: f64,
     /// G(jω) there.
     pub g: Matrix2<Complex>,

@@ -41,7 +41,7 @@ impl LoopPeaks {
     /// The peaks of controllers on a plant, in a loop with this stability.
     ///
     /// # Errors
-    /// What is wrong with the plant.
+    /// [`TuningError::UnstablePlant`] or [`TuningError::Linear`], as [`Design::new`].
     pub(super) fn of(
         plant: &TransferMatrix,
         controllers: [ParallelPid; 2],
@@ -68,7 +68,7 @@ impl PlantStudy {
     /// How far from −1 the loci stay with a root; `None` where the search is beyond its bound on work.
     ///
     /// # Errors
-    /// What is wrong with the plant.
+    /// [`TuningError::UnstablePlant`] or [`TuningError::Linear`], as [`Design::new`].
     pub fn margins(&self, root: &DesignRoot) -> Result<Option<Margins>, TuningError> {
         Ok(Design::new(&self.wired(root.pairing), PidMatrix::decentralised(root.controllers))?.margins())
     }
@@ -76,7 +76,7 @@ impl PlantStudy {
     /// How robust a root is by the peaks of its loop; neither of a loop that is not known to be stable.
     ///
     /// # Errors
-    /// What is wrong with the plant.
+    /// [`TuningError::UnstablePlant`] or [`TuningError::Linear`], as [`Design::new`].
     pub fn peaks(&self, root: &DesignRoot) -> Result<LoopPeaks, TuningError> {
         LoopPeaks::of(&self.wired(root.pairing), root.controllers, root.stability)
     }
@@ -85,7 +85,7 @@ impl PlantStudy {
     /// told from the other.
     ///
     /// # Errors
-    /// What is wrong with the plant.
+    /// [`TuningError::UnstablePlant`] or [`TuningError::Linear`], as [`Design::new`].
     pub fn placed_loci(&self, root: &DesignRoot, frequency: f64, target: [f64; 2]) -> Result<PlacedLoci, TuningError> {
         let plant = self.wired(root.pairing);
         let design = Design::new(&plant, PidMatrix::decentralised(root.controllers))?;
@@ -99,7 +99,7 @@ impl PlantStudy {
     /// a sine in input 1, the second from what simultaneous relays left. The sine runs on the linear plant.
     ///
     /// # Errors
-    /// What is wrong with the plant.
+    /// As [`sine_test`].
     pub fn recover(&self, oscillation: &Oscillation) -> Result<Recovered, TuningError> {
         let frequency = oscillation.frequency();
         let periods = (SETTLED / (slowest_rate(&self.plant)? * oscillation.period)).clamp(PERIODS.0, PERIODS.1);

@@ -57,7 +57,7 @@ pub enum Tested {
 /// A point of a frequency response as a relay found it, and as it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FoundPoint {
-    /// Frequency of the oscillation.
+    /// Frequency of the oscillation (rad per unit of time of the plant).
     pub frequency: f64,
     /// Modulus by the describing function.
     pub modulus: f64,

@@ -36,7 +36,7 @@ impl PrintedFigure {
 /// Printed numbers of a case beside computed ones; `study` is that of its plant.
 ///
 /// # Errors
-/// What is wrong with the plant.
+/// [`TuningError::UnstablePlant`] or [`TuningError::Linear`], as [`Design::new`].
 pub fn printed_figures(case: PublishedCase, study: &PlantStudy) -> Result<Vec<PrintedFigure>, TuningError> {
     let pairs = case.printed().into_iter().zip(computed(case, study)?);
     Ok(pairs.map(|(printed, computed)| PrintedFigure { printed, computed }).collect())

@@ -140,7 +140,7 @@ impl TuningSetup {
     /// Importance r2 of the critical point that the design starts from.
     ///
     /// # Errors
-    /// What is wrong with the plant.
+    /// [`TuningError::Linear`] for coefficients that are no transfer function.
     pub fn importance(&self) -> Result<f64, TuningError> {
         match self.design.critical {
             CriticalSpec::Importance(r) => Ok(r),

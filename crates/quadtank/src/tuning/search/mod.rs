@@ -95,10 +95,10 @@ pub struct Evaluated<const N: usize> {
 
 /// A search that asks for the cost of one point after the other.
 pub trait Search<const N: usize> {
-    /// The next point of which the cost is wanted; `None` when the search has ended. The same until [`tell`](Self::tell).
+    /// The next point to be evaluated, the same until [`tell`](Self::tell); `None` when the search has ended.
     fn ask(&mut self) -> Option<[f64; N]>;
 
-    /// The cost of the point asked for. What is not a number counts as infinitely dear.
+    /// The cost of the point asked for. NaN counts as an infinite cost.
     fn tell(&mut self, cost: f64);
 
     /// The best point so far.
