@@ -8,8 +8,8 @@ use quadtank::literature::DisplayUnit;
 use quadtank::plant::PlantError;
 use quadtank::plant::level::LevelError;
 use quadtank::sim::NoResponse;
-use quadtank::study::relay_tuning::ElementFault;
-use quadtank::study::{StudyError, StudyFault};
+use quadtank::study::relay_tuning::ElementError;
+use quadtank::study::{StudyError, StudyErrorKind};
 use quadtank_scenario::{ScenarioError, runs_backwards};
 
 /// One sentence; a field keeps its name from the document.
@@ -73,12 +73,12 @@ pub fn of_no_response(lab: Lab, unit: DisplayUnit, index: usize, reason: NoRespo
 /// Why a setup has no results.
 pub fn of_study_error(lab: Lab, unit: DisplayUnit, error: &StudyError) -> String {
     match error.fault {
-        StudyFault::TooMuchWork { time_s } => {
+        StudyErrorKind::TooMuchWork { time_s } => {
             tr!(lab, refused.too_much_work, time = lab.number_style().significant(time_s, 3))
         }
-        StudyFault::Plant(error) => of_plant_error(lab, unit, &error),
-        StudyFault::Law(fault) => of_law(lab, error.field, fault),
-        StudyFault::Linear(error) => error.to_string(),
+        StudyErrorKind::Plant(error) => of_plant_error(lab, unit, &error),
+        StudyErrorKind::Law(fault) => of_law(lab, error.field, fault),
+        StudyErrorKind::Linear(error) => error.to_string(),
     }
 }
 
@@ -101,11 +101,11 @@ fn of_law(lab: Lab, field: &str, error: EstimatorError) -> String {
 }
 
 /// Why relay tuning does not work with an element.
-pub fn of_fault(lab: Lab, fault: ElementFault) -> String {
+pub fn of_fault(lab: Lab, fault: ElementError) -> String {
     match fault {
-        ElementFault::NoDenominator => tr!(lab, refused.no_denominator),
-        ElementFault::Improper { .. } => tr!(lab, refused.improper),
-        ElementFault::Unstable { real_part } => {
+        ElementError::NoDenominator => tr!(lab, refused.no_denominator),
+        ElementError::Improper { .. } => tr!(lab, refused.improper),
+        ElementError::Unstable { real_part } => {
             tr!(lab, refused.unstable, real = lab.number_style().significant(real_part, 3))
         }
     }

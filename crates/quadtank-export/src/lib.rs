@@ -71,7 +71,7 @@ mod tests {
     use super::*;
     use quadtank::literature::PresetId;
     use quadtank::plant::PlantError;
-    use quadtank::study::StudyFault;
+    use quadtank::study::StudyErrorKind;
     use quadtank::study::quadruple_tank::{OperatingPointSpec, analyse, setup_of};
 
     #[test]
@@ -123,7 +123,7 @@ mod tests {
         let mut scenario = Scenario::default();
         scenario.setup.valves = [0.5, 0.5];
         scenario.setup.operating_point = OperatingPointSpec::Levels([0.1, 0.1]);
-        let singular = StudyFault::Plant(PlantError::SingularPlant { gamma_sum: 1.0 });
+        let singular = StudyErrorKind::Plant(PlantError::SingularPlant { gamma_sum: 1.0 });
         for language in Language::ALL {
             let expected = ExportError::Study(StudyError { field: "operating_point", fault: singular });
             assert_eq!(export(&scenario, language), Err(expected));

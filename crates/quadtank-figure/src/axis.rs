@@ -7,7 +7,7 @@ pub(super) const LARGEST: f64 = 1e100;
 /// Smallest span of an axis relative to its values; below it, neighbouring ticks would not differ as `f64`.
 pub(super) const SMALLEST_RELATIVE_SPAN: f64 = 1e-9;
 /// Whole numbers with more digits than this, and fractions with more decimals, are written with a power of ten.
-const MOST_DIGITS: i32 = 6;
+const MAX_DIGITS: i32 = 6;
 
 /// One axis: what is said beside it, and the range it shows.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,7 +68,7 @@ pub(super) fn linear_ticks((min, max): (f64, f64), most: usize) -> Vec<Tick> {
             value: step.value(count),
             digits: count * step.mantissa,
             exponent: step.exponent,
-            most_digits: MOST_DIGITS,
+            most_digits: MAX_DIGITS,
         });
         count += 1;
         tick

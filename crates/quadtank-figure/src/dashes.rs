@@ -4,7 +4,7 @@ use super::trace::Px;
 
 /// Largest number of dashes of a line. A line with more of them is drawn with longer dashes: an oscillation that fills the plot would
 /// have tens of thousands, which take a tenth of a second to paint.
-const MOST_DASHES: f64 = 500.0;
+const MAX_DASHES: f64 = 500.0;
 
 fn length_of(pair: &[Px]) -> f64 {
     let &[from, to] = pair else { return 0.0 };
@@ -15,7 +15,7 @@ fn length_of(pair: &[Px]) -> f64 {
 /// The dashes of a polyline: `on` px drawn, `off` px left out, and so on round its corners; both longer in a very long line.
 pub(super) fn dashes(run: &[Px], on: f64, off: f64) -> Vec<Vec<Px>> {
     let whole: f64 = run.windows(2).map(length_of).sum();
-    let stretch = (whole / (MOST_DASHES * (on + off))).max(1.0);
+    let stretch = (whole / (MAX_DASHES * (on + off))).max(1.0);
     let (on, off) = (stretch * on, stretch * off);
     let mut dashes = Vec::new();
     let mut dash: Vec<Px> = run.first().copied().into_iter().collect();

@@ -1,4 +1,4 @@
-use super::measure::{DIGIT, LEAST_CHARACTERS, LINE, MOST_TICKS, NUMBER_GAP, RIGHT, TICK_DISTANCE, TICK_GAP, TOP};
+use super::measure::{DIGIT, LINE, MAX_TICKS, MIN_CHARACTERS, NUMBER_GAP, RIGHT, TICK_DISTANCE, TICK_GAP, TOP};
 use super::{Axis, Chart, Scale, legend};
 
 /// Longest side that is painted (CSS px); keeps finely divided pixels inside `i32`.
@@ -114,7 +114,7 @@ fn widest(axis: &Axis, ticks: usize) -> usize {
 
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to a small positive number")]
 fn ticks_in(length: f64, distance: f64) -> usize {
-    (length / distance).floor().clamp(1.0, MOST_TICKS) as usize
+    (length / distance).floor().clamp(1.0, MAX_TICKS) as usize
 }
 
 /// Frames of charts that stand on top of each other in a figure of the given size (CSS px), heights in proportion to
@@ -150,7 +150,7 @@ fn below(x: &Axis) -> f64 {
 fn beside(chart: &Chart, outer: &Rect) -> f64 {
     let rows = ticks_in(outer.height - above(chart, outer.width) - below(&chart.x), TICK_DISTANCE);
     let numbers =
-        if chart.y.numbered { widest(&chart.y, rows).max(LEAST_CHARACTERS) as f64 * DIGIT + TICK_GAP } else { TOP };
+        if chart.y.numbered { widest(&chart.y, rows).max(MIN_CHARACTERS) as f64 * DIGIT + TICK_GAP } else { TOP };
     numbers + if chart.y.label.is_empty() { 0.0 } else { LINE }
 }
 

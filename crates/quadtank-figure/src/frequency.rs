@@ -1,9 +1,9 @@
 use super::{Anchor, Axis, Chart, Course, Entry, Label, Layer, Marker, Pen, Role, Sample, Series, Shape};
 
 /// Decades of the gain of the plant that are shown at most.
-const MOST_DECADES: i32 = 4;
+const MAX_DECADES: i32 = 4;
 /// Gains of the loop that are shown: two decades below 1, and above it as far as the peak goes.
-const LEAST_GAIN: f64 = 0.01;
+const MIN_GAIN: f64 = 0.01;
 /// Room above the highest gain.
 const ROOM: f64 = 2.0;
 
@@ -80,7 +80,7 @@ fn plant<'a>(spec: &FrequencyCharts<'a>) -> Chart<'a> {
     let decade = |value: f64| value.log10();
     let top = values().reduce(f64::max).map_or(1, |value| whole(decade(value).ceil()));
     let bottom = values().reduce(f64::min).map_or(0, |value| whole(decade(value).floor()));
-    let bottom = bottom.clamp(top - MOST_DECADES, top - 1);
+    let bottom = bottom.clamp(top - MAX_DECADES, top - 1);
     let mut chart = Chart::new(
         frequency_axis(spec),
         Axis::logarithmic(spec.texts.plant, (power_of_ten(bottom), power_of_ten(top))),
@@ -95,7 +95,7 @@ fn plant<'a>(spec: &FrequencyCharts<'a>) -> Chart<'a> {
 fn loop_gains<'a>(spec: &FrequencyCharts<'a>, closed: &ClosedLoopGains<'a>) -> Chart<'a> {
     let gains = [closed.sensitivity[0], closed.complementary[0]];
     let highest = gains.into_iter().flatten().copied().filter(|value| value.is_finite()).fold(1.0, f64::max);
-    let range = (LEAST_GAIN, ROOM * highest);
+    let range = (MIN_GAIN, ROOM * highest);
     let x = frequency_axis(spec);
     let (left, right) = x.span();
     let mut chart = Chart::new(x, Axis::logarithmic(spec.texts.closed, range));

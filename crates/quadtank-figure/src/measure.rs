@@ -17,10 +17,10 @@ pub const TOP: f64 = 8.0;
 /// The same to the right: half of a number of four digits.
 pub const RIGHT: f64 = 16.0;
 /// Tick numbers with fewer characters than this do not move the plot.
-pub const LEAST_CHARACTERS: usize = 4;
+pub const MIN_CHARACTERS: usize = 4;
 /// Least distance of ticks on an upright axis, and of the numbers on a level one.
 pub const TICK_DISTANCE: f64 = 22.0;
 /// Least gap between the numbers on a level axis.
 pub const NUMBER_GAP: f64 = 14.0;
 /// Most ticks on an axis.
-pub const MOST_TICKS: f64 = 10.0;
+pub const MAX_TICKS: f64 = 10.0;

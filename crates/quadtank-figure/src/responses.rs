@@ -8,9 +8,9 @@ use super::range::{extent, range};
 use super::{Axis, Chart, Course, Entry, Layer, Pen, Role, Sample, Series};
 
 /// A level chart never shows less than this share of the height of the walls, so that noise does not look like a step.
-const LEAST_SHARE: f64 = 0.05;
+const MIN_SHARE: f64 = 0.05;
 /// Least range of a voltage chart (V).
-const LEAST_VOLTAGE: f64 = 1.0;
+const MIN_VOLTAGE: f64 = 1.0;
 /// The columns of a run, all of the length of `time_s`.
 #[derive(Clone, Copy, Debug)]
 pub struct RunColumns<'a> {
@@ -176,14 +176,14 @@ fn level_range(spec: &Responses, time: (f64, f64)) -> (f64, f64) {
     let main = spec.nonlinear.levels.into_iter().chain(spec.references);
     let wall = spec.walls.into_iter().filter(|wall| wall.is_finite()).fold(0.0, f64::max);
     let beside = beside(spec).map(|run| (run.time_s, run.levels));
-    range(time, spec.nonlinear.time_s, main, beside, (0.0, wall), LEAST_SHARE * wall)
+    range(time, spec.nonlinear.time_s, main, beside, (0.0, wall), MIN_SHARE * wall)
 }
 
 /// Range of the voltages (V).
 fn voltage_range(spec: &Responses, time: (f64, f64)) -> (f64, f64) {
     let beside = beside(spec).map(|run| (run.time_s, run.voltages));
     let main = spec.nonlinear.voltages.into_iter();
-    range(time, spec.nonlinear.time_s, main, beside, spec.voltage_limits, LEAST_VOLTAGE)
+    range(time, spec.nonlinear.time_s, main, beside, spec.voltage_limits, MIN_VOLTAGE)
 }
 
 fn legend(spec: &Responses) -> Vec<Entry> {

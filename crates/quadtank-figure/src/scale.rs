@@ -48,7 +48,7 @@ pub(super) fn sane((from, to): (f64, f64)) -> (f64, f64) {
 
 /// Whole numbers with more digits than this, and fractions with more decimals, are written with a power of ten: numbers of many
 /// magnitudes stand beside each other.
-const MOST_DIGITS: i32 = 4;
+const MAX_DIGITS: i32 = 4;
 
 /// At most `most` + 1 ticks inside a usable range: at powers of ten, and at 2 and 5 times these where there is room. A range in which these
 /// are fewer than two has those of a linear axis, as far as there is room.
@@ -73,7 +73,7 @@ fn powers((min, max): (f64, f64), gap: f64) -> impl Iterator<Item = Tick> {
     let mantissas: &[i64] = if stride == 1 { &[1, 2, 5] } else { &[1] };
     let ticks = mantissas.iter().flat_map(move |&mantissa| {
         let exponents = exponents.clone().filter(move |exponent| exponent.rem_euclid(stride) == 0);
-        exponents.map(move |exponent| Tick::new(mantissa, exponent, MOST_DIGITS))
+        exponents.map(move |exponent| Tick::new(mantissa, exponent, MAX_DIGITS))
     });
     let slack = 1e-9;
     ticks.filter(move |tick| min * (1.0 - slack) <= tick.value && tick.value <= max * (1.0 + slack))

@@ -201,7 +201,7 @@ pub struct LoopsChart<'a> {
 }
 
 /// Most marks of switches in sight: more would hide the curve, so a long record has to be zoomed into.
-const MOST_MARKS: usize = 80;
+const MAX_MARKS: usize = 80;
 
 /// Outputs above, inputs below.
 pub fn two_loops<'a>(spec: &LoopsChart<'a>) -> [Chart<'a>; 2] {
@@ -298,7 +298,7 @@ fn switch_marks(record: &LoopsRecord, window: (f64, f64)) -> Vec<Layer<'static>>
         times.filter(|time| (window.0..=window.1).contains(time)).collect::<Vec<f64>>()
     };
     let times = record.switches.map(in_sight);
-    if times[0].len() + times[1].len() > MOST_MARKS {
+    if times[0].len() + times[1].len() > MAX_MARKS {
         return Vec::new();
     }
     let mark = |index: usize, time: f64| {

@@ -13,13 +13,13 @@ const VERSION: u32 = 1;
 const MOST: usize = 12;
 
 /// Most tasks of a lesson: what is kept of them has to fit into [`SUSPEND_LIMIT`](super::SUSPEND_LIMIT).
-pub(super) const MOST_TASKS: usize = 30;
+pub(super) const MAX_TASKS: usize = 30;
 
 /// Longest id of a task.
 pub(super) const LONGEST_TASK_ID: usize = 40;
 
 /// Most points of a task.
-const MOST_POINTS: u32 = 100;
+const MAX_POINTS: u32 = 100;
 
 /// What all versions have.
 #[derive(Deserialize)]
@@ -175,7 +175,7 @@ pub fn read_lesson(bytes: &[u8]) -> Result<Lesson, ScenarioError> {
     }
     for (step, task) in lesson.tasks() {
         is_id(&format!("steps[{step}].tasks[{}].id", task.id), &task.id, LONGEST_TASK_ID)?;
-        if task.points > MOST_POINTS {
+        if task.points > MAX_POINTS {
             return refused(&format!("steps[{step}].tasks[{}].points", task.id), "0 to 100 are allowed");
         }
     }
@@ -230,7 +230,7 @@ impl Lesson {
             counts.extend(task.kind.counts().map(|(field, count)| (format!("{place}.kind.{field}"), count)));
         }
         let lists = counts.into_iter().map(|(field, count)| (field, count, MOST));
-        lists.chain([("steps, all tasks".to_owned(), self.tasks().count(), MOST_TASKS)]).collect()
+        lists.chain([("steps, all tasks".to_owned(), self.tasks().count(), MAX_TASKS)]).collect()
     }
 }
 

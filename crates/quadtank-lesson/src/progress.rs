@@ -10,7 +10,7 @@ use super::{Answer, Lesson, Task, Verdict, fingerprint};
 pub const SUSPEND_LIMIT: usize = 4096;
 
 /// After so many wrong answers the solution is shown.
-const MOST_WRONG: u32 = 3;
+const MAX_WRONG: u32 = 3;
 
 /// What a student has done with a task.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -53,7 +53,7 @@ impl Record {
         self.solved = verdict.is_right;
         if !verdict.is_right && task.kind.counts_attempts() {
             self.wrong += 1;
-            self.shown = self.wrong >= MOST_WRONG;
+            self.shown = self.wrong >= MAX_WRONG;
         }
     }
 }
@@ -155,7 +155,7 @@ mod tests {
     use serde_json::json;
 
     use super::*;
-    use crate::lesson::{LONGEST_TASK_ID, MOST_TASKS};
+    use crate::lesson::{LONGEST_TASK_ID, MAX_TASKS};
     use crate::read_lesson;
     use crate::sample::{SMALL, changed, lesson, task};
 
@@ -310,7 +310,7 @@ mod tests {
     #[test]
     fn the_largest_lesson_fits() {
         let id = |number: usize| format!("{number:0LONGEST_TASK_ID$}");
-        let tasks: Vec<_> = (0..MOST_TASKS)
+        let tasks: Vec<_> = (0..MAX_TASKS)
             .map(
                 |number| json!({ "id": id(number), "question": {}, "points": 9, "kind": { "order": { "items": [] } } }),
             )
@@ -326,7 +326,7 @@ mod tests {
         }
         let text = progress.to_suspend_data();
         assert!(text.len() <= SUSPEND_LIMIT, "{}", text.len());
-        assert_eq!(Progress::from_suspend_data(&text, &lesson).unwrap().records.len(), MOST_TASKS);
+        assert_eq!(Progress::from_suspend_data(&text, &lesson).unwrap().records.len(), MAX_TASKS);
     }
 
     #[test]

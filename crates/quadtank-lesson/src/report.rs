@@ -121,12 +121,12 @@ impl Report {
     /// not matter. A text without a code has none.
     pub fn all_in(text: &str) -> Vec<Result<Self, ReportError>> {
         /// Most pieces into which a code is broken.
-        const MOST_PIECES: usize = 60;
+        const MAX_PIECES: usize = 60;
         let is_of_code = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_');
         let report = |rest: &str| {
             let mut code = MARK.to_owned();
             let mut found = Err(ReportError::Damaged);
-            for piece in rest.split(|c| !is_of_code(c)).filter(|piece| !piece.is_empty()).take(MOST_PIECES) {
+            for piece in rest.split(|c| !is_of_code(c)).filter(|piece| !piece.is_empty()).take(MAX_PIECES) {
                 code.push_str(piece);
                 found = Self::from_code(&code);
                 if found.is_ok() {

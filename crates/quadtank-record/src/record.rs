@@ -4,9 +4,9 @@ use crate::{Mapping, RecordError, Signal, Table};
 
 /// A pump that moves by less than this (V) stands still: it is far below what a converter resolves, 2.4 mV with 12 bits over 10 V, and it
 /// spares a document the thousands of last moves of a loop that comes to rest.
-const LEAST_MOVE_V: f64 = 1e-4;
+const MIN_MOVE_V: f64 = 1e-4;
 /// The same for a flow from outside (m³/s).
-const LEAST_MOVE_OF_FLOW: f64 = 1e-9;
+const MIN_MOVE_OF_FLOW: f64 = 1e-9;
 
 /// A record of a rig in SI, from its first time on. Signals that were not recorded are empty; a hole is not a number.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -87,7 +87,7 @@ impl Record {
     }
 
     fn moves_of(&self, pump: usize) -> impl Iterator<Item = PumpVoltageStep> {
-        let moves = moves(&self.time_s, &self.pump_voltage[pump], LEAST_MOVE_V);
+        let moves = moves(&self.time_s, &self.pump_voltage[pump], MIN_MOVE_V);
         moves.map(move |(time_s, voltage)| PumpVoltageStep { pump, time_s, voltage })
     }
 
@@ -97,7 +97,7 @@ impl Record {
     /// [`RecordError::TooManyMoves`] beyond `most` moves.
     pub fn inflow_moves(&self, most: usize) -> Result<Vec<InflowStep>, RecordError> {
         let of_tank = |tank: usize| {
-            let moves = moves(&self.time_s, &self.inflow[tank], LEAST_MOVE_OF_FLOW);
+            let moves = moves(&self.time_s, &self.inflow[tank], MIN_MOVE_OF_FLOW);
             moves.map(move |(time_s, flow)| InflowStep { tank, time_s, flow })
         };
         let moves: Vec<InflowStep> = (0..4).flat_map(of_tank).collect();

@@ -5,7 +5,7 @@ use quadtank::plant::level::LevelError;
 use quadtank::study::StudyError;
 
 use super::limits::Limits;
-use quadtank::study::relay_tuning::ElementFault;
+use quadtank::study::relay_tuning::ElementError;
 
 /// Whether a number asks a pump to pull: rigs that are driven by a symmetric power module are often written so.
 pub fn runs_backwards(field: &str, value: f64) -> bool {
@@ -127,7 +127,7 @@ pub enum ScenarioError {
         /// Where in the document.
         field: String,
         /// What is wrong.
-        fault: ElementFault,
+        fault: ElementError,
     },
 }
 

@@ -132,11 +132,11 @@ pub const POWER_GAIN: Limits = Limits::new(0.01, 100.0);
 pub const SENSOR_GAIN: Limits = Limits::new(0.01, 1e4);
 /// Range of a sensor (m).
 pub const SENSOR_RANGE: Limits = Limits::new(0.01, 10.0);
-/// Resolution of a sensor (V), 0 for an ideal one; see also [`LEAST_SENSOR_RESOLUTION`].
+/// Resolution of a sensor (V), 0 for an ideal one; see also [`MIN_SENSOR_RESOLUTION`].
 pub const SENSOR_RESOLUTION: Limits = Limits::new(0.0, 10.0);
 /// Least resolution of a sensor that is not ideal (V), far below that of any converter: the largest signal,
 /// [`SENSOR_GAIN`] times [`SENSOR_RANGE`], is then 10¹⁴ steps, which a number of 53 bits still counts.
-pub const LEAST_SENSOR_RESOLUTION: f64 = 1e-9;
+pub const MIN_SENSOR_RESOLUTION: f64 = 1e-9;
 /// Acceleration of gravity (m/s²).
 pub const GRAVITY: Limits = Limits::new(0.1, 100.0);
 
@@ -186,11 +186,11 @@ pub const FLOW_CHANGE: Limits = Limits::new(-FLOW.max, FLOW.max);
 /// A signal or pressure in its unit (mA, psi), or a step of one.
 pub const SIGNAL: Limits = Limits::new(-1000.0, 1000.0);
 /// Least width of a range of signals (mA, psi) or levels (m), and least distance between two points of an actuator curve.
-pub const LEAST_SPAN: f64 = 1e-3;
-/// Lag of an instrument (s), 0 for one that follows at once; see also [`LEAST_LAG_S`].
+pub const MIN_SPAN: f64 = 1e-3;
+/// Lag of an instrument (s), 0 for one that follows at once; see also [`MIN_LAG_S`].
 pub const LAG_S: Limits = Limits::new(0.0, 1e4);
 /// Least lag of an instrument that has one (s).
-pub const LEAST_LAG_S: f64 = 1e-3;
+pub const MIN_LAG_S: f64 = 1e-3;
 /// Rangeability of an equal-percentage valve.
 pub const RANGEABILITY: Limits = Limits::new(1.01, 1e4);
 /// Points of an actuator curve.
@@ -241,8 +241,8 @@ pub fn duration_s(sampling_time_s: f64) -> Limits {
 /// The same of a run under the model-free law, whose valves turn by at most [`MAX_VALVE_TURN`].
 pub fn model_free_duration_s(setup: &ModelFreeSetup) -> Limits {
     let Limits { min, max } = duration_s(setup.controller.sampling_time_s);
-    let turning = setup.valves[0].turning().max(setup.valves[1].turning());
-    Limits { min, max: max.min(MAX_VALVE_TURN / turning) }
+    let frequency = setup.valves[0].angular_frequency().max(setup.valves[1].angular_frequency());
+    Limits { min, max: max.min(MAX_VALVE_TURN / frequency) }
 }
 
 /// Allowed angular frequencies of a swinging valve (rad/s) in an experiment of a duration (s): those of [`VALVE_FREQUENCY`] at

@@ -88,7 +88,7 @@ fn sensor(sensor: &Sensor, at: &str) -> Checked {
     if sensor.resolution == 0.0 {
         return Ok(());
     }
-    let least = Limits { min: limits::LEAST_SENSOR_RESOLUTION, ..limits::SENSOR_RESOLUTION };
+    let least = Limits { min: limits::MIN_SENSOR_RESOLUTION, ..limits::SENSOR_RESOLUTION };
     least.check(&format!("{at}.resolution"), sensor.resolution)
 }
 

@@ -2,7 +2,7 @@
 
 use quadtank::assess::{HarrisError, IndexError};
 use quadtank::sim::level::LevelRunError;
-use quadtank::study::level_loop::{LevelLoopFault, StepTestFault};
+use quadtank::study::level_loop::{LevelLoopError, StepTestError};
 use quadtank::tuning::{ReactionError, TuningError};
 
 use crate::errors::of_level_error;
@@ -29,15 +29,15 @@ pub fn of_run(lab: Lab, error: &LevelRunError) -> String {
 }
 
 /// The same with the part of the setup that allows no run.
-pub fn of_loop(lab: Lab, fault: &LevelLoopFault) -> String {
+pub fn of_loop(lab: Lab, fault: &LevelLoopError) -> String {
     of_run(lab, &fault.fault)
 }
 
 /// Why a step test has no record.
-pub fn of_test(lab: Lab, fault: &StepTestFault) -> String {
+pub fn of_test(lab: Lab, fault: &StepTestError) -> String {
     match fault {
-        StepTestFault::Run(error) => of_run(lab, error),
-        StepTestFault::OutsideTest { value, .. } => {
+        StepTestError::Run(error) => of_run(lab, error),
+        StepTestError::OutsideTest { value, .. } => {
             tr!(lab, level_error.outside_test, time = lab.number_style().significant(*value, 4))
         }
     }

@@ -6,8 +6,8 @@ use leptos::prelude::*;
 use quadtank::plant::level::{LevelError, LevelPlant, LevelSignals};
 use quadtank::study::PinnedResults;
 use quadtank::study::level_loop::{
-    Element, LevelLoopAnswer, LevelLoopFault, LevelLoopSetup, LevelLoopStudy, PlantAnswer, Results, StepTestAnswer,
-    StepTestFault, Suggestion,
+    Element, LevelLoopAnswer, LevelLoopError, LevelLoopSetup, LevelLoopStudy, PlantAnswer, Results, StepTestAnswer,
+    StepTestError, Suggestion,
 };
 use quadtank_scenario::level_loop::LevelLoopScenario;
 
@@ -32,13 +32,13 @@ pub struct Found {
     /// The plant at rest.
     pub plant: Memo<Outcome<PlantAnswer, LevelError>>,
     /// The step test.
-    pub test: Memo<Outcome<StepTestAnswer, StepTestFault>>,
+    pub test: Memo<Outcome<StepTestAnswer, StepTestError>>,
     /// What the rules suggest.
     pub suggestions: Memo<Arc<Vec<Suggestion>>>,
     /// The run with its figures.
-    pub answer: Memo<Outcome<LevelLoopAnswer, LevelLoopFault>>,
+    pub answer: Memo<Outcome<LevelLoopAnswer, LevelLoopError>>,
     /// Pinned tunings in the present experiment.
-    pub pinned: Memo<PinnedResults<LevelLoopSetup, Result<LevelLoopAnswer, LevelLoopFault>>>,
+    pub pinned: Memo<PinnedResults<LevelLoopSetup, Result<LevelLoopAnswer, LevelLoopError>>>,
 }
 
 impl Found {

@@ -17,11 +17,11 @@ const VALVE: ParamControl<ModelFreeSetup> = ParamControl {
     ids: [("", "free-gamma1"), ("", "free-gamma2")],
     label: |_, k| ["γ₁", "γ₂"][k].to_owned(),
     name: |lab, k| tr!(lab, free.gamma, valve = k + 1),
-    read: |s, k| s.valves[k].middle(),
+    read: |s, k| s.valves[k].midpoint(),
     write: |s, k, middle| s.valves[k] = s.valves[k].around(middle),
     // The middle of a valve that moves keeps away from both ends.
     path: |_, _| "valves[].constant.gamma",
-    within: |s, k| Limits::new(s.valves[k].swing(), 1.0 - s.valves[k].swing()),
+    within: |s, k| Limits::new(s.valves[k].amplitude(), 1.0 - s.valves[k].amplitude()),
     digits: Some(2),
     ..ParamControl::locked_by(locks::VALVES)
 };

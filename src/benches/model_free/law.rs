@@ -10,13 +10,13 @@ use crate::shown::ShownUnit;
 use crate::texts::{say, terms, tr};
 use crate::widgets::{Card, Scale, Sentence, Text};
 use quadtank::control::{
-    EstimatorSettings, FedWith, MAX_WINDOW_SAMPLES, ModelFreeSettings, ModelFreeWindup, Pairing, Quadrature, Window,
+    EstimatorSettings, FedWith, MAX_WINDOW_SAMPLES, ModelFreeAntiWindup, ModelFreeSettings, Pairing, Quadrature, Window,
 };
 use quadtank::study::model_free::ModelFreeSetup;
 use quadtank_scenario::{Limits, limits};
 
 /// Back-calculation when it is chosen.
-const BACK_CALCULATION: ModelFreeWindup = ModelFreeWindup::BackCalculation { tracking_time_s: 10.0 };
+const BACK_CALCULATION: ModelFreeAntiWindup = ModelFreeAntiWindup::BackCalculation { tracking_time_s: 10.0 };
 /// Samples of a window when the estimator is switched on.
 const USUAL_SAMPLES: f64 = 10.0;
 
@@ -92,8 +92,8 @@ pub fn LawCard() -> impl IntoView {
         (Some(Window::Sliding), "free-sliding", say!(lab, free.sliding)),
     ];
     let windups = vec![
-        (ModelFreeWindup::Off, "free-windup", say!(lab, free.windup_off)),
-        (ModelFreeWindup::Conditional, "free-conditional", say!(lab, free.conditional)),
+        (ModelFreeAntiWindup::Off, "free-windup", say!(lab, free.windup_off)),
+        (ModelFreeAntiWindup::Conditional, "free-conditional", say!(lab, free.conditional)),
         (BACK_CALCULATION, "free-back", say!(lab, free.back_calculation)),
     ];
     let pairings = vec![
@@ -232,9 +232,9 @@ fn set_window(setup: &mut ModelFreeSetup, window: Option<Window>) {
 }
 
 /// The protection against windup; the tracking time of back-calculation is not chosen here.
-fn windup_of(setup: &ModelFreeSetup) -> ModelFreeWindup {
+fn windup_of(setup: &ModelFreeSetup) -> ModelFreeAntiWindup {
     match setup.controller.loops[0].anti_windup {
-        ModelFreeWindup::BackCalculation { .. } => BACK_CALCULATION,
+        ModelFreeAntiWindup::BackCalculation { .. } => BACK_CALCULATION,
         other => other,
     }
 }

@@ -11,7 +11,7 @@ use quadtank::linear::Stability;
 use quadtank::literature::DisplayUnit;
 use quadtank::sim::ZeroDynamicsEnd;
 use quadtank::study::model_free::{LossBy, ModelFreeVerdict};
-use quadtank::study::{StudyError, StudyFault};
+use quadtank::study::{StudyError, StudyErrorKind};
 
 /// Shown units in a metre: centimetres, as the source has them.
 pub const CM_PER_M: f64 = per_metre(DisplayUnit::Cm);
@@ -33,7 +33,7 @@ pub fn of_run(session: Session) -> (bool, String) {
         Ok(answer) => answer,
         Err(error) => {
             let reason = of_study_error(lab, DisplayUnit::Cm, error);
-            let begins = matches!(error, StudyError { fault: StudyFault::TooMuchWork { .. }, .. });
+            let begins = matches!(error, StudyError { fault: StudyErrorKind::TooMuchWork { .. }, .. });
             return (false, if begins { reason } else { tr!(lab, free.no_run, reason = reason) });
         }
     };

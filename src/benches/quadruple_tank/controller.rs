@@ -11,7 +11,7 @@ use crate::controls::{ParamControl, ParamNumber, ParamRow};
 use crate::texts::{say, terms, tr};
 use crate::widgets::{Card, Scale, Segmented, Sentence, Text, Tick};
 use quadtank::control::{AntiWindup, LoopMode, Pairing, PiSettings};
-use quadtank::study::quadruple_tank::{PlantSpec, Setup, calmed};
+use quadtank::study::quadruple_tank::{PlantSpec, Setup, detuned};
 use quadtank_scenario::{Limits, limits};
 
 /// Tt/Ti when anti-windup is switched on (Cocota 2009, ch. 4).
@@ -219,12 +219,12 @@ fn PairingSwitch() -> impl IntoView {
     }
 }
 
-/// Pairs as advised, with calmer gains where the present ones are not good for that.
+/// Pairs as advised, with detuned loops where the present ones are not good for that.
 fn take_advice(session: Session, pairing: Pairing) {
     session.edit(|s| {
         s.controller.pairing = pairing;
-        if let Some(calm) = calmed(s) {
-            *s = calm;
+        if let Some(setup) = detuned(s) {
+            *s = setup;
         }
     });
 }

@@ -62,7 +62,7 @@ fn take(session: Session, mend: Mend) {
 fn name(session: Session, mend: Mend) -> String {
     let lab = session.lab;
     match mend {
-        Mend::CalmLoops => tr!(lab, mend.calm),
+        Mend::DetuneLoops => tr!(lab, mend.calm),
         Mend::AdvisedPairing => tr!(lab, mend.pairing),
         Mend::PublishedValves => tr!(lab, mend.valves),
         Mend::LowerRest => tr!(lab, mend.rest),
@@ -72,7 +72,7 @@ fn name(session: Session, mend: Mend) -> String {
 
 fn is_locked(session: Session, mend: Mend) -> bool {
     let needed = match mend {
-        Mend::CalmLoops => &[locks::GAINS][..],
+        Mend::DetuneLoops => &[locks::GAINS][..],
         Mend::AdvisedPairing => &[locks::PAIRING, locks::GAINS],
         Mend::PublishedValves => &[locks::VALVES],
         Mend::LowerRest => &[locks::VOLTAGES],

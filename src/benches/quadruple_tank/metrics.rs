@@ -7,7 +7,7 @@ use crate::errors::of_no_response;
 use crate::shown::{length_digits, per_metre, to_shown, unit_name};
 use crate::texts::{say, tr};
 use crate::widgets::{Figure, Figures, Folded, ReasonedRow, Row, TableContent};
-use quadtank::sim::{LoopMetrics, NoResponse, Settling, StepAnswer, StepFigures};
+use quadtank::sim::{LoopMetrics, NoResponse, ReferenceStepResponse, Settling, StepFigures};
 use quadtank::study::quadruple_tank::Run;
 
 /// Integrals below this, in the shown unit, are what rounding leaves of a run at rest.
@@ -61,7 +61,7 @@ fn each_step_table(session: Session) -> impl IntoView {
     view! { <TableContent caption=tr!(lab, responses.each_step) columns rows /> }
 }
 
-fn step_row(session: Session, step: &StepAnswer) -> AnyView {
+fn step_row(session: Session, step: &ReferenceStepResponse) -> AnyView {
     let lab = session.lab;
     let style = lab.number_style();
     let unit = session.own.unit.get();

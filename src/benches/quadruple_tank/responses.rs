@@ -22,7 +22,7 @@ use crate::widgets::{
 use quadtank::control::LoopMode;
 use quadtank::sim::{EventKind, LoopMetrics, NoResponse, Settling};
 use quadtank::study::quadruple_tank::Run;
-use quadtank::study::{StudyError, StudyFault};
+use quadtank::study::{StudyError, StudyErrorKind};
 use quadtank_figure::Frame;
 use quadtank_scenario::Scenario;
 
@@ -169,7 +169,7 @@ pub fn sentence(session: Session) -> String {
     session.throttled.run.with(|outcome| {
         let run = match outcome.as_ref() {
             Ok(run) => run,
-            Err(error @ StudyError { fault: StudyFault::TooMuchWork { .. }, .. }) => {
+            Err(error @ StudyError { fault: StudyErrorKind::TooMuchWork { .. }, .. }) => {
                 return of_study_error(lab, session.own.unit.get(), error);
             }
             Err(_) => return tr!(lab, responses.none),

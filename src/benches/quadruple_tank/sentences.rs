@@ -8,7 +8,7 @@ use crate::texts::tr;
 use quadtank::linear::{Complex, Stability};
 use quadtank::plant::PlantError;
 use quadtank::study::quadruple_tank::{ZeroEffect, ZeroSituation};
-use quadtank::study::{StudyError, StudyFault};
+use quadtank::study::{StudyError, StudyErrorKind};
 
 /// The situation of the plant in force.
 pub fn situation(session: Session) -> Option<ZeroSituation> {
@@ -48,8 +48,8 @@ pub fn of_zero(session: Session) -> (String, bool) {
 pub fn of_equilibrium(session: Session) -> Vec<String> {
     session.throttled.analysis.with(|outcome| match outcome.as_ref() {
         Ok(analysis) => analysis.out_of_range.iter().map(|e| of_limit(session, e)).collect(),
-        Err(StudyError { fault: StudyFault::Plant(PlantError::SingularPlant { .. }), .. }) => Vec::new(),
-        Err(StudyError { fault: StudyFault::Plant(error), .. }) => vec![of_limit(session, error)],
+        Err(StudyError { fault: StudyErrorKind::Plant(PlantError::SingularPlant { .. }), .. }) => Vec::new(),
+        Err(StudyError { fault: StudyErrorKind::Plant(error), .. }) => vec![of_limit(session, error)],
         Err(_) => Vec::new(),
     })
 }
@@ -112,7 +112,7 @@ pub fn of_stability(session: Session) -> (String, bool) {
     session
         .throttled
         .with_analysis(|analysis| {
-            let slowest = analysis.closed_loop.slowest();
+            let slowest = analysis.closed_loop.rightmost_pole();
             let number = |z: Complex| style.significant(z.re, 2);
             match (analysis.closed_loop.stability, slowest) {
                 (Stability::Stable, _) if analysis.closed_loop.has_dead_time => {

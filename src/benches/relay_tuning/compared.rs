@@ -10,7 +10,7 @@ use crate::texts::{say, tr};
 use crate::widgets::{Figure, FigureCells, Folded, TableContent};
 use quadtank::control::Pairing;
 use quadtank::linear::LoopStability;
-use quadtank::study::relay_tuning::{GivenPid, JudgedControllers, TuningSetup};
+use quadtank::study::relay_tuning::{ControllerAssessment, GivenPid, TuningSetup};
 use quadtank::tuning::{PairRule, PairRuleError, TuningRule};
 
 /// The table, folded away.
@@ -26,7 +26,7 @@ struct Compared {
     name: String,
     /// Name of the button for tests, the controllers that it takes over and their pairing; nothing for those at work.
     offer: Option<(&'static str, [GivenPid; 2], Pairing)>,
-    outcome: Result<JudgedControllers, PairRuleError>,
+    outcome: Result<ControllerAssessment, PairRuleError>,
 }
 
 fn table(session: Session) -> impl IntoView {
@@ -41,7 +41,7 @@ fn rows(session: Session) -> Vec<Compared> {
     let setup = session.throttled.setup.get();
     session.throttled.study.with(|study| {
         let Ok(study) = study.as_ref() else { return Vec::new() };
-        let judged = session.throttled.with_design(|design| study.judge_root(design.at_work(), &setup));
+        let judged = session.throttled.with_design(|design| study.judge_root(design.chosen_root(), &setup));
         let present = judged.map(|judged| Compared {
             name: tr!(lab, relay.present_controllers),
             offer: None,
@@ -97,7 +97,7 @@ fn row_of(session: Session, row: Compared) -> AnyView {
 }
 
 /// Lc, Ms, and the IAE of both outputs.
-fn figures(lab: Lab, judged: &JudgedControllers) -> Vec<Figure> {
+fn figures(lab: Lab, judged: &ControllerAssessment) -> Vec<Figure> {
     let style = lab.number_style();
     let shown = |value: Option<f64>| {
         let why = || Figure::None(tr!(lab, relay.why_unbounded));

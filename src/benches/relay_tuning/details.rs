@@ -6,7 +6,7 @@ use super::session::{Session, use_session};
 use crate::texts::{say, tr};
 use crate::widgets::{Folded, Row, TableContent};
 use quadtank::linear::Complex;
-use quadtank::study::relay_tuning::{ControllerForms, Recovered, Tested};
+use quadtank::study::relay_tuning::{ControllerForms, RecoveredResponse, Tested};
 
 /// Further results of the relay test, folded away.
 #[component]
@@ -32,7 +32,7 @@ fn test_content(session: Session) -> AnyView {
 }
 
 /// The four responses at the ultimate frequency, recovered and of the model (Campestrini 2006, eqs. 122 and 123).
-fn responses(session: Session, found: &Recovered) -> impl IntoView + use<> {
+fn responses(session: Session, found: &RecoveredResponse) -> impl IntoView + use<> {
     let lab = session.lab;
     let style = lab.number_style();
     let complex = |value: Complex| {

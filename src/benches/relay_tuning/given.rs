@@ -12,7 +12,7 @@ use crate::widgets::{Choice, Segmented, Select};
 use quadtank::control::Pairing;
 use quadtank::literature::campestrini::PublishedPlant;
 use quadtank::literature::wood_berry::PublishedControllers;
-use quadtank::study::relay_tuning::{FormFault, GivenPid, PidForm, TuningPlant, TuningSetup};
+use quadtank::study::relay_tuning::{FormError, GivenPid, PidForm, TuningPlant, TuningSetup};
 use quadtank_scenario::limits::{TUNING_NOT_NEGATIVE, TUNING_POSITIVE, TUNING_VALUE};
 
 const PROPORTIONAL: ParamControl<TuningSetup> = ParamControl {
@@ -214,7 +214,7 @@ fn FormChoice() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
     // A refusal holds for the controllers that it is of.
-    let refused = RwSignal::new(None::<([GivenPid; 2], FormFault)>);
+    let refused = RwSignal::new(None::<([GivenPid; 2], FormError)>);
     let choose = move |form: PidForm| {
         let controllers = session.document.with_untracked(|s| s.tuning.design.controllers).unwrap_or_default();
         match in_form(controllers, form) {
@@ -259,19 +259,19 @@ fn FormChoice() -> impl IntoView {
 }
 
 /// Both controllers in another form, within what a document holds.
-fn in_form([first, second]: [GivenPid; 2], form: PidForm) -> Result<[GivenPid; 2], FormFault> {
+fn in_form([first, second]: [GivenPid; 2], form: PidForm) -> Result<[GivenPid; 2], FormError> {
     Ok([first.in_form(form)?, second.in_form(form)?].map(within_limits))
 }
 
 /// Why a controller has not the form that was chosen.
-fn of_fault(lab: Lab, fault: FormFault) -> String {
+fn of_fault(lab: Lab, fault: FormError) -> String {
     let number = |value: f64| lab.number_style().significant(value, 4);
     match fault {
-        FormFault::ComplexZeros { integral_time, derivative_time } => {
+        FormError::ComplexZeros { integral_time, derivative_time } => {
             tr!(lab, relay.form_complex, ti = number(integral_time), four_td = number(4.0 * derivative_time))
         }
-        FormFault::NoProportionalPart => tr!(lab, relay.form_no_gain),
-        FormFault::NegativeTime { time } => tr!(lab, relay.form_negative, time = number(time)),
+        FormError::NoProportionalPart => tr!(lab, relay.form_no_gain),
+        FormError::NegativeTime { time } => tr!(lab, relay.form_negative, time = number(time)),
     }
 }
 

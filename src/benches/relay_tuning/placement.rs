@@ -16,7 +16,7 @@ use crate::controls::{ParamControl, ParamRow, Switch};
 use crate::lab::Lab;
 use crate::texts::{say, terms, tr};
 use crate::widgets::{Choice, Figures, Nudge, PointHandle, Row, Scale, Select, TableContent, Text};
-use quadtank::linear::{Closure, LoopStability};
+use quadtank::linear::{LociClosure, LoopStability};
 use quadtank::study::relay_tuning::{DesignRoot, LoopPeaks, TuningSetup, rule_targets};
 use quadtank::tuning::{Action, PlacementMethod, PlacementWarning, TuningRule};
 use quadtank_figure::Frame;
@@ -204,7 +204,7 @@ fn sentence(session: Session) -> (bool, String) {
         Ok(None) => return (false, tr!(lab, relay.no_point)),
         Err(error) => return (false, errors::sentence(lab, error)),
     };
-    let chosen = design.at_work();
+    let chosen = design.chosen_root();
     let style = lab.number_style();
     let mut text = match chosen.stability {
         LoopStability::Stable => session.throttled.critical.with(|reading| {
@@ -223,7 +223,7 @@ fn sentence(session: Session) -> (bool, String) {
             tr!(lab, relay.algebraic_loop, eigenvalue = style.significant(eigenvalue, 3))
         }
     };
-    if chosen.closure == Closure::Joint {
+    if chosen.closure == LociClosure::Joint {
         text = text + " " + &tr!(lab, relay.joint);
     }
     for &warning in &chosen.warnings {

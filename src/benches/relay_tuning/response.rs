@@ -245,7 +245,7 @@ fn table(session: Session) -> impl IntoView {
     });
     for (k, pinned) in session.throttled.pinned.get().iter().enumerate() {
         if let Ok(Some(design)) = pinned.result.as_ref() {
-            let same = session.throttled.setup.with(|s| s.plant.has_same_clock(&pinned.setup.plant));
+            let same = session.throttled.setup.with(|s| s.plant.has_same_time_unit(&pinned.setup.plant));
             rows.push(group(if same {
                 tr!(lab, pins.name, number = k + 1)
             } else {

@@ -9,7 +9,7 @@ const LITRES: f64 = 1000.0;
 /// Room beyond a band, as a share of it: at the edge of the plot its lines would only look like a smudge.
 const BAND_ROOM: f64 = 0.03;
 /// An axis never shows less than this share of the largest value, so that noise does not look like a step.
-const LEAST_SHARE: f64 = 0.01;
+const MIN_SHARE: f64 = 0.01;
 
 /// How many times as wide as the run what is shown may become by pinned runs: beyond, the run would only look like a line.
 const WIDEST: f64 = 30.0;
@@ -151,7 +151,7 @@ fn range_of(spec: &LevelLoopCharts, column: Column, also: &[f64], limits: (f64, 
     let main = [column(&spec.run), also];
     let (low, high) = main.into_iter().filter_map(extent).reduce(join).unwrap_or_default();
     let beside = spec.pinned.iter().map(|run| (run.time_s, [column(run)]));
-    let shown = range(spec.window_s, time_s, main.into_iter(), beside, limits, LEAST_SHARE * high.abs().max(low.abs()));
+    let shown = range(spec.window_s, time_s, main.into_iter(), beside, limits, MIN_SHARE * high.abs().max(low.abs()));
     let pinned = spec.pinned.iter().filter_map(|run| extent(part(run.time_s, column(run), spec.window_s)));
     let all = pinned.fold(shown, |all, (low, high)| join(all, (low.max(limits.0), high.min(limits.1))));
     if all.1 - all.0 <= WIDEST * (shown.1 - shown.0) { all } else { shown }

@@ -3,7 +3,7 @@ use super::super::{Axis, Chart, Course, Entry, Layer, Name, Names, Pen, Role, Sa
 use super::{curve, mark};
 
 /// An axis never shows less than this share of the largest value, so that rounding does not look like a step.
-const LEAST_SHARE: f64 = 1e-3;
+const MIN_SHARE: f64 = 1e-3;
 /// Points of the curve that words keep off.
 const AROUND: usize = 60;
 
@@ -42,7 +42,7 @@ pub fn step_test<'a>(spec: &StepTestCharts<'a>) -> [Chart<'a>; 2] {
     let StepTestCharts { time_s, measured, output, texts, .. } = spec;
     let time = extent(time_s).unwrap_or((0.0, 1.0));
     let value_range = |column: &'a [f64], fitted: Option<&'a [f64]>| {
-        let least = extent(column).map_or(0.0, |(low, high)| LEAST_SHARE * low.abs().max(high.abs()));
+        let least = extent(column).map_or(0.0, |(low, high)| MIN_SHARE * low.abs().max(high.abs()));
         let everything = (f64::NEG_INFINITY, f64::INFINITY);
         range(time, time_s, [column].into_iter(), fitted.map(|y| (*time_s, [y])).into_iter(), everything, least)
     };

@@ -12,7 +12,7 @@ use crate::{
 };
 
 /// How many students are tried where numbers differ from student to student, each with other numbers than those before.
-const MOST_VARIANTS: usize = 24;
+const MAX_VARIANTS: usize = 24;
 
 /// Among so many students such are sought.
 const STUDENTS: u32 = 240;
@@ -24,7 +24,7 @@ impl Audit<'_> {
         let mut played = BTreeSet::new();
         let before = self.faults.len();
         for seed in 0..STUDENTS {
-            if played.len() < MOST_VARIANTS && played.insert(variant(lesson, seed)) {
+            if played.len() < MAX_VARIANTS && played.insert(variant(lesson, seed)) {
                 self.seed = is_varied.then_some(seed);
                 self.play_as(seed);
             }

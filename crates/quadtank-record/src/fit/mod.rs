@@ -18,7 +18,7 @@ const PATIENCE: usize = 2;
 /// First step at most, as a share of the size of the scaled coordinates: a longer one may leave the valley of a delay.
 const STEP_BOUND: f64 = 1.0;
 /// Most such rounds.
-const MOST_ROUNDS: usize = 40;
+const MAX_ROUNDS: usize = 40;
 /// A value this near to a bound, as a share of the range, is at it.
 const AT_BOUND: f64 = 2e-3;
 /// Correlation of two estimates from which on the record does not tell them apart, unless it tells both better than [`SURE`].
@@ -111,7 +111,7 @@ impl Fit {
         self.rounds += 1;
         let goes_on = matches!(report.termination, TerminationReason::LostPatience);
         self.converged = report.termination.was_successful();
-        self.over = !goes_on || self.rounds >= MOST_ROUNDS;
+        self.over = !goes_on || self.rounds >= MAX_ROUNDS;
     }
 
     /// Whether there is nothing left to do.

@@ -3,7 +3,7 @@ use quadtank_scenario::limits;
 use serde::{Deserialize, Serialize};
 
 /// The longest delay of a hose that is always sought (s).
-const LEAST_LONGEST_DELAY_S: f64 = 60.0;
+const MIN_LONGEST_DELAY_S: f64 = 60.0;
 
 /// A parameter of a rig that can be fitted to a record.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -107,7 +107,7 @@ impl Parameter {
             Self::OutletArea(index) => five_times(rig.tanks[index].outlet.area),
             Self::LevelOffset(index) => [-0.2 * rig.tanks[index].height, 0.2 * rig.tanks[index].height],
             Self::PumpDelay(index) => {
-                [0.0, limits::PUMP_DELAY_S.clamp(f64::max(LEAST_LONGEST_DELAY_S, 5.0 * rig.pumps[index].delay_s))]
+                [0.0, limits::PUMP_DELAY_S.clamp(f64::max(MIN_LONGEST_DELAY_S, 5.0 * rig.pumps[index].delay_s))]
             }
             Self::StartLevel(index) => [0.0, rig.tanks[index].height],
         }

@@ -9,7 +9,7 @@ use super::Parameter;
 use crate::{Record, first_levels, interpolated};
 
 /// Rows of the record that are compared, at most.
-const MOST_ROWS: usize = 2000;
+const MAX_ROWS: usize = 2000;
 /// Levels are compared in this (m), so that sums of squares are of ordinary size.
 const SCALE: f64 = 0.01;
 /// Step of a numerical derivative, as a share of the range of the parameter.
@@ -63,7 +63,7 @@ pub struct Problem {
 
 impl Problem {
     pub fn new(setup: Setup, record: &Record, free: Vec<Free>) -> Self {
-        let stride = record.time_s.len().div_ceil(MOST_ROWS).max(1);
+        let stride = record.time_s.len().div_ceil(MAX_ROWS).max(1);
         let end = setup.experiment.duration_s;
         let rows = (0..record.time_s.len()).step_by(stride).filter(|&row| record.time_s[row] <= end);
         let has = |tank: usize, row: usize| record.levels[tank].get(row).is_some_and(|level| !level.is_nan());

@@ -8,7 +8,7 @@ mod tuning;
 
 use quadtank::sim::level::LevelRunError;
 use quadtank::study::StudyError;
-use quadtank::study::level_loop::{LevelLoopFault, StepTestFault};
+use quadtank::study::level_loop::{LevelLoopError, StepTestError};
 use quadtank::tuning::TuningError;
 use serde::Serialize;
 use thiserror::Error;
@@ -29,13 +29,13 @@ pub enum AnswerError {
     Tuning(#[from] TuningError),
     /// A level loop without a run.
     #[error("level_loop.{0}")]
-    LevelLoop(#[from] LevelLoopFault),
+    LevelLoop(#[from] LevelLoopError),
     /// A level loop that cannot be searched.
     #[error("level_loop: {0}")]
     LevelRun(#[from] LevelRunError),
     /// A step test without results.
     #[error("level_loop.test: {0}")]
-    StepTest(#[from] StepTestFault),
+    StepTest(#[from] StepTestError),
     /// There is nothing to tune.
     #[error("this command needs a relay-tuning session, version 2, or a level loop, version 4")]
     NoTuning,

@@ -8,7 +8,7 @@ use crate::limits::{self, Limits};
 type Checked = Result<(), ScenarioError>;
 
 /// How much larger the upper limit of a search is at least, as a factor.
-const LEAST_RATIO: f64 = 1.001;
+const MIN_RATIO: f64 = 1.001;
 
 /// Checks what has to hold between the numbers of the setup at a path.
 pub fn setup(setup: &LevelLoopSetup, at: &str) -> Checked {
@@ -17,7 +17,7 @@ pub fn setup(setup: &LevelLoopSetup, at: &str) -> Checked {
     }
     test(&setup.test, &format!("{at}.test"))?;
     if let Objective::Averaging { band: [low, high] } = setup.objective {
-        let above = Limits::new(low + limits::LEAST_SPAN, setup.plant().tank.height);
+        let above = Limits::new(low + limits::MIN_SPAN, setup.plant().tank.height);
         above.check(&format!("{at}.objective.averaging.band[1]"), high)?;
     }
     controller(&setup.controller, &format!("{at}.controller"))?;
@@ -29,7 +29,7 @@ pub fn setup(setup: &LevelLoopSetup, at: &str) -> Checked {
 fn plant(plant: &LevelPlant, at: &str) -> Checked {
     let transmitter = format!("{at}.transmitter");
     let [low, high] = plant.transmitter.level_range;
-    let above = Limits { min: low + limits::LEAST_SPAN, ..limits::TRANSMITTER_LEVEL };
+    let above = Limits { min: low + limits::MIN_SPAN, ..limits::TRANSMITTER_LEVEL };
     above.check(&format!("{transmitter}.level_range[1]"), high)?;
     range(&plant.transmitter.signal, &format!("{transmitter}.signal"))?;
     lag(plant.transmitter.lag_s, &format!("{transmitter}.lag_s"))?;
@@ -45,7 +45,7 @@ fn plant(plant: &LevelPlant, at: &str) -> Checked {
         let at = format!("{curve}[{index}]");
         Limits { min: lowest, ..limits::SIGNAL }.check(&format!("{at}[0]"), pressure)?;
         Limits::new(0.0, 1.0).check(&format!("{at}[1]"), travel)?;
-        lowest = pressure + limits::LEAST_SPAN;
+        lowest = pressure + limits::MIN_SPAN;
     }
     plant.check().map_err(|error| {
         let field = match error {
@@ -59,13 +59,13 @@ fn plant(plant: &LevelPlant, at: &str) -> Checked {
 
 /// A range has a width, and its upper end is positive.
 fn range(range: &SignalRange, at: &str) -> Checked {
-    let least = (range.low + limits::LEAST_SPAN).max(limits::LEAST_SPAN);
+    let least = (range.low + limits::MIN_SPAN).max(limits::MIN_SPAN);
     Limits { min: least, ..limits::SIGNAL }.check(&format!("{at}.high"), range.high)
 }
 
 /// An instrument follows at once, or with a lag that can be followed.
 fn lag(lag_s: f64, at: &str) -> Checked {
-    if lag_s == 0.0 { Ok(()) } else { Limits { min: limits::LEAST_LAG_S, ..limits::LAG_S }.check(at, lag_s) }
+    if lag_s == 0.0 { Ok(()) } else { Limits { min: limits::MIN_LAG_S, ..limits::LAG_S }.check(at, lag_s) }
 }
 
 /// The output steps within the test, and steps back after it has stepped.
@@ -102,7 +102,7 @@ fn experiment(experiment: &LevelExperiment, at: &str) -> Checked {
 }
 
 fn search(search: &SearchSpec, at: &str) -> Checked {
-    let above = |[low, _]: [f64; 2], limits: Limits| Limits { min: LEAST_RATIO * low, ..limits };
+    let above = |[low, _]: [f64; 2], limits: Limits| Limits { min: MIN_RATIO * low, ..limits };
     above(search.gain, limits::LEVEL_GAIN_MAGNITUDE).check(&format!("{at}.gain[1]"), search.gain[1])?;
     let time = above(search.integral_time_s, limits::LEVEL_TIME_S);
     time.check(&format!("{at}.integral_time_s[1]"), search.integral_time_s[1])

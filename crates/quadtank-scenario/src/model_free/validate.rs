@@ -23,6 +23,6 @@ pub fn setup(setup: &ModelFreeSetup, at: &str) -> Result<(), ScenarioError> {
     validate::duration(&setup.experiment, sampling_time_s, at)?;
     let frequency = limits::valve_frequency(setup.experiment.duration_s);
     validate::each(&setup.valves, &format!("{at}.valves"), |valve, at| {
-        frequency.check(&format!("{at}.sine.frequency"), valve.turning())
+        frequency.check(&format!("{at}.sine.frequency"), valve.angular_frequency())
     })
 }

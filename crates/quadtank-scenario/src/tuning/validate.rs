@@ -55,7 +55,7 @@ fn response(response: &ResponseSpec, at: &str) -> Checked {
 /// The quickest part of the plant can be followed over the longest record and over its dead times.
 fn pace(setup: &TuningSetup, at: &str) -> Checked {
     // A plant that cannot be built has no rates to check; `PlantStudy::of` reports why.
-    let (quickest, dead_time) = setup.plant.pace().unwrap_or_default();
+    let (quickest, dead_time) = setup.plant.fastest_rate_and_dead_time().unwrap_or_default();
     let longest = setup.test.duration.max(setup.response.duration);
     limits::QUICKEST_IN_RECORD.check(&format!("{at}.plant: quickest pole * duration"), quickest * longest)?;
     limits::QUICKEST_IN_DEAD_TIME.check(&format!("{at}.plant: quickest pole * dead time"), quickest * dead_time)

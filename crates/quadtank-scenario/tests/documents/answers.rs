@@ -10,7 +10,7 @@ use quadtank::literature::PresetId;
 use quadtank::plant::PlantError;
 use quadtank::sim::{NoResponse, Settling, Trajectory};
 use quadtank::study::quadruple_tank::{Analysis, OperatingPointSpec, Setup, ValveMap, analyse, run, setup_of};
-use quadtank::study::{StudyError, StudyFault};
+use quadtank::study::{StudyError, StudyErrorKind};
 use quadtank_scenario::report::quadruple::AnalysisReport;
 use quadtank_scenario::{BenchDocument, Scenario, from_json, limits};
 use serde_json::Value;
@@ -198,8 +198,10 @@ fn on_the_line_the_gain_is_singular_and_a_zero_is_at_the_origin() {
     let rightmost = analysis.linear.zeros.unwrap().last().unwrap().value;
     assert!(rightmost.norm() < 1e-12, "{rightmost}");
     let at_levels = Setup { operating_point: OperatingPointSpec::Levels([0.1, 0.1]), ..johansson([0.625, 0.375]) };
-    let expected =
-        StudyError { field: "operating_point", fault: StudyFault::Plant(PlantError::SingularPlant { gamma_sum: 1.0 }) };
+    let expected = StudyError {
+        field: "operating_point",
+        fault: StudyErrorKind::Plant(PlantError::SingularPlant { gamma_sum: 1.0 }),
+    };
     assert_eq!(analyse(&at_levels), Err(expected));
     assert_eq!(run(&at_levels), Err(expected));
 }
@@ -218,7 +220,7 @@ fn levels_that_no_input_holds_are_named() {
     let setup = Setup { operating_point: OperatingPointSpec::Levels([0.19, 0.01]), ..johansson([0.7, 0.6]) };
     let StudyError { field, fault } = analyse(&setup).unwrap_err();
     assert_eq!(field, "operating_point");
-    assert!(matches!(fault, StudyFault::Plant(PlantError::VoltageOutOfRange { .. })));
+    assert!(matches!(fault, StudyErrorKind::Plant(PlantError::VoltageOutOfRange { .. })));
 }
 
 #[test]

@@ -8,7 +8,7 @@ use quadtank::literature::campestrini::PublishedPlant;
 use quadtank::plant::ValveSchedule;
 use quadtank::sim::level::{LevelRunError, MAX_LEVEL_STEPS};
 use quadtank::sim::{Halt, LoopTrace, MAX_RUN_WORK, MAX_WORK};
-use quadtank::study::StudyFault;
+use quadtank::study::StudyErrorKind;
 use quadtank::study::level_loop::{ContourMap, ContourSettings, run_level_loop, run_step_test};
 use quadtank::study::model_free::{StartSpec, analyse_model_free, run_model_free};
 use quadtank::study::quadruple_tank::{analyse, run};
@@ -193,7 +193,7 @@ fn a_run_that_is_too_much_work_names_its_duration() {
     assert_eq!(scenario.validate(), Ok(()));
     let refused = run_model_free(&scenario.model_free).unwrap_err();
     assert!(
-        matches!(refused.fault, StudyFault::TooMuchWork { time_s } if (250.0..500.0).contains(&time_s)),
+        matches!(refused.fault, StudyErrorKind::TooMuchWork { time_s } if (250.0..500.0).contains(&time_s)),
         "{refused}"
     );
     assert!(refused.to_string().starts_with("experiment.duration_s: not computed beyond "), "{refused}");

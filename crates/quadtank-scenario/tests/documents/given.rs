@@ -33,7 +33,7 @@ fn a_file_from_outside_is_read_and_answered() {
     let report = TuningReport::of(&scenario.tuning, &found).unwrap();
     let design = report.design.unwrap();
     let [root] = &design.roots[..] else { panic!("one root") };
-    assert_eq!(found.design.unwrap().at_work().stability, LoopStability::Stable);
+    assert_eq!(found.design.unwrap().chosen_root().stability, LoopStability::Stable);
     assert!((root.sensitivity_peak.unwrap() - 2.10).abs() < 0.005, "{root:?}");
     assert!((root.biggest_log_modulus_db.unwrap() - 3.98).abs() < 0.005, "{root:?}");
     let [one, two] = design.figures;

@@ -4,8 +4,8 @@
 use proptest::collection::vec;
 use proptest::prelude::*;
 use quadtank::control::{
-    AntiWindup, DecentralisedPi, EstimatorSettings, FedWith, LoopMode, ModelFree, ModelFreeSettings, ModelFreeWindup,
-    Pairing, PiSettings, Quadrature, Window,
+    AntiWindup, DecentralisedPi, EstimatorSettings, FedWith, LoopMode, ModelFree, ModelFreeAntiWindup,
+    ModelFreeSettings, Pairing, PiSettings, Quadrature, Window,
 };
 use quadtank::literature::{DisplayUnit, PresetId};
 use quadtank::plant::{CrossSection, Outlet, Pump, QuadrupleTank, Sensor, Tank, ValveSchedule};
@@ -233,10 +233,10 @@ fn turning_within(valve: ValveSchedule, limits: Limits) -> ValveSchedule {
 fn law() -> impl Strategy<Value = ModelFree> {
     let settings = || {
         let windup = prop_oneof![
-            Just(ModelFreeWindup::Off),
-            Just(ModelFreeWindup::Conditional),
+            Just(ModelFreeAntiWindup::Off),
+            Just(ModelFreeAntiWindup::Conditional),
             within(limits::INTEGRAL_TIME_S)
-                .prop_map(|tracking_time_s| ModelFreeWindup::BackCalculation { tracking_time_s }),
+                .prop_map(|tracking_time_s| ModelFreeAntiWindup::BackCalculation { tracking_time_s }),
         ];
         let feedback = || within(limits::MODEL_FREE_FEEDBACK);
         (within(limits::MODEL_GAIN), feedback(), feedback(), windup).prop_map(

@@ -68,7 +68,7 @@ fn every_published_placement_is_stable_but_one() {
     for case in PublishedCase::all().filter(|case| case.is_placement()) {
         let scenario = TuningScenario::from(TuningSetup::published(case));
         let design = tune(&scenario.tuning).unwrap().design.unwrap();
-        let stable = design.at_work().stability == LoopStability::Stable;
+        let stable = design.chosen_root().stability == LoopStability::Stable;
         assert_eq!(stable, case != PublishedCase { table: 15, row: 2 }, "{}", case.name());
         // The figures of an unstable loop mean nothing.
         assert_eq!(design.response.is_bounded, stable, "{}", case.name());

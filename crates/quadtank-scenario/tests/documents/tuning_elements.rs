@@ -5,7 +5,7 @@ use quadtank::linear::LinearError;
 use quadtank::literature::PresetId;
 use quadtank::literature::campestrini::PublishedCase;
 use quadtank::study::relay_tuning::{
-    CompareSpec, DecouplerSpec, Element, ElementFault, PlantStudy, SeriesElement, SteadyState, TestKind, TuningPlant,
+    CompareSpec, DecouplerSpec, Element, ElementError, PlantStudy, SeriesElement, SteadyState, TestKind, TuningPlant,
     TuningSetup, tune,
 };
 use quadtank_scenario::tuning::{TuningScenario, TuningWarning, warnings};
@@ -129,9 +129,9 @@ fn an_element_that_is_not_supported_is_named_with_the_reason() {
         scenario.validate().unwrap_err()
     };
     let refused = |fault| ScenarioError::Element { field: "tuning.plant.elements[0][1]".to_owned(), fault };
-    assert_eq!(with(&[1.0, 2.0, 3.0], &[1.0, 1.0]), refused(ElementFault::Improper { numerator: 2, denominator: 1 }));
-    assert_eq!(with(&[1.0], &[0.0, 0.0]), refused(ElementFault::NoDenominator));
-    assert_eq!(with(&[1.0], &[-2.0, 1.0]), refused(ElementFault::Unstable { real_part: 2.0 }));
+    assert_eq!(with(&[1.0, 2.0, 3.0], &[1.0, 1.0]), refused(ElementError::Improper { numerator: 2, denominator: 1 }));
+    assert_eq!(with(&[1.0], &[0.0, 0.0]), refused(ElementError::NoDenominator));
+    assert_eq!(with(&[1.0], &[-2.0, 1.0]), refused(ElementError::Unstable { real_part: 2.0 }));
     let said = with(&[1.0, 1.0, 1.0], &[5.0, 1.0]).to_string();
     let expected = "tuning.plant.elements[0][1]: an improper element (degree 2 over 1) is not supported: it would answer a step \
         with an impulse; its coefficients are read by rising powers of s: [1, 10] is 1 + 10 s";

@@ -63,7 +63,7 @@ pub enum HarrisError {
 /// Samples per coefficient.
 const SAMPLES_PER_COEFFICIENT: usize = 4;
 /// Most samples times the square of the order, some 30 ms.
-const MOST_WORK: usize = 10_000_000;
+const MAX_WORK: usize = 10_000_000;
 /// Smallest pivot, relative to the largest.
 const SMALLEST_PIVOT: f64 = 1e-10;
 
@@ -82,7 +82,7 @@ pub fn harris_index(samples: &[f64], dead_time: usize, order: usize) -> Result<H
     if count < order.saturating_mul(SAMPLES_PER_COEFFICIENT + 1) || dead_time >= count {
         return Err(HarrisError::TooFewSamples { samples: count, order });
     }
-    if count.saturating_mul(order).saturating_mul(order) > MOST_WORK {
+    if count.saturating_mul(order).saturating_mul(order) > MAX_WORK {
         return Err(HarrisError::TooMuchWork { samples: count, order });
     }
     let mean = samples.iter().sum::<f64>() / count as f64;

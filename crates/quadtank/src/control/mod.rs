@@ -16,7 +16,7 @@ mod relay;
 pub use decentralised::{DecentralisedPi, Pairing, RunningPi};
 pub use estimator::{Estimator, EstimatorError, EstimatorSettings, FedWith, MAX_WINDOW_SAMPLES, Quadrature, Window};
 pub use level_loop::{level_loop, level_transfer_function};
-pub use model_free::{ModelFree, ModelFreeSettings, ModelFreeWindup, RunningModelFree};
+pub use model_free::{ModelFree, ModelFreeAntiWindup, ModelFreeSettings, RunningModelFree};
 pub use model_free_loop::{
     ModelFreePoles, continuous_model_free_poles, model_free_poles, smallest_model_gain,
     smallest_model_gain_of_integrator,

@@ -7,7 +7,7 @@ use super::{Estimator, EstimatorError, EstimatorSettings, FedWith, MAX_WINDOW_SA
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum ModelFreeWindup {
+pub enum ModelFreeAntiWindup {
     /// Nothing: the integral runs on.
     Off,
     /// An error that pushes a limited output further beyond its limit is not integrated.
@@ -32,7 +32,7 @@ pub struct ModelFreeSettings {
     /// Ki (1/s²).
     pub integral: f64,
     /// Anti-windup.
-    pub anti_windup: ModelFreeWindup,
+    pub anti_windup: ModelFreeAntiWindup,
 }
 
 /// Two loops of the law that know nothing of each other. Loop 1 controls level 1, loop 2 level 2, whatever pump they drive.
@@ -65,7 +65,7 @@ impl ModelFree {
             model_gain: 1e-3,
             proportional: 2.0,
             integral: 0.05,
-            anti_windup: ModelFreeWindup::Off,
+            anti_windup: ModelFreeAntiWindup::Off,
         };
         Self {
             pairing: Pairing::Diagonal,
@@ -193,14 +193,14 @@ impl ModelFreeLoop {
         let mut command = asked(next);
         let excess = command - limited(command, self.limits);
         match anti_windup {
-            ModelFreeWindup::Off => {}
-            ModelFreeWindup::Conditional => {
+            ModelFreeAntiWindup::Off => {}
+            ModelFreeAntiWindup::Conditional => {
                 if excess * error > 0.0 {
                     next = self.integral;
                     command = asked(next);
                 }
             }
-            ModelFreeWindup::BackCalculation { tracking_time_s } => {
+            ModelFreeAntiWindup::BackCalculation { tracking_time_s } => {
                 if integral > 0.0 {
                     let share = (self.sampling_time_s / tracking_time_s).min(1.0);
                     next -= share * excess * model_gain;
@@ -225,14 +225,14 @@ mod tests {
 
     const LIMITS: [(f64, f64); 2] = [(0.0, 12.0); 2];
 
-    fn with(windup: ModelFreeWindup) -> ModelFree {
+    fn with(windup: ModelFreeAntiWindup) -> ModelFree {
         let one = ModelFreeSettings { anti_windup: windup, ..ModelFree::PUBLISHED.loops[0] };
         ModelFree { loops: [one; 2], ..ModelFree::PUBLISHED }
     }
 
     #[test]
     fn back_calculation_stays_finite_with_the_least_integral_gain() {
-        let windup = ModelFreeWindup::BackCalculation { tracking_time_s: 1.0 };
+        let windup = ModelFreeAntiWindup::BackCalculation { tracking_time_s: 1.0 };
         let one = ModelFreeSettings { integral: 5e-324, anti_windup: windup, ..ModelFree::PUBLISHED.loops[0] };
         let estimator = EstimatorSettings { fed_with: FedWith::Commanded, ..EstimatorSettings::PUBLISHED };
         let law = ModelFree { loops: [one; 2], estimator: Some(estimator), ..ModelFree::PUBLISHED };
@@ -280,10 +280,10 @@ mod tests {
             }
             law.loops[0].integral
         };
-        assert_relative_eq!(wound(ModelFreeWindup::Off), 0.05 * 0.9, max_relative = 1e-12);
-        assert_eq!(wound(ModelFreeWindup::Conditional), 0.0);
+        assert_relative_eq!(wound(ModelFreeAntiWindup::Off), 0.05 * 0.9, max_relative = 1e-12);
+        assert_eq!(wound(ModelFreeAntiWindup::Conditional), 0.0);
         // Every sample gives the whole excess back: what is left asks for just 12 V.
-        let back = wound(ModelFreeWindup::BackCalculation { tracking_time_s: 1.0 });
+        let back = wound(ModelFreeAntiWindup::BackCalculation { tracking_time_s: 1.0 });
         assert_relative_eq!((2.0 * 0.1 + back) / 1e-3, 12.0, max_relative = 1e-9);
     }
 
@@ -296,14 +296,14 @@ mod tests {
     }
 
     /// A law without estimator and with samples of half a second, at 6 V.
-    fn half_a_second(windup: ModelFreeWindup) -> RunningModelFree {
+    fn half_a_second(windup: ModelFreeAntiWindup) -> RunningModelFree {
         let law = ModelFree { estimator: None, sampling_time_s: 0.5, ..with(windup) };
         law.start(LIMITS, [6.0, 5.0], [0.1, 0.1]).unwrap()
     }
 
     #[test]
     fn the_law_is_that_of_the_source_with_any_sampling_time() {
-        let mut law = half_a_second(ModelFreeWindup::Conditional);
+        let mut law = half_a_second(ModelFreeAntiWindup::Conditional);
         assert_eq!(law.estimates(), [-6e-3, -5e-3]);
         for k in 1..=4 {
             // (−φ̂ + Kp e + Ki Σ e Ts)/α̂ with e = 1 mm.
@@ -315,16 +315,16 @@ mod tests {
     #[test]
     fn anti_windup_integrates_what_leads_back_and_returns_its_share_of_the_excess() {
         // An error that leads back from the limit is integrated.
-        let mut law = half_a_second(ModelFreeWindup::Conditional);
+        let mut law = half_a_second(ModelFreeAntiWindup::Conditional);
         law.loops[0].integral = 0.5;
         assert_eq!(law.step([0.09, 0.1], [0.1, 0.1])[0], 12.0);
         assert_relative_eq!(law.loops[0].integral, 0.5 - 0.05 * 0.5 * 0.01, max_relative = 1e-12);
         // One that leads further beyond the lower limit is not.
-        let mut law = half_a_second(ModelFreeWindup::Conditional);
+        let mut law = half_a_second(ModelFreeAntiWindup::Conditional);
         assert_eq!(law.step([0.0, 0.1], [0.1, 0.1])[0], 0.0);
         assert_eq!(law.loops[0].integral, 0.0);
         // A quarter of the excess of 196.5 V goes back within a sample of a quarter of the tracking time.
-        let mut law = half_a_second(ModelFreeWindup::BackCalculation { tracking_time_s: 2.0 });
+        let mut law = half_a_second(ModelFreeAntiWindup::BackCalculation { tracking_time_s: 2.0 });
         assert_eq!(law.step([0.2, 0.1], [0.1, 0.1])[0], 12.0);
         assert_relative_eq!(law.loops[0].integral, 0.05 * 0.05 - 0.25 * 196.5 * 1e-3, max_relative = 1e-12);
     }

@@ -11,7 +11,7 @@ use crate::numeric::root;
 use crate::plant::Jacobian;
 
 /// Samples of a sliding window up to which its poles are computed: each is two states.
-const MOST_SLIDING_SAMPLES: usize = 30;
+const MAX_SLIDING_SAMPLES: usize = 30;
 /// What rounding makes of a zero multiplier of a shift register of N samples is `(1e-12)^(1/N)` at most.
 const SHIFTED: f64 = 1e-12;
 /// Smallest α̂ that is tried, as a share of the present one.
@@ -160,7 +160,7 @@ impl<'a> ModelFreeLoop<'a> {
             let of_loop = |i: usize| settings.weights(law.loops[i].model_gain, law.sampling_time_s);
             let weights = [of_loop(0).map_err(unusable)?, of_loop(1).map_err(unusable)?];
             let count = weights[0].len() - 1;
-            if settings.window == Window::Sliding && count > MOST_SLIDING_SAMPLES {
+            if settings.window == Window::Sliding && count > MAX_SLIDING_SAMPLES {
                 return Err(LinearError::OutOfRange { field: "window_s", value: settings.window_s });
             }
             Ok((settings, weights))

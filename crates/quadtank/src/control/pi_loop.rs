@@ -180,7 +180,7 @@ mod tests {
 
     use super::*;
     use crate::control::{AntiWindup, LoopMode, Pairing, PiSettings};
-    use crate::linear::{LoopGains, Stability, StateSpace, singular_values};
+    use crate::linear::{SensitivityGains, Stability, StateSpace, singular_values};
     use crate::literature::PresetId;
 
     fn law(pairing: Pairing, gains: [f64; 2], integral_times: [f64; 2]) -> DecentralisedPi {
@@ -232,7 +232,7 @@ mod tests {
         let closed = closed(&singular, &law);
         assert_eq!(closed.stability, Stability::Marginal);
         assert_eq!(closed.sensitivity_peak, None);
-        assert!(closed.slowest().unwrap().norm() < 1e-9);
+        assert!(closed.rightmost_pole().unwrap().norm() < 1e-9);
     }
 
     #[test]
@@ -368,8 +368,8 @@ mod tests {
                 let Some(peak) = found.sensitivity_peak else { continue };
                 let pi_loop = PiLoop::new(&jacobian, &controller, preset.plant.power_gain);
                 let nyquist = std::f64::consts::PI / sampling_time_s;
-                let dense =
-                    (1..=40_000).map(|k| LoopGains::of(&pi_loop.at(nyquist * f64::from(k) / 40_000.0)).sensitivity[0]);
+                let dense = (1..=40_000)
+                    .map(|k| SensitivityGains::of(&pi_loop.at(nyquist * f64::from(k) / 40_000.0)).sensitivity[0]);
                 // A grid of 40,000 points finds the peak to some 1e-6, the search to 1e-5.
                 assert_relative_eq!(peak.value, dense.fold(0.0, f64::max), max_relative = 1e-4);
             }

@@ -68,8 +68,8 @@ impl ClosedLoop {
         Ok(Self { has_dead_time: true, poles_z: Vec::new(), poles_s: Vec::new(), stability, sensitivity_peak })
     }
 
-    /// The pole that decides how fast the loop forgets or grows: the one with the largest real part (1/s).
-    pub fn slowest(&self) -> Option<Complex> {
+    /// The dominant pole: that with the largest real part (1/s); `None` without poles.
+    pub fn rightmost_pole(&self) -> Option<Complex> {
         self.poles_s.iter().copied().max_by(|x, y| x.re.total_cmp(&y.re))
     }
 }
@@ -94,7 +94,7 @@ mod tests {
         // S = (z − 1)/(z − 1 + k) is largest at z = −1: 2/(2 − k).
         let closed = integrators([0.5, 0.2]);
         assert_eq!(closed.poles_z, [Complex::from(0.8), Complex::from(0.5)]);
-        assert_eq!(closed.slowest(), Some(Complex::from(0.8_f64.ln() / 2.0)));
+        assert_eq!(closed.rightmost_pole(), Some(Complex::from(0.8_f64.ln() / 2.0)));
         assert_eq!(closed.stability, Stability::Stable);
         let peak = closed.sensitivity_peak.unwrap();
         assert_relative_eq!(peak.value, 2.0 / 1.5, max_relative = 1e-12);

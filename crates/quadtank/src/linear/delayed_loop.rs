@@ -18,7 +18,7 @@ pub(crate) trait DelayedLoop {
 }
 
 /// Most arcs of the unit circle that are looked at: about 30 ms.
-const MOST_ARCS: u32 = 30_000;
+const MAX_ARCS: u32 = 30_000;
 
 /// The verdict on a loop; `None` where its function turns too often to be followed within the bound on work.
 ///
@@ -30,7 +30,7 @@ pub(crate) fn stability(of: &impl DelayedLoop) -> Option<Stability> {
     let (mut turned, mut count) = (0.0, 0);
     while let Some(arc) = arcs.pop() {
         count += 1;
-        if count > MOST_ARCS {
+        if count > MAX_ARCS {
             return None;
         }
         match turn_over(of, arc) {

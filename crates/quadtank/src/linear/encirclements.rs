@@ -39,7 +39,7 @@ pub enum LoopStability {
 }
 
 /// Most cells of frequency that the count looks at. Of 1,000 random loops half take 210, and one 940.
-const MOST_CELLS: u32 = 5_000;
+const MAX_CELLS: u32 = 5_000;
 /// Width of a cell, relative to its frequency, at which a determinant whose enclosure contains zero counts as zero.
 const NARROWEST: f64 = 1e-15;
 /// Relative deviation of the elements from powers of s at the lowest frequency.
@@ -91,7 +91,7 @@ impl LoopStability {
         let mut count = 0;
         while let Some(cell) = cells.pop() {
             count += 1;
-            if count > MOST_CELLS {
+            if count > MAX_CELLS {
                 return (Self::NotComputed { frequency: high }, count);
             }
             match turn_over(ratio, cell, at_high) {
@@ -251,7 +251,7 @@ mod tests {
             if exponent >= 4 {
                 assert!(matches!(verdict, LoopStability::NotComputed { .. }), "{gain}: {verdict:?}");
             }
-            assert!(cells <= MOST_CELLS + 1, "{gain}: {cells} cells");
+            assert!(cells <= MAX_CELLS + 1, "{gain}: {cells} cells");
         }
         // A loop that never becomes small.
         let endless = TransferFunction::lags(2.0, &[], 1.0).unwrap();

@@ -27,14 +27,14 @@ pub fn locus_values(ratio: &Matrix2<Complex>) -> [Complex; 2] {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
-pub enum Closure {
+pub enum LociClosure {
     /// Each locus is a closed curve of its own.
     Separate,
     /// One continues into the other: the two close only together.
     Joint,
 }
 
-impl Closure {
+impl LociClosure {
     /// From what the return ratio is at ω = 0, or, with integral action, what it is times s there: a real matrix with real
     /// eigenvalues closes each locus, a pair of complex ones joins them.
     pub fn of(at_zero: &Matrix2<f64>) -> Self {
@@ -168,7 +168,7 @@ mod tests {
 
     #[test]
     fn complex_eigenvalues_at_zero_join_the_loci() {
-        assert_eq!(Closure::of(&Matrix2::new(0.5, -1.0, 1.0, 2.4)), Closure::Joint);
-        assert_eq!(Closure::of(&Matrix2::new(4.0, -0.19, 8.0, 0.456)), Closure::Separate);
+        assert_eq!(LociClosure::of(&Matrix2::new(0.5, -1.0, 1.0, 2.4)), LociClosure::Joint);
+        assert_eq!(LociClosure::of(&Matrix2::new(4.0, -0.19, 8.0, 0.456)), LociClosure::Separate);
     }
 }

@@ -34,7 +34,7 @@ const LARGEST_FACTOR: f64 = 1e6;
 /// Share of a margin below which no better one is sought.
 const PRECISION: f64 = 1e-4;
 /// Most evaluations of the loop, over cells and at points. Of 1,000 random loops half take 2,500, and one 10,800.
-const MOST_EVALUATIONS: u32 = 20_000;
+const MAX_EVALUATIONS: u32 = 20_000;
 /// Narrowest cell that is halved, relative to its frequency.
 const NARROWEST: f64 = 1e-10;
 /// Largest distance from a line, relative to the value, of a locus that is on it.
@@ -153,7 +153,7 @@ impl<'a> Search<'a> {
         let mut pieces = VecDeque::from([Piece { cell, ends: [self.loci(cell.low), self.loci(cell.high)] }]);
         while let Some(Piece { cell, ends: [at_low, at_high] }) = pieces.pop_front() {
             self.count();
-            if self.evaluations.get() > MOST_EVALUATIONS {
+            if self.evaluations.get() > MAX_EVALUATIONS {
                 return None;
             }
             let invariants = self.ratio.invariants(cell);
@@ -345,7 +345,7 @@ mod tests {
         let ratio = ratio(&plant, 2);
         let mut search = Search::new(&ratio);
         let found = search.run().unwrap();
-        assert!(search.evaluations.get() < MOST_EVALUATIONS / 4, "{}", search.evaluations.get());
+        assert!(search.evaluations.get() < MAX_EVALUATIONS / 4, "{}", search.evaluations.get());
         assert_eq!((found.gain_up, found.gain_down), (None, None));
         // |L| = 1 where ω⁴ = (a/T)² (1 + (T ω)²), and the argument is that of 1 + j T ω, less π.
         let squared = 0.5 * (a * a + (a.powi(4) + 4.0 * (a / time).powi(2)).sqrt());
@@ -362,7 +362,7 @@ mod tests {
             let ratio = ratio(&plant, 0);
             let mut search = Search::new(&ratio);
             assert_eq!(search.run(), None);
-            assert!(search.evaluations.get() < MOST_EVALUATIONS + 500, "{}", search.evaluations.get());
+            assert!(search.evaluations.get() < MAX_EVALUATIONS + 500, "{}", search.evaluations.get());
         }
     }
 }

@@ -62,7 +62,7 @@ const PRECISION: f64 = 1e-4;
 /// Share by which a value has to be higher: singular values that are nearly equal lose half their digits.
 const ROUNDING: f64 = 1e-8;
 /// Most cells that are looked at.
-const MOST_CELLS: u32 = 20_000;
+const MAX_CELLS: u32 = 20_000;
 /// Narrowest cell that is halved, relative to its frequency.
 const NARROWEST: f64 = 1e-12;
 /// Relative deviation of the elements from powers of s at the lowest frequency.
@@ -185,7 +185,7 @@ impl<'a> Search<'a> {
         let mut cells = VecDeque::from([cell]);
         while let Some(cell) = cells.pop_front() {
             self.cells += 1;
-            if self.cells > MOST_CELLS {
+            if self.cells > MAX_CELLS {
                 return None;
             }
             let over = self.ratio.over(cell);
@@ -288,7 +288,7 @@ mod tests {
                 let mut search = Search::new(&ratio, measure);
                 search.run().unwrap();
                 println!("{published:?}: {} cells", search.cells);
-                assert!(search.cells < MOST_CELLS / 10, "{published:?}: {} cells", search.cells);
+                assert!(search.cells < MAX_CELLS / 10, "{published:?}: {} cells", search.cells);
             }
         }
     }

@@ -8,13 +8,13 @@ use super::StateSpace;
 ///
 /// Rank decisions become less sure as they build on each other: a space spanned by pivots of size p is known to within
 /// the rounding error over p.
-struct Doubt {
+struct RankTolerance {
     tolerance: f64,
     smallest_pivot: f64,
 }
 
-impl Doubt {
-    /// The doubt before the first decision.
+impl RankTolerance {
+    /// The tolerance before the first decision.
     fn new(tolerance: f64) -> Self {
         Self { tolerance, smallest_pivot: 1.0 }
     }
@@ -32,14 +32,14 @@ struct Compression {
 
 impl Compression {
     /// Finds an orthogonal Q so that only the first `rank` rows of `Qᵀ m` differ from zero by more than rounding.
-    fn of(m: DMatrix<f64>, doubt: &mut Doubt) -> Self {
+    fn of(m: DMatrix<f64>, rank_tolerance: &mut RankTolerance) -> Self {
         let qr = m.col_piv_qr();
         let r = qr.r();
-        let threshold = doubt.threshold();
+        let threshold = rank_tolerance.threshold();
         let mut rank = 0;
         for pivot in (0..r.nrows()).map(|i| r[(i, i)].abs()).take_while(|pivot| *pivot > threshold) {
             rank += 1;
-            doubt.smallest_pivot = doubt.smallest_pivot.min(pivot);
+            rank_tolerance.smallest_pivot = rank_tolerance.smallest_pivot.min(pivot);
         }
         Self { qr, rank }
     }
@@ -65,18 +65,18 @@ impl Compression {
 ///
 /// What is left out are the decoupling zeros, modes that G(s) does not show.
 pub(super) fn minimal(model: StateSpace, tolerance: f64) -> StateSpace {
-    observable(observable(model, Doubt::new(tolerance)).dual(), Doubt::new(tolerance)).dual()
+    observable(observable(model, RankTolerance::new(tolerance)).dual(), RankTolerance::new(tolerance)).dual()
 }
 
 /// The observable part, by the staircase algorithm: first the states that the outputs see, then those that these
 /// states see, until nothing new is seen.
-fn observable(model: StateSpace, mut doubt: Doubt) -> StateSpace {
+fn observable(model: StateSpace, mut rank_tolerance: RankTolerance) -> StateSpace {
     let n = model.order();
     let StateSpace { mut a, mut b, mut c, d } = model;
     let mut seen = 0;
     let mut view = c.clone();
     while seen < n && view.nrows() > 0 {
-        let step = Compression::of(view.transpose(), &mut doubt);
+        let step = Compression::of(view.transpose(), &mut rank_tolerance);
         if step.rank == 0 {
             break;
         }
@@ -105,16 +105,16 @@ fn observable(model: StateSpace, mut doubt: Doubt) -> StateSpace {
 /// the states that they see too, hence the derivatives of those states, which become outputs in their place. An output
 /// that depends on the others drops out; the number of outputs left is the normal rank of G.
 pub(super) fn reduce(mut model: StateSpace, tolerance: f64) -> StateSpace {
-    let mut doubt = Doubt::new(tolerance);
+    let mut rank_tolerance = RankTolerance::new(tolerance);
     while model.outputs() > 0 {
         let StateSpace { a, b, c, d } = model;
-        let direct = Compression::of(d.clone(), &mut doubt);
+        let direct = Compression::of(d.clone(), &mut rank_tolerance);
         let sigma = direct.rank;
         if sigma == d.nrows() {
             return StateSpace { a, b, c, d };
         }
         let (c, d) = (direct.rows(c), direct.rows(d).rows(0, sigma).into_owned());
-        let indirect = Compression::of(c.rows_range(sigma..).transpose(), &mut doubt);
+        let indirect = Compression::of(c.rows_range(sigma..).transpose(), &mut rank_tolerance);
         let c = c.rows(0, sigma).into_owned();
         let tau = indirect.rank;
         if tau == 0 {
@@ -149,19 +149,19 @@ mod tests {
 
     #[test]
     fn the_doubt_grows_with_the_smallest_pivot_so_far() {
-        let mut doubt = Doubt::new(TOLERANCE);
-        assert_eq!(doubt.threshold(), TOLERANCE);
-        assert_eq!(Compression::of(dmatrix![1.0, 0.0; 0.0, 0.125], &mut doubt).rank, 2);
-        assert_eq!(doubt.threshold(), 8.0 * TOLERANCE);
-        // A larger pivot later takes no doubt away.
-        assert_eq!(Compression::of(dmatrix![0.5], &mut doubt).rank, 1);
-        assert_eq!(doubt.threshold(), 8.0 * TOLERANCE);
+        let mut rank_tolerance = RankTolerance::new(TOLERANCE);
+        assert_eq!(rank_tolerance.threshold(), TOLERANCE);
+        assert_eq!(Compression::of(dmatrix![1.0, 0.0; 0.0, 0.125], &mut rank_tolerance).rank, 2);
+        assert_eq!(rank_tolerance.threshold(), 8.0 * TOLERANCE);
+        // A larger pivot later does not lower the threshold.
+        assert_eq!(Compression::of(dmatrix![0.5], &mut rank_tolerance).rank, 1);
+        assert_eq!(rank_tolerance.threshold(), 8.0 * TOLERANCE);
         // What counts in a first decision is a rounding error in a later one; the limit itself is one.
         for (size, rank) in [(7.9 * TOLERANCE, 0), (8.0 * TOLERANCE, 0), (8.1 * TOLERANCE, 1)] {
-            let mut doubt = Doubt { ..doubt };
-            assert_eq!(Compression::of(dmatrix![size], &mut doubt).rank, rank);
+            let mut rank_tolerance = RankTolerance { ..rank_tolerance };
+            assert_eq!(Compression::of(dmatrix![size], &mut rank_tolerance).rank, rank);
         }
-        assert_eq!(Compression::of(dmatrix![7.9 * TOLERANCE], &mut Doubt::new(TOLERANCE)).rank, 1);
+        assert_eq!(Compression::of(dmatrix![7.9 * TOLERANCE], &mut RankTolerance::new(TOLERANCE)).rank, 1);
     }
 
     /// 1/(s+1) in parallel with a lag that the output does not see and one that the input does not move.

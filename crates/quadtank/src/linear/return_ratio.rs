@@ -20,7 +20,7 @@ pub struct ReturnRatio<'a> {
 
 /// Smallest relative deviation of det(I + L) of an integrating plant from its asymptote at the origin that the lowest frequency is
 /// chosen for; rounding hides smaller ones.
-const LEAST_DEVIATION: f64 = 1e-9;
+const MIN_DEVIATION: f64 = 1e-9;
 /// Decades that the lowest frequency is lowered by at most to get there.
 const DECADES: usize = 60;
 
@@ -81,7 +81,7 @@ impl<'a> ReturnRatio<'a> {
         // A loop of gains alone is the same at all frequencies.
         let low = if low.is_finite() { low } else { 1.0 };
         let Some((factor, order)) = self.at_origin else { return low };
-        let deviation = deviation.max(LEAST_DEVIATION);
+        let deviation = deviation.max(MIN_DEVIATION);
         let is_pole = |w: &f64| {
             let difference = (Matrix2::identity() + self.at(*w)).determinant();
             (difference * Complex::new(0.0, *w).powu(order) / factor - 1.0).norm() <= deviation

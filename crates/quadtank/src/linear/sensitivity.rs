@@ -8,14 +8,14 @@ use crate::numeric::golden_section;
 /// Singular values of the sensitivity `S = (I + L)⁻¹` and of the complementary sensitivity `T = L (I + L)⁻¹ = I − S` of a closed
 /// loop at one frequency, each the largest and the smallest: between them lies the amplification of every direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LoopGains {
+pub struct SensitivityGains {
     /// Of S: the gain from a disturbance at the outputs to the outputs.
     pub sensitivity: [f64; 2],
     /// Of T: the gain from references, and from the noise of the sensors, to the outputs.
     pub complementary: [f64; 2],
 }
 
-impl LoopGains {
+impl SensitivityGains {
     /// From the return ratio L at the frequency, cut open at the outputs. Infinite where the loop has a pole there.
     pub fn of(return_ratio: &Matrix2<Complex>) -> Self {
         let difference = Matrix2::identity() + return_ratio;
@@ -62,7 +62,7 @@ const TURN: f64 = 0.1;
 /// Size of L from which on down a turn of its phase moves S by no more than that share.
 const SMALL: f64 = 0.02;
 /// Most frequencies of a grid.
-const MOST_POINTS: u32 = 20_000;
+const MAX_POINTS: u32 = 20_000;
 
 /// The same for a stable loop whose inputs are delayed by up to `delay_s` (s); `slowest` is a rate (1/s) below which nothing happens.
 pub(super) fn delayed_sensitivity_peak(
@@ -77,7 +77,7 @@ pub(super) fn delayed_sensitivity_peak(
     let mut w = BELOW_SLOWEST * slowest.min(delay_s.recip()).min(nyquist);
     let ratio = (nyquist / w).powf(1.0 / f64::from(GRID));
     let (mut best, mut spacing) = ((sensitivity(nyquist), nyquist), ratio);
-    for _ in 0..MOST_POINTS {
+    for _ in 0..MAX_POINTS {
         if w >= nyquist {
             break;
         }
@@ -160,7 +160,7 @@ mod tests {
             // One loop does not act.
             Matrix2::new(c(3.0, -20.0), Complex::ZERO, c(1.0, -1.0), Complex::ZERO),
         ] {
-            let gains = LoopGains::of(&ratio);
+            let gains = SensitivityGains::of(&ratio);
             let s = (Matrix2::identity() + ratio).try_inverse().unwrap();
             for (matrix, found) in [(s, gains.sensitivity), (Matrix2::identity() - s, gains.complementary)] {
                 let values = singular_values(&DMatrix::from_iterator(2, 2, matrix.iter().copied())).unwrap();

@@ -83,13 +83,13 @@ impl ValveSchedule {
     }
 
     /// Half way between the lowest and the highest γ.
-    pub fn middle(&self) -> f64 {
+    pub fn midpoint(&self) -> f64 {
         let (low, high) = self.extremes();
         f64::midpoint(low, high)
     }
 
-    /// How far γ goes to either side of its [`middle`](Self::middle).
-    pub fn swing(&self) -> f64 {
+    /// How far γ goes to either side of its [`midpoint`](Self::midpoint).
+    pub fn amplitude(&self) -> f64 {
         let (low, high) = self.extremes();
         0.5 * (high - low)
     }
@@ -97,7 +97,7 @@ impl ValveSchedule {
     /// The same movement around another middle.
     #[must_use]
     pub fn around(self, middle: f64) -> Self {
-        let by = middle - self.middle();
+        let by = middle - self.midpoint();
         match self {
             Self::Constant { .. } => Self::Constant { gamma: middle },
             Self::Step { from, to, at_s } => Self::Step { from: from + by, to: to + by, at_s },
@@ -124,7 +124,7 @@ impl ValveSchedule {
     }
 
     /// How fast γ turns (rad/s); 0 for what does not swing.
-    pub fn turning(&self) -> f64 {
+    pub fn angular_frequency(&self) -> f64 {
         match *self {
             Self::Sine { frequency, amplitude, .. } if amplitude != 0.0 => frequency.abs(),
             _ => 0.0,
@@ -158,8 +158,8 @@ mod tests {
         let step = ValveSchedule::Step { from: 0.5, to: 0.25, at_s: 3.0 };
         for schedule in [ramp, sine, step, ValveSchedule::Constant { gamma: 0.5 }] {
             let moved = schedule.around(0.625);
-            assert_eq!((moved.middle(), moved.swing()), (0.625, schedule.swing()), "{schedule:?}");
-            let by = 0.625 - schedule.middle();
+            assert_eq!((moved.midpoint(), moved.amplitude()), (0.625, schedule.amplitude()), "{schedule:?}");
+            let by = 0.625 - schedule.midpoint();
             assert_relative_eq!(moved.at(14.0), schedule.at(14.0) + by, max_relative = 1e-15);
         }
     }

@@ -6,7 +6,7 @@ use crate::plant::OperatingPoint;
 
 /// A step of a reference of at most this size has no figures (m): no sensor resolves it, and rounding errors of a level, which
 /// are up to 2e-15 m, would show in shares of a still smaller one.
-pub(super) const LEAST_STEP: f64 = 1e-9;
+pub(super) const MIN_STEP: f64 = 1e-9;
 
 /// Sum of changes that act together; exactly 0 where they cancel to rounding.
 pub(super) fn net(changes: impl Iterator<Item = f64> + Clone) -> f64 {

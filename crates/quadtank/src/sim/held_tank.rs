@@ -21,12 +21,12 @@ pub struct HeldTank<'a> {
 const PACE_S: f64 = 1.0;
 /// Longest piece of a motion (s), each of which is up to eight steps of the integration, and most pieces.
 const PIECE_S: f64 = 5.0;
-const MOST_PIECES: f64 = 32.0;
+const MAX_PIECES: f64 = 32.0;
 /// Work of one piece, in multiplications; measured.
 const MULTIPLICATIONS: f64 = 300.0;
 
 fn pieces(duration: f64) -> f64 {
-    (duration / PIECE_S).ceil().clamp(1.0, MOST_PIECES)
+    (duration / PIECE_S).ceil().clamp(1.0, MAX_PIECES)
 }
 
 /// Lets `duration` seconds pass.

@@ -33,7 +33,7 @@ pub(super) const NODES: [f64; STAGES] = [1.0 / 4.0, 3.0 / 4.0, 11.0 / 20.0, 1.0 
 const NEWTON_TOLERANCE: f64 = 1e-8;
 
 /// Newton's iteration needs three or four; this only bounds it when numbers are not sane.
-const MOST_ITERATIONS: u32 = 30;
+const MAX_ITERATIONS: u32 = 30;
 
 /// The result of a step for one tank.
 #[derive(Clone, Copy, Debug)]
@@ -65,7 +65,7 @@ fn root_of_emptying(section: CrossSection, volume: f64) -> f64 {
     // Newton's iteration is monotone from here: beyond the solution of a convex function where the tank widens upwards,
     // short of that of a concave one where it narrows.
     let mut root = volume / (2.0 * section.area_at_empty);
-    for _ in 0..MOST_ITERATIONS {
+    for _ in 0..MAX_ITERATIONS {
         let correction = (emptying_volume(section, root) - volume) / (2.0 * section.area(root * root));
         root -= correction;
         if correction.abs() <= NEWTON_TOLERANCE * root {
@@ -157,7 +157,7 @@ impl ImplicitStep {
     fn solve(&self, start: f64, square: f64) -> f64 {
         let available = (square - self.passed_squared) / self.four_areas - self.offset;
         let mut root = start;
-        for _ in 0..MOST_ITERATIONS {
+        for _ in 0..MAX_ITERATIONS {
             let level = root * root;
             let excess = self.section.volume(level) + self.passed * root - available;
             let correction = excess / (2.0 * self.section.area(level) * root + self.passed);

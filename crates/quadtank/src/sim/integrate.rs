@@ -21,23 +21,23 @@ use super::walls::{Attempt, Watch};
 /// Error of one implicit step, as a fraction of the levels; this keeps trajectories within 1e-6 of a step.
 const TOLERANCE: f64 = 2e-8;
 /// A plant with less water than this counts as one with so much (m).
-const LEAST_LEVEL: f64 = 1e-6;
+const MIN_LEVEL: f64 = 1e-6;
 
 /// Of the step that should just meet the tolerance, the share that is taken.
 const SAFETY: f64 = 0.9;
 /// By how much an implicit step is longer or shorter than the one before at most.
-const MOST_GROWTH: f64 = 4.0;
-const MOST_SHRINKAGE: f64 = 0.1;
+const MAX_GROWTH: f64 = 4.0;
+const MAX_SHRINKAGE: f64 = 0.1;
 /// Implicit steps of one stretch of time that may be tried in vain. A tank that begins to fill takes about 10; beyond
 /// this steps are as long as they can be, with which the method is still stable.
-const MOST_SPARE_TRIES: u32 = 100;
+const MAX_SPARE_TRIES: u32 = 100;
 
 /// A step shorter than this share of every time constant is taken explicitly: what the method then leaves of a transient,
 /// `x⁵/120`, is about 1e-8.
 const EXPLICIT_SHARE: f64 = 1.0 / 15.0;
 
 /// With more explicit steps than this the implicit method is cheaper.
-const MOST_EXPLICIT_STEPS: f64 = 8.0;
+const MAX_EXPLICIT_STEPS: f64 = 8.0;
 /// Work of an implicit step, in explicit ones.
 const IMPLICIT_WORK: u64 = 8;
 
@@ -51,7 +51,7 @@ struct Pace {
 
 impl Pace {
     fn new(first_step: f64) -> Self {
-        Self { next_step: first_step, spare_tries: MOST_SPARE_TRIES }
+        Self { next_step: first_step, spare_tries: MAX_SPARE_TRIES }
     }
 }
 
@@ -96,7 +96,7 @@ impl Hydraulics {
         self.pumped = flows[1];
         let length = longest * self.fastest_rate() / EXPLICIT_SHARE;
         let (dry_after, drying) = self.first_dry(&flows);
-        if length <= MOST_EXPLICIT_STEPS && longest < dry_after {
+        if length <= MAX_EXPLICIT_STEPS && longest < dry_after {
             let steps = larger(length.ceil(), 1.0);
             let step = longest / steps;
             let at_stages =
@@ -207,10 +207,10 @@ impl Hydraulics {
         let change = |error: f64| SAFETY * (allowed / error).sqrt().sqrt();
         while error > allowed && pace.spare_tries > 0 {
             pace.spare_tries -= 1;
-            step *= larger(change(error), MOST_SHRINKAGE);
+            step *= larger(change(error), MAX_SHRINKAGE);
             (ends, error) = try_step(step);
         }
-        pace.next_step = if pace.spare_tries > 0 { step * smaller(change(error), MOST_GROWTH) } else { f64::INFINITY };
+        pace.next_step = if pace.spare_tries > 0 { step * smaller(change(error), MAX_GROWTH) } else { f64::INFINITY };
         (step, ends)
     }
 
@@ -222,7 +222,7 @@ impl Hydraulics {
             let root = larger(at_rest, self.root_level[i]);
             root * root
         };
-        TOLERANCE * (LEAST_LEVEL + level(0) + level(1) + level(2) + level(3))
+        TOLERANCE * (MIN_LEVEL + level(0) + level(1) + level(2) + level(3))
     }
 }
 

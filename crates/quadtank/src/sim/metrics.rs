@@ -8,7 +8,7 @@ use crate::plant::QuadrupleTank;
 
 use super::experiment::Experiment;
 use super::response::{NoResponse, Settling};
-use super::step_answer::{StepAnswer, StepFigures, step_answers};
+use super::step_answer::{ReferenceStepResponse, StepFigures, step_answers};
 use super::trajectory::Trajectory;
 
 /// How one loop answered its first set-point step, within one window for all figures of it, and what the whole run cost.
@@ -70,7 +70,7 @@ pub fn loop_metrics(
 /// The same with the figures of the step from the [`step_answers`] of another run of the experiment: its twin without noise, since
 /// the extremes of noise are no overshoot and its excursions no want of settling. The costs are those of `trajectory`.
 pub fn loop_metrics_judging(
-    answers: &[StepAnswer],
+    answers: &[ReferenceStepResponse],
     trajectory: &Trajectory,
     plant: &QuadrupleTank,
     controller: &DecentralisedPi,
@@ -85,7 +85,7 @@ pub fn loop_metrics_judging(
 }
 
 /// The figures of the first step that the run comes to, without costs.
-fn figures_of_step(answers: &[StepAnswer], experiment: &Experiment, index: usize) -> LoopMetrics {
+fn figures_of_step(answers: &[ReferenceStepResponse], experiment: &Experiment, index: usize) -> LoopMetrics {
     let first = answers.iter().find(|answer| answer.level == index && answer.figures.window_s.is_some());
     let without_step = || match experiment.step_after_end_s(index) {
         Some(time_s) => NoResponse::StepAfterEnd { time_s },

@@ -35,7 +35,7 @@ pub use metrics::{LoopMetrics, loop_metrics, loop_metrics_judging};
 pub use model_free::{ModelFreeRun, simulate_model_free, simulate_with_valves};
 pub use nonlinear::simulate;
 pub use response::{NoResponse, Settling};
-pub use step_answer::{StepAnswer, StepFigures, step_answers};
+pub use step_answer::{ReferenceStepResponse, StepFigures, step_answers};
 pub use step_metrics::StepMetrics;
 pub use tracking::{TrackingMetrics, tracking_metrics};
 pub use trajectory::{Event, EventKind, Trajectory};

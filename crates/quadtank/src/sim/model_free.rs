@@ -56,7 +56,7 @@ impl Process for MovingRig<'_> {
             return self.water.advance(time, duration, events);
         }
         let Self { plant, valves, water, voltage, disturbance } = self;
-        let longest = TURN / valves[0].turning().max(valves[1].turning());
+        let longest = TURN / valves[0].angular_frequency().max(valves[1].angular_frequency());
         let end = time + duration;
         let mut now = time;
         while now < end {

@@ -5,7 +5,7 @@ use serde::Serialize;
 use crate::numeric::{larger, smaller};
 
 use super::course::TIME_SLACK;
-use super::experiment::{Experiment, LEAST_STEP, net};
+use super::experiment::{Experiment, MIN_STEP, net};
 use super::trajectory::{EventKind, Trajectory};
 
 /// When a response stays within its band.
@@ -149,7 +149,7 @@ impl<'a> Response<'a> {
 
     /// Why the step has no figures, where it has none.
     pub(super) fn refusal(&self) -> Option<NoResponse> {
-        if self.step.abs() <= LEAST_STEP {
+        if self.step.abs() <= MIN_STEP {
             return Some(NoResponse::StepTooSmall { size: self.step });
         }
         if self.level.iter().any(|&level| level >= self.rim) {

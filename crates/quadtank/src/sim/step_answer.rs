@@ -9,7 +9,7 @@ use super::trajectory::Trajectory;
 /// A step of a reference, and how its loop answered it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct StepAnswer {
+pub struct ReferenceStepResponse {
     /// Index of the loop (and lower tank), 0 or 1.
     pub level: usize,
     /// When the reference steps (s): at the sample that it acts at, or as it is given where that is after the end of the run.
@@ -54,29 +54,33 @@ pub struct StepFigures {
 /// The window of each ends where anything else is done to the plant, be it a step of either reference or a load, else at the end of
 /// the run. Steps of one reference that act at the same sample are one, and those that cancel are none. Steps that come at the end of the
 /// run or after it stand last, without figures.
-pub fn step_answers(trajectory: &Trajectory, experiment: &Experiment, sampling_time_s: f64) -> Vec<StepAnswer> {
+pub fn step_answers(
+    trajectory: &Trajectory,
+    experiment: &Experiment,
+    sampling_time_s: f64,
+) -> Vec<ReferenceStepResponse> {
     let of_level = |level: usize| {
         let mut reference = trajectory.references[level].first().copied().unwrap_or_default();
         let mut answers = Vec::new();
         for response in Response::all(trajectory, experiment, sampling_time_s, level) {
-            let answer = StepAnswer::of(&response, level);
+            let answer = ReferenceStepResponse::of(&response, level);
             reference = answer.to;
             answers.push(answer);
         }
         for (time_s, size) in late_steps(trajectory, experiment, sampling_time_s, level) {
             let figures = StepFigures::none(NoResponse::StepAfterEnd { time_s });
-            answers.push(StepAnswer { level, time_s, from: reference, to: reference + size, figures });
+            answers.push(ReferenceStepResponse { level, time_s, from: reference, to: reference + size, figures });
             reference += size;
         }
         answers
     };
-    let mut answers: Vec<StepAnswer> = [0, 1].into_iter().flat_map(of_level).collect();
+    let mut answers: Vec<ReferenceStepResponse> = [0, 1].into_iter().flat_map(of_level).collect();
     // A stable sort keeps loop 1 before loop 2.
     answers.sort_by(|one, other| one.time_s.total_cmp(&other.time_s));
     answers
 }
 
-impl StepAnswer {
+impl ReferenceStepResponse {
     fn of(response: &Response<'_>, level: usize) -> Self {
         Self {
             level,
@@ -161,7 +165,7 @@ mod tests {
         }
     }
 
-    fn answers(steps: &[(usize, f64, f64)], load_steps: Vec<LoadStep>) -> Vec<StepAnswer> {
+    fn answers(steps: &[(usize, f64, f64)], load_steps: Vec<LoadStep>) -> Vec<ReferenceStepResponse> {
         let experiment = experiment(steps, load_steps);
         step_answers(&run(&experiment), &experiment, 1.0)
     }
@@ -229,7 +233,8 @@ mod tests {
     #[test]
     fn a_reason_of_the_run_goes_before_that_of_a_level_under_way() {
         let found = answers(&[(0, 10.0, 0.01), (0, 200.0, 0.01)], vec![]);
-        let told = |answer: StepAnswer| answer.without_response(NoResponse::UnstableLoop).figures.no_response;
+        let told =
+            |answer: ReferenceStepResponse| answer.without_response(NoResponse::UnstableLoop).figures.no_response;
         assert_eq!(told(found[0]), Some(NoResponse::UnstableLoop));
         assert_eq!(told(found[1]), Some(NoResponse::StepAfterEnd { time_s: 200.0 }));
         let mut moving = found[0];

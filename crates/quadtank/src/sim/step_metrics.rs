@@ -4,7 +4,7 @@ use super::two_loops::LoopTrace;
 const BAND: f64 = 0.02;
 
 /// A reference below this share of the largest output is none: shares of it would be rounding errors of the output.
-const LEAST_REFERENCE: f64 = 1e-9;
+const MIN_REFERENCE: f64 = 1e-9;
 
 /// What a run says of one output. A reference of next to nothing, at most 1e-9 of the largest output, is one of 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,7 +30,7 @@ impl LoopTrace {
         let pairs = rows().zip(rows().skip(1));
         let iae = pairs.map(|((t, y), (u, z))| 0.5 * (u - t) * ((y - reference).abs() + (z - reference).abs())).sum();
         let peak = outputs.iter().map(|y| y.abs()).fold(0.0, f64::max);
-        if reference.abs() <= LEAST_REFERENCE * peak || reference == 0.0 {
+        if reference.abs() <= MIN_REFERENCE * peak || reference == 0.0 {
             return StepMetrics { overshoot: None, settling_time: None, peak: Some(peak), iae };
         }
         let overshoot = outputs.iter().map(|y| y / reference - 1.0).fold(0.0, f64::max);

@@ -3,7 +3,7 @@ use serde::Serialize;
 use crate::control::Pairing;
 use crate::plant::QuadrupleTank;
 
-use super::experiment::LEAST_STEP;
+use super::experiment::MIN_STEP;
 use super::response::{AT_REST, AT_REST_FOR, NoResponse};
 use super::trajectory::Trajectory;
 
@@ -123,7 +123,7 @@ impl Samples {
     /// What was wrong with the level when its reference stepped by `size` (m) at sample `first`, if it was not at rest. At the start
     /// nothing has moved it yet.
     fn unrest(&self, first: usize, size: f64) -> Option<NoResponse> {
-        let steps = |k: &usize| (self.reference[*k] - self.reference[*k - 1]).abs() > LEAST_STEP;
+        let steps = |k: &usize| (self.reference[*k] - self.reference[*k - 1]).abs() > MIN_STEP;
         let before = self.reference[first.checked_sub(1)?];
         let moved = (1..first).rev().find(steps).unwrap_or(0);
         let rest_s = self.time[first] - AT_REST_FOR * (self.time[first] - self.time[moved]);
@@ -136,7 +136,7 @@ impl Samples {
     fn last_step(&self) -> Option<(usize, f64)> {
         let at_start = self.reference.first()? - self.level.first()?;
         let later = (1..self.reference.len()).rev().map(|k| (k, self.reference[k] - self.reference[k - 1]));
-        later.chain([(0, at_start)]).find(|(_, size)| size.abs() > LEAST_STEP)
+        later.chain([(0, at_start)]).find(|(_, size)| size.abs() > MIN_STEP)
     }
 
     fn lost_at(&self, first: usize) -> Option<f64> {
@@ -156,6 +156,6 @@ fn shown(samples: usize) -> usize {
 
 /// Where the response to a step at sample `first` ends: at the next step of the other reference, else at the end.
 fn window_end(other: &[f64], first: usize) -> usize {
-    let steps = |k: &usize| (other[*k] - other[*k - 1]).abs() > LEAST_STEP;
+    let steps = |k: &usize| (other[*k] - other[*k - 1]).abs() > MIN_STEP;
     (first + 1..other.len()).find(steps).unwrap_or(other.len())
 }

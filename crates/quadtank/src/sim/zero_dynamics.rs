@@ -7,7 +7,7 @@ use crate::plant::{Disturbance, QuadrupleTank};
 const STEP: f64 = 1.0 / 50.0;
 
 /// Most steps of a prediction.
-const MOST_STEPS: f64 = 100_000.0;
+const MAX_STEPS: f64 = 100_000.0;
 
 /// Zero dynamics of the plant: the motion of the upper levels while the pumps hold levels 1 and 2 exactly, by whatever voltages
 /// that takes. The valves stand still.
@@ -80,7 +80,7 @@ impl<'a> ZeroDynamics<'a> {
             let (tank, level) = (&self.plant.tanks[i + 2], upper[i].max(1e-3));
             tank.section.area(level) / tank.outflow_slope(level, self.plant.gravity)
         });
-        let step = (STEP * quickest[0].min(quickest[1])).max(within_s / MOST_STEPS);
+        let step = (STEP * quickest[0].min(quickest[1])).max(within_s / MAX_STEPS);
         let (mut levels, mut now) = (upper, 0.0);
         while now <= within_s {
             if let Some(end) = self.end_at(levels, now) {

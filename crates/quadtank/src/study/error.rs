@@ -11,12 +11,12 @@ pub struct StudyError {
     /// Where in the setup, as its document writes it: `experiment.duration_s`.
     pub field: &'static str,
     /// What is wrong.
-    pub fault: StudyFault,
+    pub fault: StudyErrorKind,
 }
 
 /// What is wrong with a setup.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
-pub enum StudyFault {
+pub enum StudyErrorKind {
     /// The plant has no such operating point.
     #[error(transparent)]
     Plant(#[from] PlantError),
@@ -38,7 +38,7 @@ pub enum StudyFault {
 
 impl StudyError {
     /// Attaches the field of the setup at which an error of a lower-level module arises.
-    pub(super) fn at<E: Into<StudyFault>>(field: &'static str) -> impl Fn(E) -> Self {
+    pub(super) fn at<E: Into<StudyErrorKind>>(field: &'static str) -> impl Fn(E) -> Self {
         move |error| Self { field, fault: error.into() }
     }
 }

@@ -19,7 +19,7 @@ pub fn rig_under(setup: &TuningSetup, designed: &Designed) -> Option<quadruple_t
     let TuningPlant::QuadrupleTank { preset, valves, pairing, .. } = setup.plant else { return None };
     let mut rig = setup_of(preset);
     rig.valves = valves.unwrap_or(rig.valves);
-    let root = designed.at_work();
+    let root = designed.chosen_root();
     rig.controller.pairing = match root.pairing {
         Pairing::Diagonal => pairing,
         Pairing::Swapped => pairing.other(),

@@ -9,7 +9,7 @@ pub mod quadruple_tank;
 mod quantity;
 pub mod relay_tuning;
 
-pub use error::{StudyError, StudyFault};
+pub use error::{StudyError, StudyErrorKind};
 pub use linear_plant::LinearPlant;
 pub use quantity::{Quantity, UNITS};
 
@@ -67,6 +67,8 @@ fn update_pinned<S: Clone + PartialEq, R>(
 fn whole(run: Trajectory) -> Result<Trajectory, StudyError> {
     match run.halted_at_s {
         None => Ok(run),
-        Some(time_s) => Err(StudyError { field: "experiment.duration_s", fault: StudyFault::TooMuchWork { time_s } }),
+        Some(time_s) => {
+            Err(StudyError { field: "experiment.duration_s", fault: StudyErrorKind::TooMuchWork { time_s } })
+        }
     }
 }

@@ -10,7 +10,7 @@ use crate::numeric::{golden_section, modulus, root, square_root};
 
 /// Cells of the frequency grid for each decade, and most cells of all: a wide range has fewer for each decade.
 const PER_DECADE: f64 = 400.0;
-const MOST_CELLS: f64 = 4000.0;
+const MAX_CELLS: f64 = 4000.0;
 /// Cells beside a resonance, relative to its half width and, further away, to the distance from it.
 const SHARE_OF_WIDTH: f64 = 0.25;
 /// Effort of a dip, where that of a cell which is solved is 1.
@@ -155,7 +155,7 @@ fn smallest_factor([u, t, d]: [f64; 3]) -> Option<f64> {
 const SLANT: f64 = 1e-6;
 
 /// Resonances of a smaller damping ratio are searched as if they had this one.
-const LEAST_DAMPING: f64 = 1e-9;
+const MIN_DAMPING: f64 = 1e-9;
 
 /// What the search needs of G(jω).
 #[derive(Clone, Copy, Debug)]
@@ -248,11 +248,11 @@ struct Candidate {
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of cells")]
 fn frequencies(plant: &TransferMatrix, lowest: f64, highest: f64) -> Vec<f64> {
     let range = (highest / lowest).ln();
-    let cells = (range / LN_10 * PER_DECADE).ceil().clamp(1.0, MOST_CELLS) as usize;
+    let cells = (range / LN_10 * PER_DECADE).ceil().clamp(1.0, MAX_CELLS) as usize;
     let ratio = range / cells as f64;
     let mut frequencies: Vec<f64> = (0..=cells).map(|k| lowest * (ratio * k as f64).exp()).collect();
     for pole in plant.0.as_flattened().iter().filter_map(|element| poles_off_the_origin(element).ok()).flatten() {
-        let (resonance, damping) = (pole.norm(), (pole.re.abs() / pole.norm()).max(LEAST_DAMPING));
+        let (resonance, damping) = (pole.norm(), (pole.re.abs() / pole.norm()).max(MIN_DAMPING));
         if pole.im > 0.0 {
             let mut away = 0.0;
             while SHARE_OF_WIDTH * damping.max(away) < ratio {

@@ -7,10 +7,10 @@ use crate::linear::TransferMatrix;
 const JUMP: f64 = 1.25;
 /// Halvings of the angle that locate a corner, and most corners that are located.
 const HALVINGS: u32 = 30;
-const MOST_CORNERS: usize = 4;
+const MAX_CORNERS: usize = 4;
 
 /// Cells in which one direction is solved for at most.
-const MOST_EFFORT: u32 = 30;
+const MAX_EFFORT: u32 = 30;
 
 /// One direction of the curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,7 +58,7 @@ impl CriticalCurve {
                     k if k == last => [0.0, direction(FRAC_PI_2)[1]],
                     _ => direction(angle),
                 };
-                CurvePoint { angle, limit: search.limit_within(along, MOST_EFFORT) }
+                CurvePoint { angle, limit: search.limit_within(along, MAX_EFFORT) }
             })
             .collect();
         let corners = points
@@ -69,7 +69,7 @@ impl CriticalCurve {
                 }
                 _ => None,
             })
-            .take(MOST_CORNERS)
+            .take(MAX_CORNERS)
             .collect();
         Self { points, corners }
     }
@@ -90,7 +90,7 @@ fn corner(
     let mut last = None;
     for _ in 0..HALVINGS {
         let middle = f64::midpoint(low, high);
-        let point = search.nearest_within(direction(middle), MOST_EFFORT)?;
+        let point = search.nearest_within(direction(middle), MAX_EFFORT)?;
         if jumps(&first, &point) {
             (high, last) = (middle, Some(point));
         } else {

@@ -4,7 +4,7 @@ use nalgebra::Matrix2;
 
 use crate::control::PidMatrix;
 use crate::linear::{
-    Closure, Complex, Loci, LoopPeak, LoopStability, Margins, ReturnRatio, TransferMatrix, biggest_log_modulus,
+    Complex, Loci, LociClosure, LoopPeak, LoopStability, Margins, ReturnRatio, TransferMatrix, biggest_log_modulus,
     largest_sensitivity,
 };
 
@@ -78,23 +78,23 @@ impl<'a> Design<'a> {
 
     /// How the loci close, by what the loop is at ω = 0: G(0) Ki with integral action in both loops, else G(0) Kp. With direct
     /// feedthrough they close at ω = ∞ too, and two joints make each locus a closed curve again.
-    pub fn closure(&self) -> Closure {
-        let [at_rest, at_infinity] = [self.closure_at_rest(), Closure::of(self.ratio.at_infinity())];
-        if at_rest == at_infinity { Closure::Separate } else { Closure::Joint }
+    pub fn closure(&self) -> LociClosure {
+        let [at_rest, at_infinity] = [self.closure_at_rest(), LociClosure::of(self.ratio.at_infinity())];
+        if at_rest == at_infinity { LociClosure::Separate } else { LociClosure::Joint }
     }
 
-    fn closure_at_rest(&self) -> Closure {
+    fn closure_at_rest(&self) -> LociClosure {
         if self.plant.is_integrating() {
             // The sign of the discriminant near the origin, on the real axis, where the elements are real.
             return frequency_range(self.plant)
-                .map_or(Closure::Separate, |(low, _)| Closure::of(&self.ratio.at_real(low * NEAR_ORIGIN)));
+                .map_or(LociClosure::Separate, |(low, _)| LociClosure::of(&self.ratio.at_real(low * NEAR_ORIGIN)));
         }
         let gains = if self.controllers.integrators() == 2 {
             self.controllers.integral()
         } else {
             Matrix2::from_fn(|row, column| self.controllers.0[row][column].proportional)
         };
-        Closure::of(&(self.plant.dc_gain() * gains))
+        LociClosure::of(&(self.plant.dc_gain() * gains))
     }
 }
 
@@ -249,7 +249,7 @@ mod tests {
             TransferMatrix([[of(a), of(b)], [of(c), of(d)]])
         };
         let closure = |gains| of(&matrix(gains), [pi(0.1, 0.0); 2]).closure();
-        assert_eq!(closure([1.0, 0.5, 0.5, 1.0]), Closure::Separate);
-        assert_eq!(closure([1.0, 0.5, -0.5, 1.0]), Closure::Joint);
+        assert_eq!(closure([1.0, 0.5, 0.5, 1.0]), LociClosure::Separate);
+        assert_eq!(closure([1.0, 0.5, -0.5, 1.0]), LociClosure::Joint);
     }
 }

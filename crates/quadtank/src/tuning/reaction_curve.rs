@@ -91,7 +91,7 @@ const POINTS: [f64; 2] = [0.283, 0.632];
 /// Least slope of the last quarter of a ramp, as a share of that of its last half.
 const STRAIGHT: f64 = 0.8;
 /// Rows that a fit needs after the step.
-const LEAST_ROWS: usize = 10;
+const MIN_ROWS: usize = 10;
 
 impl StepRecord<'_> {
     /// Reads a model.
@@ -102,7 +102,7 @@ impl StepRecord<'_> {
         // The last row that the step does not show in yet.
         let first = self.time_s.partition_point(|&time| time <= self.step_time_s).saturating_sub(1);
         let rows = self.time_s.len().min(self.signal.len()).saturating_sub(first);
-        if rows < LEAST_ROWS {
+        if rows < MIN_ROWS {
             return Err(ReactionError::EmptyRecord { rows });
         }
         if self.step == 0.0 || !self.step.is_finite() {

@@ -65,7 +65,7 @@ pub struct RegulationError {
 }
 
 /// Rows that a stretch needs.
-const LEAST_ROWS: usize = 10;
+const MIN_ROWS: usize = 10;
 /// Distance from the start that counts as a return.
 const RETURN: f64 = 0.1;
 /// Late move from which on a stretch is a ramp, as a share of the largest move.
@@ -88,7 +88,7 @@ fn late_move(signal: &[f64]) -> f64 {
 /// [`RegulationError`] for a stretch with fewer than ten rows.
 pub fn open_loop_regulation(start: f64, between: &[f64], after: &[f64]) -> Result<Regulation, RegulationError> {
     let rows = between.len().min(after.len());
-    if rows < LEAST_ROWS {
+    if rows < MIN_ROWS {
         return Err(RegulationError { rows });
     }
     let (plateau, end) = (between[between.len() - 1], after[after.len() - 1]);
@@ -127,7 +127,7 @@ pub struct SetPointStretch<'a> {
 /// [`RegulationError`] for fewer than two stretches or one with fewer than ten rows.
 pub fn proportional_regulation(stretches: &[SetPointStretch]) -> Result<Regulation, RegulationError> {
     let rows = stretches.iter().map(|stretch| stretch.signal.len()).min().unwrap_or(0);
-    if rows < LEAST_ROWS || stretches.len() < 2 {
+    if rows < MIN_ROWS || stretches.len() < 2 {
         return Err(RegulationError { rows });
     }
     let set_points = || stretches.iter().map(|stretch| stretch.set_point);

@@ -227,7 +227,7 @@ proptest! {
         let push = |time_s, flow| LoadStep { time_s, load: Load::PumpFlow { pump: 0, flow } };
         setup.experiment.load_steps = vec![push(0.0, flow), push(30.0, -flow)];
         let closed = closed_loop(&setup.plant.linearise(&setup.op), &setup.law, setup.plant.power_gain).unwrap();
-        let rate = closed.slowest().unwrap().re;
+        let rate = closed.rightmost_pole().unwrap().re;
         prop_assume!(rate.abs() > 4e-3);
         let run = setup.run_linear();
         let distance = |row: usize| (0..4).map(|i| (run.levels[i][row] - setup.op.levels[i]).abs()).sum::<f64>();

@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use approx::assert_relative_eq;
 use nalgebra::Matrix2;
 use quadtank::control::{ParallelPid, PidMatrix, Relay};
-use quadtank::linear::{Closure, Complex, DelayedPlant, LoopStability, TransferFunction, TransferMatrix};
+use quadtank::linear::{Complex, DelayedPlant, LociClosure, LoopStability, TransferFunction, TransferMatrix};
 use quadtank::literature::campestrini::PublishedPlant;
 use quadtank::sim::{TwoLoops, run_two_loops};
 use quadtank::tuning::{
@@ -140,9 +140,9 @@ fn distances_from_minus_one() {
 fn loci_close_separately_or_jointly() {
     let plant = ProcessTwo.transfer_matrix().unwrap();
     let closure = |k1: f64, k2: f64| Design::new(&plant, pi([k1, 0.0, k2, 0.0])).unwrap().closure();
-    assert_eq!(closure(1.0, 1.0), Closure::Joint);
-    assert_eq!(closure(1.25, 1.08), Closure::Joint);
-    assert_eq!(closure(8.0, 0.19), Closure::Separate);
+    assert_eq!(closure(1.0, 1.0), LociClosure::Joint);
+    assert_eq!(closure(1.25, 1.08), LociClosure::Joint);
+    assert_eq!(closure(8.0, 0.19), LociClosure::Separate);
 }
 
 #[test]

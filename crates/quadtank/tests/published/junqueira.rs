@@ -1,7 +1,7 @@
 //! Junqueira, Neves and Angelico: the numbers that a second program found for the published cases.
 
 use quadtank::control::{
-    EstimatorSettings, FedWith, ModelFree, ModelFreeSettings, ModelFreeWindup, Pairing, Window,
+    EstimatorSettings, FedWith, ModelFree, ModelFreeAntiWindup, ModelFreeSettings, Pairing, Window,
     continuous_model_free_poles, model_free_poles, smallest_model_gain, smallest_model_gain_of_integrator,
 };
 use quadtank::interaction::{niederlinski, relative_gain_array};
@@ -70,7 +70,7 @@ fn law_without_estimator() -> ModelFree {
     ModelFree { estimator: None, ..ModelFree::PUBLISHED }
 }
 
-fn with_windup(anti_windup: ModelFreeWindup) -> ModelFree {
+fn with_windup(anti_windup: ModelFreeAntiWindup) -> ModelFree {
     let loops = ModelFree::PUBLISHED.loops.map(|settings| ModelFreeSettings { anti_windup, ..settings });
     ModelFree { loops, ..ModelFree::PUBLISHED }
 }
@@ -149,7 +149,7 @@ fn s2_of_case_b_is_slower_and_the_windup_is_its_overshoot() {
     // IAE (cm s), overshoot (%), settling (s): as published, and with conditional integration.
     let golden = [('a', [77.9, 19.0, 108.0], [39.7, 0.7, 15.0]), ('b', [111.6, 27.0, 130.0], [57.5, 2.0, 22.0])];
     for (name, bare, conditional) in golden {
-        let laws = [ModelFree::PUBLISHED, with_windup(ModelFreeWindup::Conditional)];
+        let laws = [ModelFree::PUBLISHED, with_windup(ModelFreeAntiWindup::Conditional)];
         for (law, [iae, overshoot, settling]) in laws.iter().zip([bare, conditional]) {
             let [first, _] = figures(&from_rest(name, law, 320.0, &BOTH));
             within(first.iae / CM, iae, 0.05, name);

@@ -9,7 +9,7 @@ use quadtank::sim::level::{InflowDisturbance, InflowSignal, LevelController, Lev
 use quadtank::study::Study;
 use quadtank::study::level_loop::{
     ContourMap, ContourSettings, Finding, LevelLoopAnswer, LevelLoopSetup, LevelLoopStudy, LevelPlantSpec, LevelSearch,
-    ModelSource, Objective, PiTuning, Results, SearchMethod, StepTestFault, SuggestedRule, compare_table,
+    ModelSource, Objective, PiTuning, Results, SearchMethod, StepTestError, SuggestedRule, compare_table,
     published_setup, run_level_loop, trade_off,
 };
 use quadtank::tuning::search::GeneticSettings;
@@ -287,7 +287,7 @@ fn tests_that_show_no_model_say_why() {
     let outside = changed(|s| s.test.step_time_s = 5000.0);
     assert_eq!(
         results(&outside).test.as_ref().clone().unwrap_err(),
-        StepTestFault::OutsideTest { field: "step_time_s", value: 5000.0 }
+        StepTestError::OutsideTest { field: "step_time_s", value: 5000.0 }
     );
 }
 

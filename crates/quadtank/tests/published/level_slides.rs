@@ -3,8 +3,8 @@
 use quadtank::literature::level_slides::{self, DERIVATIVE_FILTER_S, HEATED_START, HOUR, INFLOW, MINUTE};
 use quadtank::plant::level::HeatedTank;
 use quadtank::sim::level::{
-    InflowDisturbance, LevelController, LevelExperiment, LevelFigures, LevelSimulation, SetPointScale, SignalStep,
-    StepAnswer, heated_run,
+    InflowDisturbance, LevelController, LevelExperiment, LevelFigures, LevelSimulation, LevelStepResponse,
+    SetPointScale, SignalStep, heated_run,
 };
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
@@ -57,7 +57,7 @@ fn four_settings() {
     let units = [2e-4, 0.5e-3, 0.01, 0.015, 0.005, 0.5e-2, 0.5e-2, 0.05];
     for (pid, row) in level_slides::settings().into_iter().zip(rows) {
         let log = simulation.run(&LevelController::pid(pid, DERIVATIVE_FILTER_S)).unwrap();
-        let answer = StepAnswer::of(&log, STEP).unwrap();
+        let answer = LevelStepResponse::of(&log, STEP).unwrap();
         let figures = LevelFigures::of(&log, plant.transmitter.gain()).unwrap();
         let found = [
             answer.change / STEP,

@@ -263,9 +263,9 @@ fn the_loops_are_those_of_simc() {
     }
 }
 
-/// Stable, with a sensitivity peak of at most 1.6 as in calm loops.
+/// Stable, with a sensitivity peak of at most 1.6 as in detuned loops.
 #[test]
-fn the_loops_are_calm() {
+fn the_loops_are_robust() {
     for id in RIGS {
         let preset = id.preset();
         let law: DecentralisedPi = setup_of(id).controller;

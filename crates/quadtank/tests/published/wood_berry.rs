@@ -5,7 +5,7 @@ use approx::assert_relative_eq;
 use quadtank::linear::LoopStability;
 use quadtank::literature::wood_berry::PublishedControllers;
 use quadtank::sim::StepMetrics;
-use quadtank::study::relay_tuning::{ComparedControllers, JudgedControllers, PlantStudy, TuningSetup};
+use quadtank::study::relay_tuning::{ComparedControllers, ControllerAssessment, PlantStudy, TuningSetup};
 use quadtank::tuning::{PairRule, TuningRule};
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
@@ -15,13 +15,13 @@ fn compared() -> Vec<ComparedControllers> {
     PlantStudy::of(&setup.plant).unwrap().compare_published(&setup).unwrap()
 }
 
-fn of(published: PublishedControllers) -> JudgedControllers {
+fn of(published: PublishedControllers) -> ControllerAssessment {
     compared().into_iter().find(|row| row.published == published).unwrap().judged
 }
 
 /// Ms, Lc (dB), and the IAE of both outputs for r = (1, 0).
 fn figures(published: PublishedControllers) -> [f64; 4] {
-    let JudgedControllers { stability, peaks, figures: [one, two], is_bounded } = of(published);
+    let ControllerAssessment { stability, peaks, figures: [one, two], is_bounded } = of(published);
     assert!(stability == LoopStability::Stable && is_bounded, "{published:?}: {stability:?}");
     [peaks.sensitivity.unwrap().value, peaks.log_modulus.unwrap().value, one.iae, two.iae]
 }

@@ -8,7 +8,7 @@ use crate::texts::{say, terms, tr};
 use crate::widgets::{Card, Text, marked};
 use quadtank::control::Pairing;
 use quadtank::linear::Stability;
-use quadtank::study::quadruple_tank::calmed;
+use quadtank::study::quadruple_tank::detuned;
 
 /// Height of the rows of levels and pumps.
 const ROWS: [f64; 2] = [22.0, 66.0];
@@ -62,7 +62,7 @@ pub fn PairingCard() -> impl IntoView {
                 data-testid="calm"
                 hidden=move || finding.get() != Some(Finding::TooEager)
                 disabled=lab.locks(locks::GAINS)
-                on:click=move |_| calm(session)
+                on:click=move |_| detune(session)
             >
                 {say!(lab, explore.calm)}
             </button>
@@ -83,9 +83,9 @@ fn finding(session: Session) -> Option<Finding> {
 }
 
 /// Lower gains where there are some that work.
-fn calm(session: Session) {
-    if let Some(calm) = session.document.with_untracked(|document| calmed(&document.setup)) {
-        session.edit(|s| s.controller = calm.controller);
+fn detune(session: Session) {
+    if let Some(setup) = session.document.with_untracked(|document| detuned(&document.setup)) {
+        session.edit(|s| s.controller = setup.controller);
     }
 }
 

@@ -7,7 +7,7 @@ mod tuning;
 
 use quadtank::assess::LoopQuality;
 use quadtank::plant::level::{LevelError, LevelGains, LevelSignals};
-use quadtank::study::level_loop::{PlantAnswer, Results, StepTestAnswer, StepTestFault};
+use quadtank::study::level_loop::{PlantAnswer, Results, StepTestAnswer, StepTestError};
 use quadtank::tuning::{ProcessModel, ReactionError, ReactionFit, Regulation, RegulationError, UltimatePoint};
 use serde::Serialize;
 
@@ -32,7 +32,7 @@ pub struct LevelLoopAnalysisReport {
     /// The linear loop with the controller; null for an output by hand, and where there is no rest.
     pub closed_loop: Option<Answer<ClosedLoopReport>>,
     /// What the step test says, or why it cannot be run.
-    pub step_test: Answer<StepTestReport, StepTestFault>,
+    pub step_test: Answer<StepTestReport, StepTestError>,
     /// What rules suggest, by the model of the test or the one of the rest as the document says.
     pub suggestions: Vec<SuggestionReport>,
     /// What the document may not have been meant to say.

@@ -1,5 +1,5 @@
 use quadtank::assess::{BothIndices, HarrisError, HarrisIndex, IndexError, IndexVerdict, ValveTravel, VarianceIndex};
-use quadtank::sim::level::{LevelFigures, LevelRunError, StepAnswer};
+use quadtank::sim::level::{LevelFigures, LevelRunError, LevelStepResponse};
 use quadtank::study::level_loop::{Finding, LevelLoopAnswer, LevelLoopSetup, Objective};
 use serde::Serialize;
 
@@ -14,7 +14,7 @@ pub struct LevelLoopReport {
     /// Figures of level, outflow and output over all of the log.
     pub figures: LevelFigures,
     /// The answer to a step of the set-point; null where that does not step once, at the start, or the level does not move.
-    pub step: Option<StepAnswer>,
+    pub step: Option<LevelStepResponse>,
     /// How the valve moves.
     pub travel: ValveTravel,
     /// The linear loop with the controller; null for an output by hand.

@@ -1,8 +1,8 @@
 use quadtank::control::{Pairing, ParallelPid};
-use quadtank::linear::{Closure, LoopStability};
+use quadtank::linear::{LociClosure, LoopStability};
 use quadtank::sim::{Halt, StepMetrics};
 use quadtank::study::relay_tuning::{
-    ComparedControllers, Comparison, DesignRoot, Designed, GivenPid, JudgedControllers, PlantStudy, RuledControllers,
+    ComparedControllers, Comparison, ControllerAssessment, DesignRoot, Designed, GivenPid, PlantStudy, RuleControllers,
 };
 use quadtank::tuning::{PlacementWarning, TuningError};
 use serde::Serialize;
@@ -64,7 +64,7 @@ pub struct RootReport {
     /// Biggest closed-loop log modulus Lc (dB); null where the loop is open or not stable, or it is not computed.
     pub biggest_log_modulus_db: Option<f64>,
     /// How the loci close.
-    pub closure: Closure,
+    pub closure: LociClosure,
 }
 
 /// Controllers that are published for the plant, in the experiment of the session without a decoupler.
@@ -256,8 +256,8 @@ impl RootReport {
     }
 }
 
-impl From<&RuledControllers> for RuleReport {
-    fn from(ruled: &RuledControllers) -> Self {
+impl From<&RuleControllers> for RuleReport {
+    fn from(ruled: &RuleControllers) -> Self {
         let judged = ruled.outcome.as_ref().ok().map(|(_, judged)| judged);
         Self {
             rule: ruled.rule.name(),
@@ -274,7 +274,7 @@ impl From<&RuledControllers> for RuleReport {
 impl From<&ComparedControllers> for PublishedControllersReport {
     fn from(compared: &ComparedControllers) -> Self {
         let ComparedControllers { published, judged } = compared;
-        let JudgedControllers { stability, peaks, figures, is_bounded } = judged;
+        let ControllerAssessment { stability, peaks, figures, is_bounded } = judged;
         Self {
             case: published.name(),
             source: published.source(),

@@ -1,5 +1,5 @@
 use quadtank::control::IsaPid;
-use quadtank::study::relay_tuning::{FoundPoint, PlantStudy, Recovered, TestSpec, Tested};
+use quadtank::study::relay_tuning::{FoundPoint, PlantStudy, RecoveredResponse, TestSpec, Tested};
 use quadtank::tuning::{
     CurveDistance, LimitCycle, Oscillation, RelayReading, RelayVerdict, SequentialStep, TestAndSettings, TuningError,
 };
@@ -220,8 +220,8 @@ impl TestReport {
                     reading: test.reading.into(),
                     distance_by_peak,
                     distance_by_harmonic,
-                    recovered_g: recovered.map(|Recovered { measured, .. }| rows(&measured)),
-                    exact_g: recovered.map(|Recovered { exact, .. }| rows(&exact)),
+                    recovered_g: recovered.map(|RecoveredResponse { measured, .. }| rows(&measured)),
+                    exact_g: recovered.map(|RecoveredResponse { exact, .. }| rows(&exact)),
                 }
             }
             Tested::Independent(loops) => Self::Independent { loops: loops.each_ref().map(LoopTestReport::from) },

@@ -3,8 +3,8 @@
 mod level_loop;
 
 use quadtank::control::{
-    AntiWindup, DecentralisedPi, EstimatorSettings, FedWith, LoopMode, ModelFree, ModelFreeSettings, ModelFreeWindup,
-    Pairing, PiSettings, Quadrature, Window,
+    AntiWindup, DecentralisedPi, EstimatorSettings, FedWith, LoopMode, ModelFree, ModelFreeAntiWindup,
+    ModelFreeSettings, Pairing, PiSettings, Quadrature, Window,
 };
 use quadtank::linear::TransferFunction;
 use quadtank::literature::campestrini::PublishedPlant;
@@ -255,7 +255,7 @@ impl Draw {
             model_gain: draw.number(limits::MODEL_GAIN),
             proportional: draw.number(limits::MODEL_FREE_FEEDBACK),
             integral: draw.number(limits::MODEL_FREE_FEEDBACK),
-            anti_windup: draw.choose(&[ModelFreeWindup::Off, ModelFreeWindup::Conditional]),
+            anti_windup: draw.choose(&[ModelFreeAntiWindup::Off, ModelFreeAntiWindup::Conditional]),
         };
         let samples = self.number(Limits::new(2.0, 1000.0)).round();
         let estimator = EstimatorSettings {

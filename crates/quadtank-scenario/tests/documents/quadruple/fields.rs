@@ -128,7 +128,7 @@ fn a_full_document_is_allowed() {
 
 #[test]
 fn a_sensor_is_ideal_or_has_at_least_the_least_resolution() {
-    for resolution in [0.0, limits::LEAST_SENSOR_RESOLUTION, limits::SENSOR_RESOLUTION.max] {
+    for resolution in [0.0, limits::MIN_SENSOR_RESOLUTION, limits::SENSOR_RESOLUTION.max] {
         let mut document = full();
         *document.pointer_mut("/setup/plant/parameters/rig/sensor/resolution").unwrap() = json!(resolution);
         assert!(from_json(&document.to_string()).is_ok(), "{resolution}");

@@ -46,7 +46,7 @@ impl LevelFigures {
 /// The answer of a level to one step of its set-point at the start of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct StepAnswer {
+pub struct LevelStepResponse {
     /// By how much the level moves until the end (m).
     pub change: f64,
     /// Share of the step that is missing at the end.
@@ -64,7 +64,7 @@ pub struct StepAnswer {
 /// Share of the final deviation within which a level has settled.
 const BAND: f64 = 0.02;
 
-impl StepAnswer {
+impl LevelStepResponse {
     /// The answer to a step (m) at the start, measured against the level at the end; `None` for a level that does not move, or of
     /// fewer than two rows.
     pub fn of(log: &LevelLog, step: f64) -> Option<Self> {
@@ -124,11 +124,11 @@ mod tests {
 
     #[test]
     fn the_answer_to_a_step_counts_from_the_level_at_the_end() {
-        let answer = StepAnswer::of(&log(&[0.0, 1.0, 2.2, 1.6, 2.0, 2.0], &[0.0; 6]), 2.5).unwrap();
+        let answer = LevelStepResponse::of(&log(&[0.0, 1.0, 2.2, 1.6, 2.0, 2.0], &[0.0; 6]), 2.5).unwrap();
         assert_relative_eq!(answer.overshoot, 0.1, max_relative = 1e-14);
         assert_relative_eq!(answer.offset, 0.2, max_relative = 1e-14);
         assert_relative_eq!(answer.rise_time_s, (1.0 + 0.8 / 1.2) - 0.2, max_relative = 1e-14);
         assert_eq!((answer.peak_time_s, answer.settling_time_s), (2.0, 4.0));
-        assert_eq!(StepAnswer::of(&log(&[1.0, 1.0], &[0.0; 2]), 1.0), None);
+        assert_eq!(LevelStepResponse::of(&log(&[1.0, 1.0], &[0.0; 2]), 1.0), None);
     }
 }

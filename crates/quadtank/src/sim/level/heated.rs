@@ -14,7 +14,7 @@ pub struct HeatedRun {
 }
 
 /// Most steps of a run.
-const MOST_STEPS: f64 = 1e5;
+const MAX_STEPS: f64 = 1e5;
 
 /// Level and temperature in steps (s) of the classical Runge–Kutta method, a row for each. The step is that of the method, so that
 /// its error can be seen.
@@ -40,8 +40,8 @@ pub fn heated_run(
         return Err(LevelRunError::OutOfRange { field: "inflow", value: inflow });
     }
     let steps = (duration_s / step_s * (1.0 + 1e-12)).floor();
-    if steps > MOST_STEPS {
-        return Err(LevelRunError::TooMuchWork { steps, max: MOST_STEPS });
+    if steps > MAX_STEPS {
+        return Err(LevelRunError::TooMuchWork { steps, max: MAX_STEPS });
     }
     let mut run = HeatedRun { time_s: vec![0.0], level: vec![level], temperature: vec![temperature] };
     let mut state = [level, temperature];

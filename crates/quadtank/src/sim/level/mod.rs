@@ -14,7 +14,7 @@ mod statistics;
 
 pub use disturbance::{InflowDisturbance, InflowSignal};
 pub use experiment::{LevelController, LevelExperiment, LevelRunError, SetPointScale, SignalStep};
-pub use figures::{LevelFigures, StepAnswer};
+pub use figures::{LevelFigures, LevelStepResponse};
 pub use heated::{HeatedRun, heated_run};
 pub use log::LevelLog;
 pub use park_miller::ParkMillerNormal;

@@ -4,7 +4,7 @@ use crate::assess::{
     BothIndices, HarrisError, HarrisIndex, IndexError, LoopQuality, ValveTravel, VarianceIndex, harris_index,
 };
 use crate::linear::LinearError;
-use crate::sim::level::{LevelController, LevelFigures, LevelLog, LevelRunError, LevelSimulation, StepAnswer};
+use crate::sim::level::{LevelController, LevelFigures, LevelLog, LevelRunError, LevelSimulation, LevelStepResponse};
 
 use super::{Finding, LevelLoopSetup, Objective, findings};
 
@@ -16,7 +16,7 @@ pub struct LevelLoopAnswer {
     /// Figures of it.
     pub figures: LevelFigures,
     /// The answer to the set-point; `None` where that does not step once, at the start.
-    pub step: Option<StepAnswer>,
+    pub step: Option<LevelStepResponse>,
     /// How the valve moves.
     pub travel: ValveTravel,
     /// Stability and margins of the linear loop; `None` for an output by hand.
@@ -34,7 +34,7 @@ pub struct LevelLoopAnswer {
 /// Why there is no run.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error("{field}: {fault}")]
-pub struct LevelLoopFault {
+pub struct LevelLoopError {
     /// Part of the setup.
     pub field: &'static str,
     /// What is wrong.
@@ -55,9 +55,9 @@ impl LevelLoopAnswer {
 /// Runs the loop of a setup.
 ///
 /// # Errors
-/// [`LevelLoopFault`] with the part of the setup that allows no run.
-pub fn run_level_loop(setup: &LevelLoopSetup) -> Result<LevelLoopAnswer, LevelLoopFault> {
-    let at = |field| move |fault| LevelLoopFault { field, fault };
+/// [`LevelLoopError`] with the part of the setup that allows no run.
+pub fn run_level_loop(setup: &LevelLoopSetup) -> Result<LevelLoopAnswer, LevelLoopError> {
+    let at = |field| move |fault| LevelLoopError { field, fault };
     setup.controller.check().map_err(at("controller"))?;
     let plant = setup.plant();
     let simulation = LevelSimulation::new(&plant, &setup.experiment).map_err(at("experiment"))?;
@@ -71,7 +71,7 @@ pub fn run_level_loop(setup: &LevelLoopSetup) -> Result<LevelLoopAnswer, LevelLo
         .ok()
         .map(|reference| BothIndices::of(&[reference.level, reference.outflow], &[figures.level, figures.outflow]));
     let step = match experiment.set_point_steps.as_slice() {
-        [step] if step.time_s <= 0.0 => StepAnswer::of(&log, log.reference[0] / gain - experiment.level),
+        [step] if step.time_s <= 0.0 => LevelStepResponse::of(&log, log.reference[0] / gain - experiment.level),
         _ => None,
     };
     let quality = LoopQuality::of(simulation.gains(), &setup.controller);

@@ -18,7 +18,7 @@ mod summaries;
 mod trade_off;
 
 pub use crate::tuning::PiTuning;
-pub use answer::{LevelLoopAnswer, LevelLoopFault, run_level_loop};
+pub use answer::{LevelLoopAnswer, LevelLoopError, run_level_loop};
 pub use choices::{OwnDisturbance, PublishedTuning};
 pub use contour::{ContourMap, ContourSettings};
 pub use element::{Element, ElementCurve};
@@ -32,7 +32,7 @@ pub use published::{
 pub use results::{LevelLoopStudy, PlantAnswer, Results};
 pub use search::{LevelSearch, SearchMethod};
 pub use setup::{Harris, LevelLoopSetup, LevelPlantSpec, ModelError, ModelSource, Objective, SearchSpec, StepTestSpec};
-pub use step_test::{ModelMatch, StepTestAnswer, StepTestFault, run_step_test};
+pub use step_test::{ModelMatch, StepTestAnswer, StepTestError, run_step_test};
 pub use suggestions::{SuggestedRule, Suggestion, suggest};
 pub use summaries::{ComparedSummary, SUMMARY_TABLES, SummaryEntry, SummaryRow, compare_summary};
 pub use trade_off::{TradeOff, TradeOffPoint, trade_off};

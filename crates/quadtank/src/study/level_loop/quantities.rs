@@ -2,7 +2,7 @@
 
 use crate::control::AntiWindup;
 use crate::linear::{LoopStability, Margins};
-use crate::sim::level::{LevelFigures, StepAnswer};
+use crate::sim::level::{LevelFigures, LevelStepResponse};
 use crate::study::Quantity;
 use crate::study::quantity::yes;
 use crate::tuning::{ModelRule, ProcessModel, Regulation, TuningRule, UltimatePoint};
@@ -84,7 +84,7 @@ fn figures(results: &Results) -> Option<LevelFigures> {
     Some(ran(results)?.figures)
 }
 
-fn step(results: &Results) -> Option<StepAnswer> {
+fn step(results: &Results) -> Option<LevelStepResponse> {
     ran(results)?.step
 }
 

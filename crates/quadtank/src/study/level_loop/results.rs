@@ -8,7 +8,7 @@ use crate::tuning::{ProcessModel, UltimatePoint, ultimate_point_of};
 
 use super::quantities::QUANTITIES;
 use super::{
-    LevelLoopAnswer, LevelLoopFault, LevelLoopSetup, ModelSource, StepTestAnswer, StepTestFault, Suggestion,
+    LevelLoopAnswer, LevelLoopError, LevelLoopSetup, ModelSource, StepTestAnswer, StepTestError, Suggestion,
     run_level_loop, run_step_test, suggest,
 };
 
@@ -38,13 +38,13 @@ pub struct Results {
     /// The plant at rest.
     pub plant: Arc<Result<PlantAnswer, LevelError>>,
     /// The step test.
-    pub test: Arc<Result<StepTestAnswer, StepTestFault>>,
+    pub test: Arc<Result<StepTestAnswer, StepTestError>>,
     /// What the rules suggest.
     pub suggestions: Arc<Vec<Suggestion>>,
     /// The run with its figures.
-    pub answer: Arc<Result<LevelLoopAnswer, LevelLoopFault>>,
+    pub answer: Arc<Result<LevelLoopAnswer, LevelLoopError>>,
     /// Pinned tunings in the present experiment, see [`LevelLoopSetup::in_experiment_of`].
-    pub pinned: PinnedResults<LevelLoopSetup, Result<LevelLoopAnswer, LevelLoopFault>>,
+    pub pinned: PinnedResults<LevelLoopSetup, Result<LevelLoopAnswer, LevelLoopError>>,
 }
 
 impl PlantAnswer {
@@ -92,7 +92,7 @@ impl Study for LevelLoopStudy {
         let plant = same_plant.filter(|last| has_same_rest(&last.setup, setup)).map(|last| Arc::clone(&last.plant));
         let plant = plant.unwrap_or_else(|| Arc::new(PlantAnswer::of(setup)));
         let same_models = last.filter(|last| Arc::ptr_eq(&last.test, &test) && Arc::ptr_eq(&last.plant, &plant));
-        let suggestions = same_models.filter(|last| has_same_wish(&last.setup, setup));
+        let suggestions = same_models.filter(|last| has_same_rule_inputs(&last.setup, setup));
         let suggestions = suggestions
             .map_or_else(|| Arc::new(suggestions_of(setup, &test, &plant)), |last| Arc::clone(&last.suggestions));
         let answer = last.filter(|last| has_same_run(&last.setup, setup)).map(|last| Arc::clone(&last.answer));
@@ -103,12 +103,12 @@ impl Study for LevelLoopStudy {
 
 /// The run of a pinned loop, one of `count`. All of them together are given the steps of integration of one run, so that a document
 /// with many long ones does not stop the page for long.
-fn run_pinned(setup: &LevelLoopSetup, count: usize) -> Result<LevelLoopAnswer, LevelLoopFault> {
+fn run_pinned(setup: &LevelLoopSetup, count: usize) -> Result<LevelLoopAnswer, LevelLoopError> {
     let max = MAX_LEVEL_STEPS / count as f64;
     let steps =
         LevelSimulation::new(&setup.plant(), &setup.experiment).map_or(0.0, |simulation| simulation.steps() as f64);
     if steps > max {
-        return Err(LevelLoopFault { field: "pinned", fault: LevelRunError::TooMuchWork { steps, max } });
+        return Err(LevelLoopError { field: "pinned", fault: LevelRunError::TooMuchWork { steps, max } });
     }
     run_level_loop(setup)
 }
@@ -118,9 +118,9 @@ fn has_same_rest(one: &LevelLoopSetup, other: &LevelLoopSetup) -> bool {
     rest(one) == rest(other)
 }
 
-fn has_same_wish(one: &LevelLoopSetup, other: &LevelLoopSetup) -> bool {
-    let wish = |setup: &LevelLoopSetup| (setup.model_source, setup.closed_loop_time_s);
-    wish(one) == wish(other)
+fn has_same_rule_inputs(one: &LevelLoopSetup, other: &LevelLoopSetup) -> bool {
+    let inputs = |setup: &LevelLoopSetup| (setup.model_source, setup.closed_loop_time_s);
+    inputs(one) == inputs(other)
 }
 
 /// Whether all is the same but test, rules and search.
@@ -137,7 +137,7 @@ fn has_same_run(one: &LevelLoopSetup, other: &LevelLoopSetup) -> bool {
 
 fn suggestions_of(
     setup: &LevelLoopSetup,
-    test: &Result<StepTestAnswer, StepTestFault>,
+    test: &Result<StepTestAnswer, StepTestError>,
     plant: &Result<PlantAnswer, LevelError>,
 ) -> Vec<Suggestion> {
     let local = plant.as_ref().ok();

@@ -61,7 +61,7 @@ impl ModelMatch {
 #[derive(Clone, Copy, Debug, PartialEq, Error, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(tag = "error", rename_all = "kebab-case")]
-pub enum StepTestFault {
+pub enum StepTestError {
     /// The output does not step within the test.
     #[error("{field} = {value} is not within the test")]
     OutsideTest {
@@ -79,14 +79,14 @@ pub enum StepTestFault {
 /// Runs the test on a plant and reads it.
 ///
 /// # Errors
-/// [`StepTestFault`] for a test that cannot be run.
-pub fn run_step_test(plant: &LevelPlant, test: &StepTestSpec) -> Result<StepTestAnswer, StepTestFault> {
+/// [`StepTestError`] for a test that cannot be run.
+pub fn run_step_test(plant: &LevelPlant, test: &StepTestSpec) -> Result<StepTestAnswer, StepTestError> {
     let end = test.return_time_s.unwrap_or(test.duration_s);
     if !(test.step_time_s >= 0.0 && test.step_time_s < end) {
-        return Err(StepTestFault::OutsideTest { field: "step_time_s", value: test.step_time_s });
+        return Err(StepTestError::OutsideTest { field: "step_time_s", value: test.step_time_s });
     }
     if end > test.duration_s {
-        return Err(StepTestFault::OutsideTest { field: "return_time_s", value: end });
+        return Err(StepTestError::OutsideTest { field: "return_time_s", value: end });
     }
     let experiment = LevelExperiment {
         level: test.level,

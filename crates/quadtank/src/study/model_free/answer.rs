@@ -139,10 +139,10 @@ pub fn run_analysed(setup: &ModelFreeSetup, analysis: &ModelFreeAnalysis) -> Res
             *figures = figures.map(|figures| figures.without_response(NoResponse::TooLongToJudge));
         }
     } else if is_noisy {
-        let calm = experiment.without_noise();
-        judged = judge(figures, law(&calm)?.1);
+        let noiseless = experiment.without_noise();
+        judged = judge(figures, law(&noiseless)?.1);
         if let (Some((_, figures)), Some(compare)) = (&mut comparison, &setup.compare) {
-            *figures = judge(*figures, pi(compare, &calm)?.1);
+            *figures = judge(*figures, pi(compare, &noiseless)?.1);
         }
     }
     let figures = with_reasons(judged, setup, stability(setup, analysis));
@@ -201,7 +201,7 @@ fn stability_of_pi(
 }
 
 fn comes_to_rest(setup: &ModelFreeSetup) -> bool {
-    let swings = |valve: &ValveSchedule| matches!(valve, ValveSchedule::Sine { .. }) && valve.swing() > 0.0;
+    let swings = |valve: &ValveSchedule| matches!(valve, ValveSchedule::Sine { .. }) && valve.amplitude() > 0.0;
     !setup.valves.iter().any(swings)
 }
 

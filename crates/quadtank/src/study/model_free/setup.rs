@@ -100,7 +100,7 @@ impl ModelFreeSetup {
     /// Two PI loops to compare with. The source has none: these are ours for its rig, diagonal where most water goes straight
     /// down, swapped where it does not.
     pub fn usual_pi(&self) -> DecentralisedPi {
-        let straight: f64 = self.valves.iter().map(ValveSchedule::middle).sum();
+        let straight: f64 = self.valves.iter().map(ValveSchedule::midpoint).sum();
         setup_of(if straight >= 1.0 { PresetId::JunqueiraA } else { PresetId::JunqueiraB }).controller
     }
 

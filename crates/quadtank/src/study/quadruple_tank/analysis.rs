@@ -84,7 +84,7 @@ mod tests {
             assert!(zeros.iter().any(|zero| zero.value == Complex::ZERO), "{gamma}: {zeros:?}");
             assert!(analysis.linear.rga_11.is_err());
             assert_eq!(analysis.linear.niederlinski, [None; 2]);
-            assert_eq!(analysis.closed_loop.slowest(), Some(Complex::ZERO), "{gamma}");
+            assert_eq!(analysis.closed_loop.rightmost_pole(), Some(Complex::ZERO), "{gamma}");
         }
         // Beside the line the zero is as small as may be, and is told.
         let mut setup = setup_of(PresetId::JohanssonMinimumPhase);

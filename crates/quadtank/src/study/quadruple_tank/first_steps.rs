@@ -13,10 +13,10 @@ const FIRST_STEP: f64 = 0.02;
 const FITTED_S: (f64, f64) = (400.0, 6400.0);
 /// Largest sensitivity peak Ms of a detuned loop; 2 is the usual bound (Skogestad and Postlethwaite 2005, "Maximum peak
 /// criteria").
-const CALM_PEAK: f64 = 1.6;
-/// How [`calmed`] changes gains and integral times from one try to the next, and how often.
-const CALMER: (f64, f64) = (0.8, 1.12);
-const MOST_TRIES: usize = 40;
+const DETUNED_PEAK: f64 = 1.6;
+/// How [`detuned`] changes gains and integral times from one try to the next, and how often.
+const DETUNING_STEP: (f64, f64) = (0.8, 1.12);
+const MAX_TRIES: usize = 40;
 
 /// The experiment that a first visit begins with: Johansson's rig at P−, with one step of level 1 that can be seen.
 pub fn first_experiment() -> Setup {
@@ -50,24 +50,24 @@ pub fn fitted_duration_s(setup: &Setup) -> f64 {
     setup.experiment.duration_s
 }
 
-/// The same setup with calmer controllers: gains lowered and integral times raised in equal shares for both loops, as little as
-/// makes the loop stable with a sensitivity peak of at most 1.6. `None` where no such gains are found, as with integral
-/// action on a pairing whose Niederlinski index is negative.
-pub fn calmed(setup: &Setup) -> Option<Setup> {
+/// The same setup with detuned controllers: the gains of both loops reduced and their integral times increased by
+/// common factors, no further than needed for a stable loop with a sensitivity peak of at most 1.6. `None` where no
+/// such gains are found, as with integral action on a pairing whose Niederlinski index is negative.
+pub fn detuned(setup: &Setup) -> Option<Setup> {
     let mut tried = setup.clone();
     for each in &mut tried.controller.loops {
         (each.gain, each.mode) = (each.gain.abs(), LoopMode::Automatic);
     }
-    for _ in 0..MOST_TRIES {
+    for _ in 0..MAX_TRIES {
         let closed_loop = analyse(&tried).ok()?.closed_loop;
         if closed_loop.stability == Stability::Stable
-            && closed_loop.sensitivity_peak.is_some_and(|peak| peak.value <= CALM_PEAK)
+            && closed_loop.sensitivity_peak.is_some_and(|peak| peak.value <= DETUNED_PEAK)
         {
             return Some(tried);
         }
         for each in &mut tried.controller.loops {
-            each.gain *= CALMER.0;
-            each.integral_time_s *= CALMER.1;
+            each.gain *= DETUNING_STEP.0;
+            each.integral_time_s *= DETUNING_STEP.1;
         }
     }
     None
@@ -125,7 +125,7 @@ mod tests {
         let mut setup = first_experiment();
         (setup.valves, setup.controller.pairing) = ([0.4, 0.3], Pairing::Swapped);
         assert_eq!(fitted_duration_s(&setup), 400.0, "the gains of P− are unstable here");
-        let mut slow = calmed(&setup).unwrap();
+        let mut slow = detuned(&setup).unwrap();
         slow.experiment.duration_s = fitted_duration_s(&slow);
         let Some(Settling::After { time_s }) = settling(&slow) else { panic!("{:?}", settling(&slow)) };
         assert!(2.0 * time_s + 20.0 <= slow.experiment.duration_s);
@@ -133,17 +133,17 @@ mod tests {
     }
 
     #[test]
-    fn calmed_loops_are_stable_with_a_small_peak_and_none_are_found_for_a_wrong_pairing() {
+    fn detuned_loops_are_stable_with_a_small_peak_and_none_are_found_for_a_wrong_pairing() {
         for valves in [[0.7, 0.6], [0.4, 0.3], [0.3, 0.3], [0.43, 0.34], [0.2, 0.2]] {
             let mut setup = first_experiment();
             setup.valves = valves;
             let right = if valves[0] + valves[1] > 1.0 { Pairing::Diagonal } else { Pairing::Swapped };
             setup.controller.pairing = right;
-            let closed_loop = analyse(&calmed(&setup).unwrap()).unwrap().closed_loop;
+            let closed_loop = analyse(&detuned(&setup).unwrap()).unwrap().closed_loop;
             assert_eq!(closed_loop.stability, Stability::Stable, "{valves:?}");
-            assert!(closed_loop.sensitivity_peak.unwrap().value <= CALM_PEAK, "{valves:?}");
+            assert!(closed_loop.sensitivity_peak.unwrap().value <= DETUNED_PEAK, "{valves:?}");
             setup.controller.pairing = if right == Pairing::Diagonal { Pairing::Swapped } else { Pairing::Diagonal };
-            assert_eq!(calmed(&setup), None, "{valves:?}");
+            assert_eq!(detuned(&setup), None, "{valves:?}");
         }
     }
 
@@ -163,16 +163,16 @@ mod tests {
     }
 
     #[test]
-    fn what_is_calm_already_stays_as_it_is() {
+    fn a_loop_with_a_small_peak_stays_as_it_is() {
         let setup = first_experiment();
-        assert_eq!(calmed(&setup), Some(setup));
+        assert_eq!(detuned(&setup), Some(setup));
     }
 
     #[test]
     fn steps_along_the_hard_direction_go_the_wrong_way_and_those_across_it_do_not() {
         let mut setup = first_experiment();
         (setup.valves, setup.controller.pairing) = ([0.43, 0.34], Pairing::Swapped);
-        setup = calmed(&setup).unwrap();
+        setup = detuned(&setup).unwrap();
         setup.experiment.duration_s = 3000.0;
         let zero = analyse(&setup).unwrap().linear.rightmost_zero().unwrap().clone();
         let worst = |direction| {

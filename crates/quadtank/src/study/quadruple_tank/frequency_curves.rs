@@ -1,5 +1,5 @@
 use crate::control::PiLoop;
-use crate::linear::{Complex, LoopGains, LoopPeak};
+use crate::linear::{Complex, LoopPeak, SensitivityGains};
 
 use super::{Analysis, Prepared, Setup, ZeroSituation};
 use crate::study::StudyError;
@@ -11,7 +11,7 @@ const BELOW: f64 = 0.1;
 const ABOVE: f64 = 10.0;
 /// The sensitivity that curves begin with at most, so that the bandwidth is in sight; each try goes a decade down.
 const FIRST_SENSITIVITY: f64 = 0.3;
-const MOST_DECADES: u32 = 6;
+const MAX_DECADES: u32 = 6;
 /// Halvings of the interval that holds the bandwidth: 240 points over some decades leave 5 % between two of them.
 const HALVINGS: u32 = 40;
 
@@ -65,7 +65,7 @@ impl FrequencyCurves {
     pub fn of(setup: &Setup, analysis: &Analysis) -> Result<Self, StudyError> {
         let prepared = Prepared::of(setup)?;
         let pi_loop = PiLoop::new(&prepared.jacobian, &setup.controller, prepared.plant.power_gain);
-        let gains = |w: f64| LoopGains::of(&pi_loop.at(w));
+        let gains = |w: f64| SensitivityGains::of(&pi_loop.at(w));
         let peak = analysis.closed_loop.sensitivity_peak;
         let frequencies = frequencies(setup, analysis, peak, |w| gains(w).sensitivity[0]);
         let mut plant = [Vec::new(), Vec::new()];
@@ -76,8 +76,8 @@ impl FrequencyCurves {
             }
         }
         let closed = peak.map(|peak| {
-            let all: Vec<LoopGains> = frequencies.iter().map(|&w| gains(w)).collect();
-            let column = |read: fn(&LoopGains) -> f64| all.iter().map(read).collect::<Vec<f64>>();
+            let all: Vec<SensitivityGains> = frequencies.iter().map(|&w| gains(w)).collect();
+            let column = |read: fn(&SensitivityGains) -> f64| all.iter().map(read).collect::<Vec<f64>>();
             ClosedCurves {
                 sensitivity: [column(|g| g.sensitivity[0]), column(|g| g.sensitivity[1])],
                 complementary: [column(|g| g.complementary[0]), column(|g| g.complementary[1])],
@@ -112,7 +112,7 @@ fn frequencies(
     let mut low = BELOW * slowest.min(peak.unwrap_or(nyquist));
     // A loop that does not act never begins so low.
     let acts = peak.is_some() && setup.controller.loops.iter().all(|settings| settings.gain != 0.0);
-    for _ in 0..MOST_DECADES {
+    for _ in 0..MAX_DECADES {
         if acts && sensitivity(low) > FIRST_SENSITIVITY {
             low *= 0.1;
         }
@@ -146,7 +146,7 @@ mod tests {
     use super::*;
     use crate::control::Pairing;
     use crate::literature::PresetId;
-    use crate::study::quadruple_tank::{analyse, calmed, first_experiment, setup_of};
+    use crate::study::quadruple_tank::{analyse, detuned, first_experiment, setup_of};
 
     fn curves(setup: &Setup) -> (Analysis, FrequencyCurves) {
         let analysis = analyse(setup).unwrap();
@@ -199,11 +199,11 @@ mod tests {
     }
 
     #[test]
-    fn a_zero_in_the_right_half_plane_is_a_ceiling_for_calm_loops() {
+    fn a_zero_in_the_right_half_plane_is_a_ceiling_for_detuned_loops() {
         for valves in [[0.43, 0.34], [0.3, 0.3], [0.2, 0.2]] {
             let mut setup = first_experiment();
             (setup.valves, setup.controller.pairing) = (valves, Pairing::Swapped);
-            let (analysis, curves) = curves(&calmed(&setup).unwrap());
+            let (analysis, curves) = curves(&detuned(&setup).unwrap());
             let zero = curves.zero.unwrap();
             assert_eq!(zero, analysis.linear.rightmost_zero().unwrap().value.re);
             let bandwidth = curves.closed.unwrap().bandwidth.unwrap();

@@ -1,20 +1,20 @@
 use crate::linear::Stability;
 use crate::sim::NoResponse;
 
-use super::{Analysis, OperatingPointSpec, PlantSpec, Run, Setup, calmed, run};
+use super::{Analysis, OperatingPointSpec, PlantSpec, Run, Setup, detuned, run};
 
 /// How the operating point is lowered from one try to the next, and how often.
 const LOWER: f64 = 0.95;
-const MOST_LOWERED: i32 = 60;
+const MAX_LOWERED: i32 = 60;
 /// How often steps are halved at most.
-const MOST_HALVED: i32 = 10;
+const MAX_HALVED: i32 = 10;
 
 /// A change of a setup that mends what a warning says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mend {
-    /// Both loops become calmer until they are stable, see [`calmed`].
-    CalmLoops,
-    /// The pairing that the relative gains suggest, with calmer loops where the present ones are not good for that.
+    /// Both loops are detuned until they are stable, see [`detuned`].
+    DetuneLoops,
+    /// The pairing that the relative gains suggest, with detuned loops where the present ones are not good for that.
     AdvisedPairing,
     /// The valves of the published rig, with which its gain is not singular.
     PublishedValves,
@@ -28,19 +28,19 @@ impl Mend {
     /// The setup with this change; `None` where it would mend nothing.
     pub fn applied(self, setup: &Setup) -> Option<Setup> {
         match self {
-            Self::CalmLoops => calmed(setup),
+            Self::DetuneLoops => detuned(setup),
             Self::AdvisedPairing => {
                 let mut tried = setup.clone();
                 tried.controller.pairing = setup.controller.pairing.other();
-                calmed(&tried)
+                detuned(&tried)
             }
             Self::PublishedValves => {
                 let PlantSpec::Preset(id) = setup.plant else { return None };
                 let valves = id.preset().plant.valves;
                 (valves != setup.valves).then(|| Setup { valves, ..setup.clone() })
             }
-            Self::LowerRest => (1..=MOST_LOWERED).map(|tries| lowered(setup, LOWER.powi(tries))).find(rests_within),
-            Self::HalvedSteps => (1..=MOST_HALVED).map(|times| stepping(setup, 0.5_f64.powi(times))).find(is_free),
+            Self::LowerRest => (1..=MAX_LOWERED).map(|tries| lowered(setup, LOWER.powi(tries))).find(rests_within),
+            Self::HalvedSteps => (1..=MAX_HALVED).map(|times| stepping(setup, 0.5_f64.powi(times))).find(is_free),
         }
     }
 }
@@ -56,7 +56,7 @@ pub fn mend_loop(setup: &Setup, analysis: Option<&Analysis>) -> Option<Mend> {
             if advised.is_some_and(|advised| advised != setup.controller.pairing) {
                 &[Mend::AdvisedPairing]
             } else {
-                &[Mend::CalmLoops]
+                &[Mend::DetuneLoops]
             }
         }
     };
@@ -131,7 +131,7 @@ mod tests {
         wrong.controller.pairing = Pairing::Swapped;
         let mut eager = stable.clone();
         eager.controller.loops.iter_mut().for_each(|settings| settings.gain *= 200.0);
-        for (setup, mend) in [(wrong, Mend::AdvisedPairing), (eager, Mend::CalmLoops)] {
+        for (setup, mend) in [(wrong, Mend::AdvisedPairing), (eager, Mend::DetuneLoops)] {
             assert!(!is_stable(&setup));
             assert_eq!(for_loop(&setup), Some(mend));
             let mended = mend.applied(&setup).unwrap();
@@ -183,8 +183,8 @@ mod tests {
         assert!(!found.nonlinear.events.is_empty());
         assert_eq!(mend_run(&setup, &found), Some(Mend::HalvedSteps));
         let mended = Mend::HalvedSteps.applied(&setup).unwrap();
-        let calm = run(&mended).unwrap();
-        assert!(calm.nonlinear.events.is_empty() && mend_run(&mended, &calm).is_none());
+        let free = run(&mended).unwrap();
+        assert!(free.nonlinear.events.is_empty() && mend_run(&mended, &free).is_none());
         // Once less would not do.
         let share = mended.experiment.set_point_steps[0].size / 0.07;
         assert!(!is_free(&stepping(&setup, 2.0 * share)));

@@ -134,7 +134,7 @@ pub const QUANTITIES: &[Quantity<Results>] = &[
     q("loop2.is_automatic", "yes/no", "Whether loop 2 is automatic from the start.", |r| Some(yes(is_automatic(r, 1)))),
     q("controller.anti_windup", "yes/no", "Whether both loops have anti-windup.", |r| Some(yes(has_anti_windup(r, 0) && has_anti_windup(r, 1)))),
     q("closed_loop.is_stable", "yes/no", "Whether the sampled linear loop is stable; no also on the border of stability.", |r| Some(yes(theory(r)?.closed_loop.stability == Stability::Stable))),
-    q("closed_loop.rightmost_pole", "1/s", "Real part of the right-most pole of the sampled linear loop, mapped to the s-plane.", |r| Some(theory(r)?.closed_loop.slowest()?.re)),
+    q("closed_loop.rightmost_pole", "1/s", "Real part of the right-most pole of the sampled linear loop, mapped to the s-plane.", |r| Some(theory(r)?.closed_loop.rightmost_pole()?.re)),
     q("closed_loop.largest_modulus", "1", "Largest modulus of a pole of the sampled linear loop in the z-plane; below 1 for a stable loop.", |r| Some(theory(r)?.closed_loop.poles_z.first()?.norm())),
     q("closed_loop.sensitivity_peak", "1", "Peak Ms of the largest singular value of the sensitivity; none where the loop is not stable.", |r| Some(theory(r)?.closed_loop.sensitivity_peak?.value)),
     q("closed_loop.sensitivity_peak_frequency", "rad/s", "Frequency of the peak Ms, up to that of Nyquist; none where the loop is not stable.", |r| Some(theory(r)?.closed_loop.sensitivity_peak?.frequency)),

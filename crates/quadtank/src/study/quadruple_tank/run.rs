@@ -3,8 +3,8 @@ use serde::Serialize;
 use crate::control::closed_loop;
 use crate::linear::Stability;
 use crate::sim::{
-    Experiment, LoopMetrics, MAX_JUDGED_WORK, NoResponse, StepAnswer, Trajectory, loop_metrics_judging, simulate,
-    simulate_linear, step_answers,
+    Experiment, LoopMetrics, MAX_JUDGED_WORK, NoResponse, ReferenceStepResponse, Trajectory, loop_metrics_judging,
+    simulate, simulate_linear, step_answers,
 };
 
 use super::{Prepared, Setup};
@@ -19,9 +19,9 @@ pub struct Run {
     /// Metrics of loops 1 and 2 of the linear run.
     pub linear_metrics: [LoopMetrics; 2],
     /// How both loops of the nonlinear run answered each step of their references, by time. The first of a loop is that of its metrics.
-    pub steps: Vec<StepAnswer>,
+    pub steps: Vec<ReferenceStepResponse>,
     /// The same of the linear run.
-    pub linear_steps: Vec<StepAnswer>,
+    pub linear_steps: Vec<ReferenceStepResponse>,
     /// Whether the figures of the step are those of the same experiment without noise, since this one has some.
     pub judged_without_noise: bool,
     /// The nonlinear plant.
@@ -84,7 +84,7 @@ impl Run {
             answers
         };
         let (steps, linear_steps) = (answers(judged), answers(judged_linear));
-        let metrics = |answers: &[StepAnswer], run: &Trajectory| {
+        let metrics = |answers: &[ReferenceStepResponse], run: &Trajectory| {
             loop_metrics_judging(answers, run, plant, controller, experiment)
         };
         Ok(Self {
@@ -210,15 +210,18 @@ mod tests {
     #[test]
     fn a_noisy_run_is_judged_by_its_twin_without_noise() {
         let mut setup = setup_of(PresetId::CocotaMinimumPhase);
-        let calm = run(&setup).unwrap();
+        let noiseless = run(&setup).unwrap();
         setup.experiment.measurement.noise_std = 2e-3;
         let noisy = run(&setup).unwrap();
-        assert!(noisy.judged_without_noise && !calm.judged_without_noise);
-        let runs = [noisy.metrics, noisy.linear_metrics].into_iter().zip([calm.metrics, calm.linear_metrics]);
-        for (noisy, calm) in runs.flat_map(|(noisy, calm)| noisy.into_iter().zip(calm)) {
-            assert_eq!((noisy.settling_2_percent, noisy.overshoot), (calm.settling_2_percent, calm.overshoot));
-            assert_eq!((noisy.window_iae, noisy.other_peak), (calm.window_iae, calm.other_peak));
-            assert!(noisy.total_variation > 10.0 * calm.total_variation && noisy.iae > calm.iae);
+        assert!(noisy.judged_without_noise && !noiseless.judged_without_noise);
+        let runs = [noisy.metrics, noisy.linear_metrics].into_iter().zip([noiseless.metrics, noiseless.linear_metrics]);
+        for (noisy, noiseless) in runs.flat_map(|(noisy, noiseless)| noisy.into_iter().zip(noiseless)) {
+            assert_eq!(
+                (noisy.settling_2_percent, noisy.overshoot),
+                (noiseless.settling_2_percent, noiseless.overshoot)
+            );
+            assert_eq!((noisy.window_iae, noisy.other_peak), (noiseless.window_iae, noiseless.other_peak));
+            assert!(noisy.total_variation > 10.0 * noiseless.total_variation && noisy.iae > noiseless.iae);
         }
     }
 

@@ -11,7 +11,7 @@ use super::{DesignRoot, GivenPid, LoopPeaks, PlantStudy, TuningPlant, TuningSetu
 
 /// Stability, robustness and step figures of a loop with a pair of controllers, in the response of a session without its decoupler.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct JudgedControllers {
+pub struct ControllerAssessment {
     /// Whether the loop is stable.
     pub stability: LoopStability,
     /// Its peaks.
@@ -28,16 +28,16 @@ pub struct ComparedControllers {
     /// Which ones.
     pub published: PublishedControllers,
     /// What they do.
-    pub judged: JudgedControllers,
+    pub judged: ControllerAssessment,
 }
 
 /// What a rule makes of a plant.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RuledControllers {
+pub struct RuleControllers {
     /// The rule.
     pub rule: PairRule,
     /// Its controllers with what they do, or why there are none.
-    pub outcome: Result<([GivenPid; 2], JudgedControllers), PairRuleError>,
+    pub outcome: Result<([GivenPid; 2], ControllerAssessment), PairRuleError>,
 }
 
 impl PlantStudy {
@@ -57,20 +57,20 @@ impl PlantStudy {
     }
 
     /// What each rule makes of the plant in the pairing of the session.
-    pub fn compare_rules(&self, setup: &TuningSetup) -> Vec<RuledControllers> {
+    pub fn compare_rules(&self, setup: &TuningSetup) -> Vec<RuleControllers> {
         let outcome = |rule| {
             let controllers = self.by_rule(rule, setup.design.pairing)?;
             let judged = self.judge(controllers.map(ParallelPid::from), setup.design.pairing, setup)?;
             Ok((controllers, judged))
         };
-        PairRule::ALL.into_iter().map(|rule| RuledControllers { rule, outcome: outcome(rule) }).collect()
+        PairRule::ALL.into_iter().map(|rule| RuleControllers { rule, outcome: outcome(rule) }).collect()
     }
 
     /// What the controllers at work do, as the others are judged: without a decoupler.
     ///
     /// # Errors
     /// [`TuningError::UnstablePlant`] or [`TuningError::Linear`], as [`Design::new`](crate::tuning::Design::new).
-    pub fn judge_root(&self, root: &DesignRoot, setup: &TuningSetup) -> Result<JudgedControllers, TuningError> {
+    pub fn judge_root(&self, root: &DesignRoot, setup: &TuningSetup) -> Result<ControllerAssessment, TuningError> {
         self.judge(root.controllers, root.pairing, setup)
     }
 
@@ -87,9 +87,9 @@ impl PlantStudy {
         controllers: [ParallelPid; 2],
         pairing: Pairing,
         setup: &TuningSetup,
-    ) -> Result<JudgedControllers, TuningError> {
+    ) -> Result<ControllerAssessment, TuningError> {
         let (stability, response) = self.response_with(controllers, pairing, setup)?;
         let peaks = LoopPeaks::of(&self.wired(pairing), controllers, stability)?;
-        Ok(JudgedControllers { stability, peaks, figures: response.figures, is_bounded: response.is_bounded })
+        Ok(ControllerAssessment { stability, peaks, figures: response.figures, is_bounded: response.is_bounded })
     }
 }

@@ -34,7 +34,7 @@ impl CriticalReading {
         // A gain of zero has a direction too: nearly that of the axis.
         let direction = importance.map_or(1.0, |r| r.clamp(SMALLEST_IMPORTANCE, SMALLEST_IMPORTANCE.recip()));
         let design = results.design.as_ref().as_ref().ok().and_then(Option::as_ref);
-        let root = design.map(Designed::at_work);
+        let root = design.map(Designed::chosen_root);
         let critical = design.and_then(|design| design.critical);
         Ok(Self {
             importance,

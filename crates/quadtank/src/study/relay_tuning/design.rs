@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use nalgebra::Matrix2;
 
 use crate::control::{IsaPid, Pairing, ParallelPid, PidMatrix, SeriesPid};
-use crate::linear::{Closure, Complex, Loci, LoopStability, TransferMatrix};
+use crate::linear::{Complex, Loci, LociClosure, LoopStability, TransferMatrix};
 use crate::tuning::{
     Design, GainLimit, PlacementWarning, TuningError, dynamic_relative_gain, importance_direction, propose,
     response_at, warnings_of_gains,
@@ -58,7 +58,7 @@ pub struct DesignRoot {
     /// Whether the loop is stable.
     pub stability: LoopStability,
     /// How its loci close.
-    pub closure: Closure,
+    pub closure: LociClosure,
 }
 
 /// A controller in the forms of other textbooks (Campestrini 2006, eqs. 9 to 11).
@@ -90,7 +90,7 @@ impl CriticalResponse {
 
 impl Designed {
     /// The root at work.
-    pub fn at_work(&self) -> &DesignRoot {
+    pub fn chosen_root(&self) -> &DesignRoot {
         &self.roots[self.chosen]
     }
 }

@@ -218,7 +218,7 @@ mod tests {
         setup.give_placed_controllers();
         let given = designed(&setup);
         assert_eq!((given.roots.len(), given.chosen), (1, 0));
-        assert_eq!((given.critical, given.at_work().closure), (placed.critical, placed.at_work().closure));
+        assert_eq!((given.critical, given.chosen_root().closure), (placed.critical, placed.chosen_root().closure));
         for (one, other) in placed.response.figures.iter().zip(given.response.figures) {
             assert!((one.iae - other.iae).abs() < 1e-9 * one.iae, "{one:?} {other:?}");
         }
@@ -237,7 +237,7 @@ mod tests {
         assert_eq!(study.design(&setup), Ok(None));
         setup.design = DesignSpec::given([GivenPid { gain: 1.0, integral_time: Some(5.0), ..GivenPid::default() }; 2]);
         let design = study.design(&setup).unwrap().unwrap();
-        assert_eq!((design.critical, design.at_work().stability), (None, LoopStability::Stable));
+        assert_eq!((design.critical, design.chosen_root().stability), (None, LoopStability::Stable));
         assert!(
             design.response.is_bounded && design.loci[0].frequency.is_empty() && !design.loci[1].frequency.is_empty()
         );
@@ -250,14 +250,14 @@ mod tests {
         setup.design = DesignSpec { pairing: Pairing::Swapped, ..DesignSpec::given([pid(-0.2), pid(0.3)]) };
         let study = PlantStudy::of(&setup.plant).unwrap();
         let swapped = study.design(&setup).unwrap().unwrap();
-        assert_eq!(swapped.at_work().stability, LoopStability::Stable);
-        assert_eq!(swapped.at_work().warnings, []);
-        assert!(study.peaks(swapped.at_work()).unwrap().sensitivity.is_some());
+        assert_eq!(swapped.chosen_root().stability, LoopStability::Stable);
+        assert_eq!(swapped.chosen_root().warnings, []);
+        assert!(study.peaks(swapped.chosen_root()).unwrap().sensitivity.is_some());
         // Loop 1 drives input 2, which moves before anything else does.
         let inputs = &swapped.response.trace.inputs;
         assert!(inputs[0][0].abs() < 1e-12 && inputs[1][0] < -0.2, "{} {}", inputs[0][0], inputs[1][0]);
         setup.design.pairing = Pairing::Diagonal;
-        assert!(!study.design(&setup).unwrap().unwrap().at_work().warnings.is_empty());
+        assert!(!study.design(&setup).unwrap().unwrap().chosen_root().warnings.is_empty());
     }
 
     #[test]
@@ -265,7 +265,7 @@ mod tests {
         let setup = TuningSetup::with_published(PublishedControllers::BoydHastAstrom);
         let found = designed(&setup);
         let gains = PublishedControllers::BoydHastAstrom.gains();
-        for (found, printed) in found.at_work().controllers.iter().zip(gains) {
+        for (found, printed) in found.chosen_root().controllers.iter().zip(gains) {
             assert_eq!(found.filter_time(), 0.3);
             assert!(
                 (found.integral - printed.integral).abs() < 1e-15

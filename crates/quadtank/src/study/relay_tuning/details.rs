@@ -20,7 +20,7 @@ const SOUGHT: (f64, f64) = (0.1, 5.0);
 
 /// G(jω) at the frequency of an oscillation.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Recovered {
+pub struct RecoveredResponse {
     /// From a sine in input 1 and the fundamentals of the relay test.
     pub measured: Matrix2<Complex>,
     /// Of the model.
@@ -100,12 +100,15 @@ impl PlantStudy {
     ///
     /// # Errors
     /// As [`sine_test`].
-    pub fn recover(&self, oscillation: &Oscillation) -> Result<Recovered, TuningError> {
+    pub fn recover(&self, oscillation: &Oscillation) -> Result<RecoveredResponse, TuningError> {
         let frequency = oscillation.frequency();
         let periods = (SETTLED / (slowest_rate(&self.plant)? * oscillation.period)).clamp(PERIODS.0, PERIODS.1);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within PERIODS")]
         let column = sine_test(&self.plant, 0, frequency, periods.ceil() as u32)?;
-        Ok(Recovered { measured: complete_response(column, oscillation), exact: response_at(&self.plant, frequency) })
+        Ok(RecoveredResponse {
+            measured: complete_response(column, oscillation),
+            exact: response_at(&self.plant, frequency),
+        })
     }
 
     /// The exact limit cycle beside the reading of a single relay test, of the period nearest to it and with the amplitude of

@@ -20,7 +20,7 @@ pub struct Element {
 
 /// Why the bench cannot work with an element: it takes proper elements whose poles are in the left half-plane or at the origin.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
-pub enum ElementFault {
+pub enum ElementError {
     /// All coefficients of the denominator are zero.
     #[error("the denominator is zero")]
     NoDenominator,
@@ -62,17 +62,17 @@ impl Element {
 
     /// What is wrong with an element whose numbers are all finite. One whose numerator is zero passes nothing, whatever its
     /// degrees are, but its poles count as any other.
-    pub fn fault(&self) -> Option<ElementFault> {
-        let Some(denominator) = degree(&self.denominator) else { return Some(ElementFault::NoDenominator) };
+    pub fn fault(&self) -> Option<ElementError> {
+        let Some(denominator) = degree(&self.denominator) else { return Some(ElementError::NoDenominator) };
         match degree(&self.numerator) {
             Some(numerator) if numerator > denominator => {
-                return Some(ElementFault::Improper { numerator, denominator });
+                return Some(ElementError::Improper { numerator, denominator });
             }
             _ => {}
         }
         // Poles that no iteration finds are an error where the plant is studied.
         let rightmost = self.transfer_function().and_then(|element| poles_off_the_origin(&element)).ok()?.last()?.re;
-        (rightmost >= 0.0).then_some(ElementFault::Unstable { real_part: rightmost })
+        (rightmost >= 0.0).then_some(ElementError::Unstable { real_part: rightmost })
     }
 }
 
@@ -85,14 +85,14 @@ mod tests {
         let fault = |numerator: &[f64], denominator: &[f64]| {
             Element { numerator: numerator.to_vec(), denominator: denominator.to_vec(), dead_time: 0.0 }.fault()
         };
-        let improper = ElementFault::Improper { numerator: 2, denominator: 1 };
+        let improper = ElementError::Improper { numerator: 2, denominator: 1 };
         assert_eq!(fault(&[1.0, 0.0, 3.0], &[5.0, 1.0]), Some(improper));
-        assert_eq!(fault(&[1.0], &[0.0, 0.0]), Some(ElementFault::NoDenominator));
-        assert_eq!(fault(&[1.0], &[]), Some(ElementFault::NoDenominator));
-        assert_eq!(fault(&[1.0], &[-0.5, 1.0]), Some(ElementFault::Unstable { real_part: 0.5 }));
+        assert_eq!(fault(&[1.0], &[0.0, 0.0]), Some(ElementError::NoDenominator));
+        assert_eq!(fault(&[1.0], &[]), Some(ElementError::NoDenominator));
+        assert_eq!(fault(&[1.0], &[-0.5, 1.0]), Some(ElementError::Unstable { real_part: 0.5 }));
         // An oscillator: the imaginary axis is not stable either.
-        assert!(matches!(fault(&[1.0], &[4.0, 0.0, 1.0]), Some(ElementFault::Unstable { .. })));
-        assert_eq!(fault(&[1.0], &[0.0, -2.0, 1.0]), Some(ElementFault::Unstable { real_part: 2.0 }));
+        assert!(matches!(fault(&[1.0], &[4.0, 0.0, 1.0]), Some(ElementError::Unstable { .. })));
+        assert_eq!(fault(&[1.0], &[0.0, -2.0, 1.0]), Some(ElementError::Unstable { real_part: 2.0 }));
         let supported: [(&[f64], &[f64]); 7] = [
             (&[1.0], &[1.0, 2.0]),
             (&[0.0, 0.0], &[1.0]),

@@ -57,7 +57,7 @@ fn is_isa(form: &PidForm) -> bool {
 
 /// Why a controller has no other form.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
-pub enum FormFault {
+pub enum FormError {
     /// Its zeros are complex, so that no two factors have them: Ti < 4 Td.
     #[error("with Ti = {integral_time} below 4 Td = {} its zeros are complex, and no series form has them", 4.0 * derivative_time)]
     ComplexZeros {
@@ -97,8 +97,8 @@ impl GivenPid {
     /// The same controller in another form.
     ///
     /// # Errors
-    /// [`FormFault`] where the other form does not have it.
-    pub fn in_form(self, form: PidForm) -> Result<Self, FormFault> {
+    /// [`FormError`] where the other form does not have it.
+    pub fn in_form(self, form: PidForm) -> Result<Self, FormError> {
         if form == self.form {
             return Ok(self);
         }
@@ -114,10 +114,10 @@ impl GivenPid {
         }
         let isa = match self.form {
             PidForm::Isa | PidForm::Series => self.as_isa(),
-            PidForm::Parallel => IsaPid::from_parallel(parallel).ok_or(FormFault::NoProportionalPart)?,
+            PidForm::Parallel => IsaPid::from_parallel(parallel).ok_or(FormError::NoProportionalPart)?,
         };
         if let Some(time) = [isa.integral_time, isa.derivative_time].into_iter().find(|&time| time < 0.0) {
-            return Err(FormFault::NegativeTime { time });
+            return Err(FormError::NegativeTime { time });
         }
         let IsaPid { gain, integral_time, derivative_time } = match form {
             PidForm::Series => as_series(isa)?,
@@ -141,12 +141,12 @@ impl GivenPid {
 }
 
 /// The numbers of the series form.
-fn as_series(isa: IsaPid) -> Result<IsaPid, FormFault> {
+fn as_series(isa: IsaPid) -> Result<IsaPid, FormError> {
     if isa.integral_time == f64::INFINITY {
         return Ok(isa);
     }
     let IsaPid { integral_time, derivative_time, .. } = isa;
-    let series = SeriesPid::from_isa(isa).ok_or(FormFault::ComplexZeros { integral_time, derivative_time })?;
+    let series = SeriesPid::from_isa(isa).ok_or(FormError::ComplexZeros { integral_time, derivative_time })?;
     let SeriesPid { gain, integral_time, derivative_time } = series;
     Ok(IsaPid { gain, integral_time, derivative_time })
 }
@@ -205,7 +205,7 @@ mod tests {
 
     #[test]
     fn what_has_no_other_form_says_why() {
-        let fault = FormFault::ComplexZeros { integral_time: 3.9, derivative_time: 1.0 };
+        let fault = FormError::ComplexZeros { integral_time: 3.9, derivative_time: 1.0 };
         assert_eq!(pid(PidForm::Isa, 1.0, 3.9, 1.0).in_form(PidForm::Series), Err(fault));
         assert!(pid(PidForm::Isa, 1.0, 4.0, 1.0).in_form(PidForm::Series).is_ok());
         let parallel = |gain, integral_gain, derivative_gain| GivenPid {
@@ -216,9 +216,9 @@ mod tests {
             ..GivenPid::default()
         };
         let alone = parallel(0.0, 0.5, 0.0);
-        assert_eq!(alone.in_form(PidForm::Isa), Err(FormFault::NoProportionalPart));
+        assert_eq!(alone.in_form(PidForm::Isa), Err(FormError::NoProportionalPart));
         assert_eq!((alone.is_open(), ParallelPid::from(alone).integral), (false, 0.5));
-        assert_eq!(parallel(2.0, -0.5, 0.0).in_form(PidForm::Isa), Err(FormFault::NegativeTime { time: -4.0 }));
+        assert_eq!(parallel(2.0, -0.5, 0.0).in_form(PidForm::Isa), Err(FormError::NegativeTime { time: -4.0 }));
         // PD and open loops have every form.
         for form in PidForm::ALL {
             let pd = GivenPid { gain: 2.0, derivative_time: 3.0, ..GivenPid::default() }.in_form(form).unwrap();

@@ -101,7 +101,7 @@ impl PlantStudy {
     /// The rule whose target makes the chosen root of a placement stable, where it is not.
     pub fn mend_placement(&self, setup: &TuningSetup, designed: &Designed) -> Option<Mend> {
         let spec = &setup.design;
-        if spec.controllers.is_some() || designed.at_work().stability == LoopStability::Stable {
+        if spec.controllers.is_some() || designed.chosen_root().stability == LoopStability::Stable {
             return None;
         }
         let (root, critical) = (designed.chosen, designed.critical?);
@@ -186,7 +186,7 @@ mod tests {
             mend_pairing(&error).unwrap().apply(&mut setup);
             let found = tune(&setup).unwrap();
             let design = found.design.unwrap();
-            assert!(design.at_work().controllers.iter().all(|pid| pid.proportional != 0.0), "{design:?}");
+            assert!(design.chosen_root().controllers.iter().all(|pid| pid.proportional != 0.0), "{design:?}");
         }
         let none = TuningPlant::Elements([[element(0.0), element(0.0)], [element(1.0), element(0.5)]]);
         let error = PlantStudy::of(&none).unwrap_err();

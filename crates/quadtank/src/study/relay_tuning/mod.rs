@@ -19,13 +19,13 @@ mod start;
 mod steady_state;
 mod step_response;
 
-pub use compared::{ComparedControllers, JudgedControllers, RuledControllers};
+pub use compared::{ComparedControllers, ControllerAssessment, RuleControllers};
 pub use critical_reading::CriticalReading;
 pub use design::{ControllerForms, CriticalResponse, DesignRoot, Designed};
 pub use design_spec::{CriticalSpec, DecouplerSpec, DesignSpec};
-pub use details::{LoopPeaks, PlacedLoci, Recovered};
-pub use element::{Element, ElementFault};
-pub use given_pid::{FormFault, GivenPid, PidForm};
+pub use details::{LoopPeaks, PlacedLoci, RecoveredResponse};
+pub use element::{Element, ElementError};
+pub use given_pid::{FormError, GivenPid, PidForm};
 pub use mend::{Mend, mend_pairing};
 pub use plant::TuningPlant;
 pub use plant_study::{FoundPoint, PlantStudy, Tested, Tuning, tune};

@@ -75,7 +75,7 @@ impl TuningPlant {
     }
 
     /// Whether times are in the same unit for both, as far as documents tell: published plants have a unit each.
-    pub fn has_same_clock(&self, other: &Self) -> bool {
+    pub fn has_same_time_unit(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::Published(one), Self::Published(two)) => one == two,
             (Self::QuadrupleTank { .. }, Self::QuadrupleTank { .. }) | (Self::Elements(_), Self::Elements(_)) => true,
@@ -83,8 +83,9 @@ impl TuningPlant {
         }
     }
 
-    /// The magnitude of the quickest pole, and the longest dead time; `None` for a plant that is none.
-    pub fn pace(&self) -> Option<(f64, f64)> {
+    /// Largest magnitude of a pole (rad per unit of time of the plant) and longest dead time; `None` where the
+    /// coefficients are no transfer function.
+    pub fn fastest_rate_and_dead_time(&self) -> Option<(f64, f64)> {
         let transfer = self.transfer_matrix().ok()?;
         let elements = transfer.0.as_flattened();
         let quickest = elements.iter().filter_map(|g| g.poles().ok()).flatten().map(Complex::norm).fold(0.0, f64::max);

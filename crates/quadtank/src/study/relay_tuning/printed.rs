@@ -61,7 +61,7 @@ fn computed(case: PublishedCase, study: &PlantStudy) -> Result<Vec<f64>, TuningE
             let setup = TuningSetup::published(case);
             let design = study.design(&setup)?;
             design.map_or_else(Vec::new, |design| {
-                let chosen = &design.at_work().controllers;
+                let chosen = &design.chosen_root().controllers;
                 chosen.iter().flat_map(|k| [k.proportional, k.integral, k.derivative]).collect()
             })
         }

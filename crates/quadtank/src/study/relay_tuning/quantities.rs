@@ -112,7 +112,7 @@ fn design(results: &Results) -> Option<&Designed> {
 }
 
 fn root(results: &Results) -> Option<&DesignRoot> {
-    Some(design(results)?.at_work())
+    Some(design(results)?.chosen_root())
 }
 
 /// The root of a placement with an index; none of given controllers.

@@ -133,7 +133,7 @@ impl TuningSetup {
     #[must_use]
     pub fn in_experiment_of(&self, present: &Self) -> Self {
         let ResponseSpec { references, duration, .. } = present.response;
-        let duration = if self.plant.has_same_clock(&present.plant) { duration } else { self.response.duration };
+        let duration = if self.plant.has_same_time_unit(&present.plant) { duration } else { self.response.duration };
         Self { response: ResponseSpec { references, duration, ..self.response }, ..self.clone() }
     }
 

@@ -23,7 +23,7 @@ const QUICKEST_IN_PERIOD: f64 = 1000.0;
 
 /// The period that records are made for where nothing oscillates.
 fn period_without_oscillation(plant: &TuningPlant) -> f64 {
-    let quickest = plant.pace().map_or(0.0, |(quickest, _)| quickest);
+    let quickest = plant.fastest_rate_and_dead_time().map_or(0.0, |(quickest, _)| quickest);
     NO_PERIOD.min(QUICKEST_IN_PERIOD / quickest)
 }
 
@@ -126,7 +126,7 @@ impl TuningSetup {
     /// or derivative time is left out, because a given controller has none.
     pub fn give_placed_controllers(&mut self) {
         let found = PlantStudy::of(&self.plant).and_then(|study| study.design(self));
-        let placed = found.ok().flatten().map(|design| design.at_work().forms.map(|forms| forms.isa));
+        let placed = found.ok().flatten().map(|design| design.chosen_root().forms.map(|forms| forms.isa));
         let given = |isa: Option<IsaPid>| {
             let GivenPid { gain, integral_time, derivative_time, .. } =
                 isa.map_or_else(GivenPid::default, GivenPid::from);

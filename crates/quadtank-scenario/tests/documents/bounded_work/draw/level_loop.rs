@@ -27,7 +27,7 @@ impl Draw {
     }
 
     fn lag(&mut self) -> f64 {
-        if self.one_in(3) { 0.0 } else { self.number(Limits { min: limits::LEAST_LAG_S, ..limits::LAG_S }) }
+        if self.one_in(3) { 0.0 } else { self.number(Limits { min: limits::MIN_LAG_S, ..limits::LAG_S }) }
     }
 
     /// A curve over a range, often with turns of its slope.
