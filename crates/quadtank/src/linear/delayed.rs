@@ -63,8 +63,8 @@ impl DelayedPlant {
     /// At rest, with both inputs zero.
     ///
     /// # Errors
-    /// [`LinearError::OutOfRange`] for a path that is not proper, of an order above [`MAX_ORDER`], or with an index of input or
-    /// output above 1.
+    /// [`LinearError::OutOfRange`] for a path that is not proper, of an order above [`MAX_ORDER`], or with an index of
+    /// input or output above 1.
     pub fn new(paths: &[SignalPath]) -> Result<Self, LinearError> {
         if let Some(path) = paths.iter().find(|path| path.input > 1 || path.output > 1) {
             return Err(LinearError::OutOfRange { field: "path", value: path.input.max(path.output) as f64 });

@@ -42,8 +42,8 @@ pub(crate) fn stability(of: &impl DelayedLoop) -> Option<Stability> {
     Some(if (-turned / PI).round() > 0.0 { Stability::Unstable } else { Stability::Stable })
 }
 
-/// Change of the argument of g over an arc of angles of z (rad); `None` where the enclosure of g contains zero. Computed in a
-/// frame that rotates with the largest term.
+/// Change of the argument of g over an arc of angles of z (rad); `None` where the enclosure of g contains zero.
+/// Computed in a frame that rotates with the largest term.
 fn turn_over(of: &impl DelayedLoop, arc: Cell) -> Option<f64> {
     let terms = of.terms(TaylorModel::dead_time(1.0, arc));
     let delays = of.delays();

@@ -130,11 +130,11 @@ fn return_difference(ratio: &ReturnRatio, frequency: f64) -> Complex {
     (Matrix2::identity() + ratio.at(frequency)).determinant()
 }
 
-/// Change of the argument of det(I + L) over a cell (rad) up to its value at the high end, and its value at the low end; `None`
-/// where the enclosure contains zero.
+/// Change of the argument of det(I + L) over a cell (rad) up to its value at the high end, and its value at the low
+/// end; `None` where the enclosure contains zero.
 ///
-/// Computed in a frame that rotates with the dead time of the largest term: where that term exceeds the sum of all others, the
-/// rotations by dead times need not be followed one by one.
+/// Computed in a frame that rotates with the dead time of the largest term: where that term exceeds the sum of all
+/// others, the rotations by dead times need not be followed one by one.
 fn turn_over(ratio: &ReturnRatio, cell: Cell, at_high: Complex) -> Option<(f64, Complex)> {
     let frame = dominant_dead_time(ratio.return_difference(cell), cell)?;
     let at_low = return_difference(ratio, cell.low);

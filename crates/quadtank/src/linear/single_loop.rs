@@ -45,8 +45,8 @@ impl SingleLoop {
         Margins::of(&self.ratio())
     }
 
-    /// Sensitivity peak Ms, the reciprocal of the shortest distance of L(jω) from −1; `None` for a loop that is not stable, and
-    /// where the search is beyond its bound on work.
+    /// Sensitivity peak Ms, the reciprocal of the shortest distance of L(jω) from −1; `None` for a loop that is not
+    /// stable, and where the search is beyond its bound on work.
     pub fn sensitivity_peak(&self) -> Option<f64> {
         let margins = if self.stability() == LoopStability::Stable { self.margins() } else { None };
         margins.map(|margins| margins.distance.recip())

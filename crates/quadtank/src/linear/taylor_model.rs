@@ -90,13 +90,15 @@ impl TaylorModel {
         Self { value, slope: value * Complex::new(0.0, -angle), remainder: 0.5 * angle * angle }
     }
 
-    /// The rational part `b(jω)/a(jω)` of a transfer function. The remainder is infinite where a may have a zero in the cell.
+    /// The rational part `b(jω)/a(jω)` of a transfer function. The remainder is infinite where a may have a zero in the
+    /// cell.
     pub fn rational(function: &TransferFunction, cell: Cell) -> Self {
         polynomial(function.numerator(), cell) / polynomial(function.denominator(), cell)
     }
 }
 
-/// A polynomial in jω with real coefficients by rising powers; the remainder bounds its second derivative over the cell.
+/// A polynomial in jω with real coefficients by rising powers; the remainder bounds its second derivative over the
+/// cell.
 fn polynomial(coefficients: &[f64], cell: Cell) -> TaylorModel {
     let (s, half) = (Complex::new(0.0, cell.middle()), cell.half_width());
     let (mut value, mut derivative) = (Complex::ZERO, Complex::ZERO);
@@ -177,9 +179,11 @@ impl Div for TaylorModel {
 /// Rounding of a sum, relative to the size of its terms.
 const ROUNDING: f64 = 1e-15;
 
-/// Dead time of the largest of several terms with dead times over a cell; `None` where the enclosure of their sum contains zero.
+/// Dead time of the largest of several terms with dead times over a cell; `None` where the enclosure of their sum
+/// contains zero.
 ///
-/// The sum is taken in a frame that rotates with that term, so that dead times common to all terms need not be followed.
+/// The sum is taken in a frame that rotates with that term, so that dead times common to all terms need not be
+/// followed.
 pub(super) fn dominant_dead_time<const N: usize>(terms: [(TaylorModel, f64); N], cell: Cell) -> Option<f64> {
     let sizes = terms.map(|(term, _)| modulus(term.value));
     let largest = (0..N).max_by(|&i, &j| sizes[i].total_cmp(&sizes[j]))?;

@@ -13,6 +13,7 @@ pub fn square_root(z: Complex) -> Complex {
 }
 
 /// |x| as `√(re² + im²)`, faster than `hypot`; overflows and underflows where the square does.
+#[inline]
 pub fn modulus(x: Complex) -> f64 {
     x.norm_sqr().sqrt()
 }

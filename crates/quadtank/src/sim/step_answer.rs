@@ -6,7 +6,7 @@ use super::experiment::Experiment;
 use super::response::{NoResponse, Response, Settling, late_steps};
 use super::trajectory::Trajectory;
 
-/// A step of a reference, and how its loop answered it.
+/// A step of a reference, and the response of its loop.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ReferenceStepResponse {

@@ -69,8 +69,8 @@ pub fn frequency_range(plant: &TransferMatrix) -> Result<(f64, f64), LinearError
     Ok((slowest * 0.01, quickest * 100.0))
 }
 
-/// Slowest and quickest rate (per unit of time) of elements: magnitudes of poles off the origin and reciprocals of dead times. `None`
-/// for gains and integrators alone.
+/// Slowest and quickest rate (per unit of time) of elements: magnitudes of poles off the origin and reciprocals of dead
+/// times. `None` for gains and integrators alone.
 ///
 /// # Errors
 /// As [`TransferFunction::poles`].

@@ -18,8 +18,8 @@ const STEPS: u32 = 256;
 /// `g11` and `g21` (or `g12` and `g22`) at a frequency, from a sine in one input with the other at rest, after a number of
 /// periods for the transient (eq. 122).
 ///
-/// `input` is the index of the input, 0 or 1; `frequency` in rad per unit of time of the plant. Returns g of outputs 1 and 2
-/// (output/input).
+/// `input` is the index of the input, 0 or 1; `frequency` in rad per unit of time of the plant. Returns g of outputs 1
+/// and 2 (output/input).
 ///
 /// # Errors
 /// [`TuningError::OutOfRange`] for a frequency that is not positive; [`TuningError::UnstablePlant`]; as

@@ -145,8 +145,8 @@ fn discovery(session: Session, prompt: Prompt) -> String {
     }
 }
 
-/// Whether each level whose reference steps settles at it in a run in which no tank overflows or runs dry. A pump may be at a
-/// limit for a time.
+/// Whether each level whose reference steps settles at it in a run in which no tank overflows or runs dry. A pump may
+/// be at a limit for a time.
 fn reaches_references(session: Session) -> bool {
     session.throttled.run.with(|outcome| {
         outcome.as_ref().as_ref().is_ok_and(|run| {

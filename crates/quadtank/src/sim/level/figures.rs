@@ -43,7 +43,7 @@ impl LevelFigures {
     }
 }
 
-/// The answer of a level to one step of its set-point at the start of a run.
+/// Response of a level to one step of its set-point at the start of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct LevelStepResponse {

@@ -8,7 +8,8 @@ use crate::tuning::{CostMeasure, ModelRule, ProcessModel};
 
 use super::{LevelLoopSetup, LevelPlantSpec, Objective, PiTuning, PlantAnswer};
 
-/// SIMC for tight and Lambda tuning for averaging control (Andreis 2017, Tables 5.1 and 5.2), for a loop without published tunings.
+/// SIMC for tight and Lambda tuning for averaging control (Andreis 2017, Tables 5.1 and 5.2), for a loop without
+/// published tunings.
 const USUAL_TUNINGS: [PiTuning; 2] =
     [PiTuning { gain: 17.4, integral_time_s: 23.5 }, PiTuning { gain: 0.2, integral_time_s: 588.0 }];
 
@@ -129,8 +130,8 @@ impl LevelLoopSetup {
         }
     }
 
-    /// The best tuning known for the objective: the reference where the source has tunings for the loop and its disturbance, else one
-    /// of a usual kind.
+    /// The best tuning known for the objective: the reference where the source has tunings for the loop and its
+    /// disturbance, else one of a usual kind.
     pub fn best_known_tuning(&self) -> PiTuning {
         let [tight, averaging] = USUAL_TUNINGS;
         match self.objective {

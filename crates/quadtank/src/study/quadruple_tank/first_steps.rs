@@ -7,7 +7,8 @@ use super::{OperatingPointSpec, Setup, analyse, run, setup_of};
 
 /// When the first experiment steps (s).
 const FIRST_STEP_AT_S: f64 = 20.0;
-/// Size of the step of level 1 in the first experiment (m): large enough to be seen, small enough that no pump reaches its limit.
+/// Size of the step of level 1 in the first experiment (m): large enough to be seen, small enough that no pump reaches
+/// its limit.
 const FIRST_STEP: f64 = 0.02;
 /// The shortest time that [`fitted_duration_s`] shows (s), which it doubles, and the longest.
 const FITTED_S: (f64, f64) = (400.0, 6400.0);

@@ -31,7 +31,7 @@ pub struct ComparedControllers {
     pub judged: ControllerAssessment,
 }
 
-/// What a rule makes of a plant.
+/// The controllers that a rule finds for a plant, with their assessment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RuleControllers {
     /// The rule.

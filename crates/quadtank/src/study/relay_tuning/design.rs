@@ -89,7 +89,7 @@ impl CriticalResponse {
 }
 
 impl Designed {
-    /// The root at work.
+    /// The root that was chosen.
     pub fn chosen_root(&self) -> &DesignRoot {
         &self.roots[self.chosen]
     }
