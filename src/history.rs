@@ -3,7 +3,7 @@
 use quadtank_scenario::BenchDocument;
 
 /// Most steps that can be undone. A document is a few kilobytes, so this is well below a megabyte.
-const MOST_STEPS: usize = 200;
+const MAX_STEPS: usize = 200;
 
 /// Whether two documents are different experiments, be it by name: where the cursor stands does not matter.
 pub fn is_other_experiment<D: BenchDocument>(one: &D, other: &D) -> bool {
@@ -30,7 +30,7 @@ impl<D: BenchDocument> History<D> {
         let is_step = is_other_experiment(document, &self.present);
         let before = std::mem::replace(&mut self.present, document.clone());
         if is_step {
-            if self.past.len() == MOST_STEPS {
+            if self.past.len() == MAX_STEPS {
                 self.past.remove(0);
             }
             self.past.push(before);
@@ -120,12 +120,12 @@ mod tests {
     #[test]
     fn the_oldest_steps_are_forgotten_beyond_the_most() {
         let mut history = History::new(with_valve(0.0));
-        let last = MOST_STEPS + 5;
+        let last = MAX_STEPS + 5;
         for step in 1..=last {
             history.record(&with_valve(step as f64 / 1000.0));
         }
         let undone = std::iter::from_fn(|| history.undo()).collect::<Vec<_>>();
-        assert_eq!(undone.len(), MOST_STEPS);
+        assert_eq!(undone.len(), MAX_STEPS);
         assert_eq!(undone.last(), Some(&with_valve(0.005)));
     }
 }

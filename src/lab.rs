@@ -20,7 +20,7 @@ use quadtank_scenario::{CsvStyle, Document, ScenarioError, Scenes};
 
 /// For an audience charts are so much larger as the window is wider than this (CSS px), within limits.
 const PRESENTED_AT_PX: f64 = 860.0;
-const MOST_MAGNIFIED: f64 = 2.0;
+const MAX_MAGNIFIED: f64 = 2.0;
 
 /// A notice at the top of the page.
 #[derive(Clone, Debug, PartialEq)]
@@ -328,6 +328,6 @@ impl Lab {
     /// How much larger charts are painted than usual, with their words and lines.
     pub fn magnification(self) -> f64 {
         let width = || window().inner_width().ok().and_then(|width| width.as_f64()).unwrap_or_default();
-        if self.is_presenting() { (width() / PRESENTED_AT_PX).clamp(1.0, MOST_MAGNIFIED) } else { 1.0 }
+        if self.is_presenting() { (width() / PRESENTED_AT_PX).clamp(1.0, MAX_MAGNIFIED) } else { 1.0 }
     }
 }

@@ -14,7 +14,7 @@ use super::texts::Language;
 use quadtank::literature::PresetId;
 
 /// Most names that are told of what was not understood, and the longest of them (characters).
-const MOST_UNKNOWN: usize = 6;
+const MAX_UNKNOWN: usize = 6;
 const LONGEST_UNKNOWN: usize = 40;
 
 /// Parameters that mail systems, social networks and analytics add to any link that they pass on. Neither who made the link nor
@@ -150,8 +150,8 @@ impl StartFlags {
     fn note_unknown(&mut self, flag: &str, value: &str) {
         let separator = if value.is_empty() { "" } else { "=" };
         match self.unknown.len() {
-            0..MOST_UNKNOWN => self.unknown.push(shown(&format!("{flag}{separator}{value}"))),
-            MOST_UNKNOWN => self.unknown.push("…".to_owned()),
+            0..MAX_UNKNOWN => self.unknown.push(shown(&format!("{flag}{separator}{value}"))),
+            MAX_UNKNOWN => self.unknown.push("…".to_owned()),
             _ => {}
         }
     }
@@ -220,7 +220,7 @@ mod tests {
     #[test]
     fn names_of_what_is_not_understood_are_few_short_and_harmless() {
         let flags = parse(&format!("<b>=%0A%00%E2%80%AE\u{200b}\"&{}&{}", "x".repeat(500), "y=1&".repeat(1000)));
-        assert_eq!(flags.unknown.len(), MOST_UNKNOWN + 1);
+        assert_eq!(flags.unknown.len(), MAX_UNKNOWN + 1);
         assert_eq!(flags.unknown[0], "<b>=\u{fffd}\u{fffd}\u{fffd}\u{fffd}\"");
         assert_eq!(flags.unknown[1], "x".repeat(LONGEST_UNKNOWN) + "…");
         assert_eq!(flags.unknown.last().map(String::as_str), Some("…"));

@@ -4,7 +4,7 @@ use web_sys::HtmlInputElement;
 
 use super::touch_gesture::TouchGesture;
 use crate::format::NumberStyle;
-use crate::lab::use_lab;
+use crate::lab::{Lab, use_lab};
 use crate::texts::tr;
 
 /// How the travel of a slider maps to values.
@@ -141,14 +141,10 @@ pub fn NumberField(
         moved.notify();
     };
     let on_key = move |event: KeyboardEvent| {
-        let steps = match event.key().as_str() {
-            "ArrowUp" => 1.0,
-            "ArrowDown" => -1.0,
-            "PageUp" => 10.0,
-            "PageDown" => -10.0,
-            "Escape" => return draft.set(None),
-            _ => return,
-        };
+        if event.key() == "Escape" {
+            return draft.set(None);
+        }
+        let Some(steps) = steps_of(&event.key()) else { return };
         event.prevent_default();
         let (min, max) = limits.get_untracked();
         draft.set(None);
@@ -162,17 +158,16 @@ pub fn NumberField(
     let problem = move || {
         refusal.get().map(|refusal| {
             let (min, max) = shown_limits.get();
-            let lowest = if smallest > 0.0 { smallest } else { min };
-            let mut text = tr!(lab, field.allowed, min = show(lowest), max = show(max));
-            if grid.get() > 0.0 {
-                text = format!("{text}, {}", tr!(lab, field.multiple, step = show(grid.get())));
-            }
-            if smallest > 0.0 {
-                text = tr!(lab, field.or_zero, range = format!("± {text}"));
-            }
+            let step = Some(grid.get()).filter(|&step| step > 0.0).map(show);
+            let allowed = if smallest > 0.0 {
+                let range = allowed_values(lab, show(smallest), show(max), step);
+                tr!(lab, field.or_zero, range = format!("± {range}"))
+            } else {
+                allowed_values(lab, show(min), show(max), step)
+            };
             match refusal {
-                Refusal::NoNumber => tr!(lab, field.no_number, allowed = text),
-                Refusal::NotAllowed => text,
+                Refusal::NoNumber => tr!(lab, field.no_number, allowed = allowed),
+                Refusal::NotAllowed => allowed,
             }
         })
     };
@@ -198,6 +193,23 @@ pub fn NumberField(
                 .map(|text| view! { <span class="problem" role="alert" id=format!("{id}-problem")>{text}</span> })
         }}
     }
+}
+
+/// Steps that a key moves a number; `None` for a key that does something else.
+fn steps_of(key: &str) -> Option<f64> {
+    match key {
+        "ArrowUp" => Some(1.0),
+        "ArrowDown" => Some(-1.0),
+        "PageUp" => Some(10.0),
+        "PageDown" => Some(-10.0),
+        _ => None,
+    }
+}
+
+/// A range in words, with the step of which its values are multiples, where there is one.
+fn allowed_values(lab: Lab, min: String, max: String, step: Option<String>) -> String {
+    let range = tr!(lab, field.allowed, min = min, max = max);
+    step.map_or_else(|| range.clone(), |step| format!("{range}, {}", tr!(lab, field.multiple, step = step)))
 }
 
 /// Whether a value is a whole number of steps, up to rounding; anything is where there is no step.

@@ -23,7 +23,7 @@ use leptos::prelude::*;
 const NOTHING: RunColumns = RunColumns { time_s: &[], levels: [&[]; 2], voltages: [&[]; 2] };
 
 /// Least range of the chart of levels (m).
-const LEAST_LEVELS: f64 = 0.02;
+const MIN_LEVELS: f64 = 0.02;
 /// Points on the paths of the zeros.
 const PATH_POINTS: usize = 61;
 /// Steps of each valve in the exported table of the plane.
@@ -145,7 +145,7 @@ pub fn levels(session: Session) -> Picture {
             until_s: session.own.playback.get(),
             flags: &flags,
             level_scale: per_metre(unit),
-            least_range: LEAST_LEVELS,
+            least_range: MIN_LEVELS,
             time: &tr!(lab, chart.time),
             level: &tr!(lab, responses.level_axis, unit = unit_name(unit)),
             names: [&names[0], &names[1]],
@@ -156,7 +156,7 @@ pub fn levels(session: Session) -> Picture {
 }
 
 /// Most events that have a flag: more would hide the curves.
-const MOST_FLAGS: usize = 4;
+const MAX_FLAGS: usize = 4;
 
 /// What the response charts show of a record.
 fn columns_of(record: &Record) -> RunColumns<'_> {
@@ -175,7 +175,7 @@ fn flags(lab: Lab, run: &Run) -> Vec<Flag> {
         let text = tr!(lab, explore.settled, time = lab.number_style().significant(time_s, 2));
         Some(Flag { time_s: step_s + time_s, text, role: Role::of_loop(k) })
     });
-    let events = run.nonlinear.events.iter().take(MOST_FLAGS).map(|event| {
+    let events = run.nonlinear.events.iter().take(MAX_FLAGS).map(|event| {
         let text = match event.kind {
             EventKind::Overflow { tank } => tr!(lab, chart.flag_overflow, tank = tank + 1),
             EventKind::Empty { tank } => tr!(lab, chart.flag_empty, tank = tank + 1),

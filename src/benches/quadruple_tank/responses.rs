@@ -175,7 +175,7 @@ pub fn sentence(session: Session) -> String {
             Err(_) => return tr!(lab, responses.none),
         };
         let mut parts = of_steps(session, run);
-        parts.extend(run.nonlinear.events.iter().take(MOST_EVENTS).map(|event| {
+        parts.extend(run.nonlinear.events.iter().take(MAX_EVENTS).map(|event| {
             let time = lab.number_style().fixed(event.time_s, 0);
             match event.kind {
                 EventKind::Overflow { tank } => {
@@ -236,7 +236,7 @@ fn of_steps(session: Session, run: &Run) -> Vec<String> {
 }
 
 /// Most events that the sentence tells.
-const MOST_EVENTS: usize = 4;
+const MAX_EVENTS: usize = 4;
 
 fn of_metrics(session: Session, index: usize, metrics: &LoopMetrics) -> Option<String> {
     let lab = session.lab;

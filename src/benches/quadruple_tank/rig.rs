@@ -24,7 +24,7 @@ pub const TANK: (f64, f64) = (64.0, 78.0);
 /// Width of a stream that carries the most a pump can deliver.
 const WIDEST_STREAM: f64 = 7.0;
 /// A trapezoidal tank is drawn with at least this share of its brim at the bottom, so that its level can be read.
-const LEAST_BOTTOM: f64 = 0.8;
+const MIN_BOTTOM: f64 = 0.8;
 /// The number of the level stands so far above the bottom, and higher by so much of what the far wall leans.
 const NUMBER_AT: (f64, f64) = (8.0, 2.8);
 const PIPES: [&str; 4] = ["M42 258 V18 H206 V34", "M42 148 H70 V152", "M234 258 V26 H70 V34", "M234 148 H206 V152"];
@@ -103,7 +103,7 @@ fn tank(lab: Lab, index: usize, tank: &Tank, level: f64, unit: DisplayUnit) -> i
     let (left, top) = TANKS[index];
     let dryness = 1.0 - share(tank, level);
     // How far the far wall leans outwards over the height of the tank, for a trapezoidal tank.
-    let lean = TANK.0 * (1.0 - (tank.section.area(0.0) / tank.section.area(tank.height)).clamp(LEAST_BOTTOM, 1.0));
+    let lean = TANK.0 * (1.0 - (tank.section.area(0.0) / tank.section.area(tank.height)).clamp(MIN_BOTTOM, 1.0));
     let (right, bottom, foot) = (left + TANK.0, top + TANK.1, left + TANK.0 - lean);
     let (surface, brim) = (top + TANK.1 * dryness, right - lean * dryness);
     // Where the tank is narrow below, its number stands higher.
@@ -140,19 +140,19 @@ fn ghosts(run: &Trajectory, heights: [f64; 4]) -> impl IntoView + use<> {
     let marks = (0..4).filter_map(move |k| {
         let levels = run.levels[k].iter().copied();
         let (low, high) = (levels.clone().reduce(f64::min)?, levels.reduce(f64::max)?);
-        (high - low > LEAST_GHOST * heights[k]).then(|| [mark(k, low), mark(k, high)])
+        (high - low > MIN_GHOST * heights[k]).then(|| [mark(k, low), mark(k, high)])
     });
     marks.collect_view()
 }
 
 /// Least difference of the two ghost marks of a tank, as a share of its height.
-const LEAST_GHOST: f64 = 0.04;
+const MIN_GHOST: f64 = 0.04;
 
 /// The scale on the far wall of a tank, in whole steps of 1, 2 or 5 times a power of ten of the shown unit.
 fn scale(height: f64, unit: DisplayUnit, (right, top): (f64, f64)) -> String {
     let shown = to_shown(height, unit);
-    let power = 10_f64.powf((shown / MOST_TICKS).log10().floor());
-    let step = [1.0, 2.0, 5.0, 10.0].map(|m| m * power).into_iter().find(|step| shown / step <= MOST_TICKS);
+    let power = 10_f64.powf((shown / MAX_TICKS).log10().floor());
+    let step = [1.0, 2.0, 5.0, 10.0].map(|m| m * power).into_iter().find(|step| shown / step <= MAX_TICKS);
     let step = step.unwrap_or(shown);
     let ticks = (1..).map(|k| f64::from(k) * step).take_while(|at| *at < shown * BRIM);
     let tick = |at| format!("M{right} {} h-4", top + TANK.1 * (1.0 - at / shown));
@@ -160,7 +160,7 @@ fn scale(height: f64, unit: DisplayUnit, (right, top): (f64, f64)) -> String {
 }
 
 /// Most ticks on a wall.
-const MOST_TICKS: f64 = 10.0;
+const MAX_TICKS: f64 = 10.0;
 
 /// Share of the height from which a tank is full: a level at the wall is the square of a root, a rounding below it.
 const BRIM: f64 = 1.0 - 1e-9;
