@@ -96,6 +96,22 @@ mod tests {
     }
 
     #[test]
+    fn a_loop_is_on_the_edge_from_a_sensitivity_peak_of_5_until_it_is_unstable() {
+        let plant = andreis::plant();
+        let gains = plant.gains(&plant.rest(1.0, 0.017).unwrap());
+        let of = |gain: f64| LoopQuality::of(&gains, &LevelController::pi(gain, 2500.0)).unwrap().unwrap();
+        let (mut calm, mut swinging) = (10.0, 120.0);
+        for _ in 0..40 {
+            let gain = f64::midpoint(calm, swinging);
+            if of(gain).sensitivity_peak().is_some_and(|peak| peak < 5.0) { calm = gain } else { swinging = gain }
+        }
+        assert!((of(calm).sensitivity_peak().unwrap() - 5.0).abs() < 1e-6, "the peak grows with the gain");
+        assert!(!of(0.99 * calm).is_on_the_edge() && of(0.99 * calm).is_fragile());
+        assert!(of(1.01 * calm).is_on_the_edge());
+        assert!(!of(120.0).is_on_the_edge() && of(120.0).is_fragile(), "what is unstable is not on the edge");
+    }
+
+    #[test]
     fn the_loops_of_the_slides_are_stable() {
         let plant = level_slides::plant();
         let gains = plant.gains(&plant.rest(0.5, 0.0).unwrap());
