@@ -207,13 +207,15 @@ test('a rig of one\'s own has a name, which its link keeps', async ({ lab, page 
   await lab.id('rig-numbers').locator('summary').click();
   await expect(lab.id('rig-name'), 'a published rig has its own').toBeHidden();
   await lab.type('rig-area1', '30');
+  await expect.poll(() => page.url()).toContain('#lab=');
+  const unnamed = page.url();
   await lab.id('rig-name').fill('Bench 3, <b>new</b> outlets');
   await lab.id('rig-name').blur();
   await lab.settle();
   const shown = () => lab.id('preset').locator('option:checked').textContent();
   expect(await shown()).toBe('Bench 3, <b>new</b> outlets');
   // The address holds it once it has rested.
-  await expect.poll(() => page.url()).toContain('#lab=');
+  await expect.poll(() => page.url()).not.toBe(unnamed);
   await page.reload();
   await lab.ready();
   expect(await shown()).toBe('Bench 3, <b>new</b> outlets');
