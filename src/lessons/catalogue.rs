@@ -16,11 +16,6 @@ use crate::widgets::Tick;
 pub fn Catalogue() -> impl IntoView {
     let lab = use_lab();
     let lessons = load::all();
-    let agreed = RwSignal::new(kept::is_agreed());
-    let on_agree = Callback::new(move |agrees: bool| {
-        kept::agree(agrees);
-        agreed.set(agrees);
-    });
     let rows = LESSON_IDS.iter().enumerate().map(|(index, id)| {
         let lesson = Signal::derive(move || lessons.with(|lessons| lessons.get(index).cloned().flatten()));
         view! { <LessonRow id number=index + 1 lesson /> }
@@ -29,11 +24,23 @@ pub fn Catalogue() -> impl IntoView {
         <main class="side-page lessons" id="bench" tabindex="-1" data-testid="lessons">
             <h2>{say!(lab, lesson.list)}</h2>
             <p class="lead">{say!(lab, lesson.list_lead)}</p>
-            <Tick id="keep-progress" text=say!(lab, lesson.keep) ticked=agreed disabled=false on_tick=on_agree />
+            <KeepProgress />
             <ol class="lesson-list">{rows.collect_view()}</ol>
             <OwnFile />
         </main>
     }
+}
+
+/// Whether the browser keeps progress: the student decides.
+#[component]
+pub fn KeepProgress() -> impl IntoView {
+    let lab = use_lab();
+    let agreed = RwSignal::new(kept::is_agreed());
+    let on_agree = Callback::new(move |agrees: bool| {
+        kept::agree(agrees);
+        agreed.set(agrees);
+    });
+    view! { <Tick id="keep-progress" text=say!(lab, lesson.keep) ticked=agreed disabled=false on_tick=on_agree /> }
 }
 
 #[component]

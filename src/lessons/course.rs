@@ -61,6 +61,11 @@ pub fn begin() -> bool {
     true
 }
 
+/// Whether there is a system, which keeps what is done.
+pub fn is_there() -> bool {
+    COURSE.with_borrow(Option::is_some)
+}
+
 /// What the system kept of a lesson.
 pub fn resumed(lesson: &Lesson) -> Option<Progress> {
     let text = COURSE.with_borrow(|course| course.as_ref().map(|course| course.get("cmi.suspend_data")))?;

@@ -8,11 +8,13 @@ use leptos::html::H2;
 use leptos::prelude::*;
 use quadtank_lesson::{Answer, Lesson, Step, Task, TaskKind};
 
+use super::catalogue::KeepProgress;
 use super::changed::WhatWasSet;
 use super::classroom::{Classroom, tongue, use_classroom};
 use super::finish::Finish;
 use super::prose::{Prose, Still};
 use super::task::TaskView;
+use super::{course, kept};
 use crate::lab::{Lab, use_lab};
 use crate::texts::{say, tr};
 
@@ -60,6 +62,7 @@ fn StepPanel(lesson: Arc<Lesson>, step: Step, index: usize) -> impl IntoView {
         focus_at_first(heading);
     }
     let count = lesson.steps.len();
+    let is_kept = kept::is_agreed() || course::is_there();
     let is_done = Memo::new({
         let lesson = Arc::clone(&lesson);
         move |_| room.progress.with(|progress| progress.as_ref().is_some_and(|p| p.is_step_done(&lesson, index)))
@@ -94,6 +97,8 @@ fn StepPanel(lesson: Arc<Lesson>, step: Step, index: usize) -> impl IntoView {
                 <Prose text />
                 {tasks.collect_view()}
                 {after}
+                // A reload would begin anew, unless the browser keeps what was done; a course keeps it itself.
+                {(!is_kept).then(|| view! { <KeepProgress /> })}
             </div>
             <Turn room lab index count is_done=is_done.into() />
         </aside>
@@ -151,14 +156,40 @@ fn Dots(lesson: Arc<Lesson>, index: usize) -> impl IntoView {
     view! { <div class="dots" role="img" aria-label=name>{dots.collect_view()}</div> }
 }
 
+/// Brings the first task of a step that is not done into sight.
+fn show_open_task(room: Classroom, index: usize) {
+    let open = room.lesson.with_untracked(|lesson| {
+        let tasks = lesson.as_ref().and_then(|lesson| lesson.steps.get(index)).map(|step| &step.tasks)?;
+        let is_open =
+            |task: &&Task| room.progress.with_untracked(|p| p.as_ref().is_some_and(|p| !p.record(&task.id).is_done()));
+        Some(format!("[data-testid=\"task-{}\"]", tasks.iter().find(is_open)?.id))
+    });
+    if let Some(task) = open.and_then(|selector| document().query_selector(&selector).ok().flatten()) {
+        task.scroll_into_view();
+    }
+}
+
 /// Back, start over, and on.
 #[component]
 fn Turn(room: Classroom, lab: Lab, index: usize, count: usize, is_done: Signal<bool>) -> impl IntoView {
     let is_last = index + 1 == count;
-    let on = move |_| if is_last { room.at_end.set(true) } else { room.turn_to(index + 1) };
+    let is_blocked = RwSignal::new(false);
+    let on = move |_| {
+        if !is_done.get_untracked() {
+            is_blocked.set(true);
+            show_open_task(room, index);
+        } else if is_last {
+            room.at_end.set(true);
+        } else {
+            room.turn_to(index + 1);
+        }
+    };
     let name = if is_last { say!(lab, lesson.finish) } else { say!(lab, lesson.next) };
     view! {
         <div class="turn">
+            <p class="blocked" role="status" data-testid="lesson-blocked">
+                {move || (is_blocked.get() && !is_done.get()).then(|| tr!(lab, lesson.answer_first))}
+            </p>
             <button type="button" class="button" data-testid="lesson-back" disabled={index == 0} on:click=move |_| room.turn_to(index - 1)>
                 {say!(lab, lesson.back)}
             </button>
@@ -172,7 +203,7 @@ fn Turn(room: Classroom, lab: Lab, index: usize, count: usize, is_done: Signal<b
                 data-testid="lesson-next"
                 aria-disabled=move || (!is_done.get()).then_some("true")
                 title=move || if is_done.get() { String::new() } else { tr!(lab, lesson.answer_first) }
-                on:click=move |event| if is_done.get_untracked() { on(event) }
+                on:click=on
             >
                 {name}
             </button>

@@ -2,8 +2,11 @@
 
 use std::sync::Arc;
 
+use leptos::html::Div;
 use leptos::prelude::*;
 use quadtank_lesson::{Answer, Feedback, Lesson, Task, TaskKind, Text, Tongue, feedback_text, points_of};
+
+use web_sys::{ScrollIntoViewOptions, ScrollLogicalPosition};
 
 use super::answers::{Choices, GoalList, NumberAnswer, Ordering, Words};
 use super::classroom::{tongue, use_classroom};
@@ -71,6 +74,7 @@ pub fn TaskView(lesson: Arc<Lesson>, task: Task, index: usize) -> impl IntoView 
 fn Said(lesson: Arc<Lesson>, task: Arc<Task>) -> impl IntoView {
     let (lab, room) = (use_lab(), use_classroom());
     let is_marked = task.kind.is_marked();
+    let has_options = matches!(task.kind, TaskKind::Choose(_));
     let id = task.id.clone();
     let last = Memo::new(move |_| {
         room.said
@@ -93,13 +97,15 @@ fn Said(lesson: Arc<Lesson>, task: Arc<Task>) -> impl IntoView {
             Some(match (is_marked, is_right, record.shown) {
                 (false, ..) => tr!(lab, lesson.recorded),
                 (true, true, _) => tr!(lab, lesson.right),
-                (true, false, true) => tr!(lab, lesson.solution_shown),
+                // A goal is shown when it is asked for; what is said of a wrong choice stays said of it.
+                (true, false, true) if !has_options => tr!(lab, lesson.solution_shown),
                 // A remark while the student tries is no verdict.
                 (true, false, false) if record.wrong == 0 => return None,
-                (true, false, false) => tr!(lab, lesson.wrong),
+                (true, false, _) => tr!(lab, lesson.wrong),
             })
         }
     };
+    let lesson_of_solution = Arc::clone(&lesson);
     let words = {
         let task = Arc::clone(&task);
         move || {
@@ -110,12 +116,23 @@ fn Said(lesson: Arc<Lesson>, task: Arc<Task>) -> impl IntoView {
         }
     };
     let solution = {
-        let task = Arc::clone(&task);
+        let (task, lesson_of_solution) = (Arc::clone(&task), lesson_of_solution);
         move || {
-            let record = room.followed_record(&task.id);
-            let TaskKind::Number(number) = &task.kind else { return None };
-            let right = record.shown.then(|| room.right_number(number)).flatten()?;
-            Some(tr!(lab, lesson.solution_is, value = written(lab, Some(right), &number.unit, 3)))
+            if !room.followed_record(&task.id).shown {
+                return None;
+            }
+            match &task.kind {
+                TaskKind::Number(number) => {
+                    let right = room.right_number(number)?;
+                    Some(tr!(lab, lesson.solution_is, value = written(lab, Some(right), &number.unit, 3)).into_any())
+                }
+                TaskKind::Choose(choose) => {
+                    let right = choose.options.iter().find(|option| option.correct)?;
+                    let why = right.feedback.shown(tongue(lab, &lesson_of_solution)).to_owned();
+                    Some(view! { <b>{tr!(lab, lesson.solution_shown)}</b> " " {inline(&why)} }.into_any())
+                }
+                _ => None,
+            }
         }
     };
     let class = move || match last.get() {
@@ -123,8 +140,22 @@ fn Said(lesson: Arc<Lesson>, task: Arc<Task>) -> impl IntoView {
         Some(_) => "said",
         None => "said none",
     };
+    // On a phone the bench covers the lower half: what is said of an answer comes into sight.
+    let element = NodeRef::<Div>::new();
+    Effect::new(move |before: Option<bool>| {
+        let is_said = last.get().is_some();
+        if before.is_some()
+            && is_said
+            && let Some(element) = element.get_untracked()
+        {
+            let options = ScrollIntoViewOptions::new();
+            options.set_block(ScrollLogicalPosition::Nearest);
+            element.scroll_into_view_with_scroll_into_view_options(&options);
+        }
+        is_said
+    });
     view! {
-        <div class=class role="status" data-testid=format!("said-{}", task.id)>
+        <div class=class role="status" node_ref=element data-testid=format!("said-{}", task.id)>
             // Its room is there from the start, so that nothing below moves.
             {room_for}
             <div><b>{verdict}</b> " " {words} " " {solution}</div>

@@ -56,6 +56,20 @@ test('a wrong answer says why, costs a point, and moves nothing', async ({ lab }
   await expect(lab.id('lesson-next')).toHaveAttribute('aria-disabled', 'true');
 });
 
+test('a step that is not done says why it cannot be left, and a lesson ticks off nothing of a first visit', async ({ lab, page }) => {
+  await begin(lab, lessonOf('two-valves-one-zero'), { step: 3 });
+  await expect(lab.id('lesson-blocked')).toBeEmpty();
+  // Playwright waits for what is said to be disabled.
+  await lab.id('lesson-next').click({ force: true });
+  await expect(lab.id('lesson-blocked')).not.toBeEmpty();
+  await expect(lab.id('step-title')).toContainText('Step 3');
+  await expect(page.locator('.lesson [data-testid^=task-]').first()).toBeInViewport();
+  await expect(lab.id('keep-progress')).not.toBeChecked();
+  await lab.id('leave-lesson').click();
+  await lab.settle();
+  for (const id of ['prompt-water', 'prompt-valves', 'prompt-swap']) await expect(lab.id(id)).not.toHaveClass(/done/);
+});
+
 test('a goal that is given up is shown, without points', async ({ lab }) => {
   const lesson = lessonOf('two-valves-one-zero');
   await begin(lab, lesson, { step: 3 });

@@ -77,12 +77,24 @@ fn references(setup: &Setup) -> [f64; 2] {
 pub fn Prompts() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
-    let start = untrack(|| Start::of(session));
+    // What a lesson sets on the bench was not tried by the student: a visit starts anew after it.
+    let start = StoredValue::new(None::<Start>);
     // What was done stays done.
     let done = RwSignal::new([false; 3]);
     let last = RwSignal::new(None::<Prompt>);
     Effect::new(move || {
         let now = Start::of(session);
+        if lab.stage.with(Option::is_some) {
+            return start.set_value(None);
+        }
+        let Some(start) = start.get_value() else {
+            // After a lesson the bench has its own document back before the results are those of it.
+            let is_own = |setup: &Setup| session.document.with_untracked(|document| document.setup == *setup);
+            if session.throttled.setup.with(|setup| is_own(setup)) {
+                start.set_value(Some(now));
+            }
+            return;
+        };
         for (k, (prompt, _)) in PROMPTS.into_iter().enumerate() {
             if start.is_done(prompt, &now) && !done.with_untracked(|done| done[k]) {
                 done.update(|done| done[k] = true);
