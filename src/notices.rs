@@ -106,8 +106,8 @@ fn content(lab: Lab, notice: Notice) -> AnyView {
         }
         .into_any(),
         Notice::Continue(link) => view! {
-            <div>{tr!(lab, app.last)}</div>
-            <button type="button" class="button small" data-testid="continue" on:click=move |_| lab.open(document_from_link(&link))>
+            <div>{tr!(lab, app.last)} {name_of_bench(lab, &link)}</div>
+            <button type="button" class="button small" data-testid="continue" on:click=move |_| go_on(lab, &link)>
                 {tr!(lab, app.go_on)}
             </button>
         }
@@ -141,6 +141,18 @@ fn content(lab: Lab, notice: Notice) -> AnyView {
         }
         Notice::NotKept => view! { <div>{tr!(lab, app.not_kept)}</div> }.into_any(),
     }
+}
+
+/// The bench of a link, in brackets.
+fn name_of_bench(lab: Lab, link: &str) -> Option<String> {
+    let document = document_from_link(link).ok()?;
+    scenes::bench_of(lab, &document).map(|bench| format!("({})", (bench.title)(lab)))
+}
+
+/// Goes on with the experiment of a link, also in the address.
+fn go_on(lab: Lab, link: &str) {
+    lab.open(document_from_link(link));
+    share::show_address(&share::kept_reference(lab, lab.bench.get_untracked()));
 }
 
 fn undo_load(lab: Lab) {

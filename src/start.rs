@@ -87,7 +87,7 @@ impl StartFlags {
                 true
             }
             "lang" => {
-                self.language = Language::ALL.into_iter().find(|language| language.tag() == value);
+                self.language = Language::spoken(&value);
                 self.language.is_some()
             }
             "theme" => {

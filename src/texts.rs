@@ -14,11 +14,16 @@ pub use generated::{Language, terms};
 impl Language {
     /// The language of a tag such as `pt-BR` or `en_GB`, if need be of another region; the first one where it is not spoken here.
     pub fn of_tag(tag: &str) -> Self {
+        Self::spoken(tag).unwrap_or_default()
+    }
+
+    /// The language of a tag such as `pt-BR` or `pt`, if it is spoken here.
+    pub fn spoken(tag: &str) -> Option<Self> {
         let tag = tag.replace('_', "-").to_ascii_lowercase();
         let primary = |tag: &str| tag.split('-').next().map(str::to_ascii_lowercase);
         let known = Self::ALL.into_iter();
         let same = known.clone().find(|language| language.tag().eq_ignore_ascii_case(&tag));
-        same.or_else(|| known.clone().find(|language| primary(language.tag()) == primary(&tag))).unwrap_or_default()
+        same.or_else(|| known.clone().find(|language| primary(language.tag()) == primary(&tag)))
     }
 
     /// How the language writes numbers.

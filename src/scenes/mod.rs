@@ -85,7 +85,7 @@ pub fn end(lab: Lab) {
 }
 
 /// The bench of a document.
-fn bench_of(lab: Lab, document: &Document) -> Option<&'static BenchEntry> {
+pub fn bench_of(lab: Lab, document: &Document) -> Option<&'static BenchEntry> {
     lab.benches.iter().find(|bench| bench.id == document.bench())
 }
 
