@@ -109,6 +109,8 @@ fn width(pen: Pen) -> f64 {
 const FINE_WIDTH: f64 = 1.0;
 /// Corners for each px of the plot from which on a line is that fine.
 const DENSE: f64 = 0.8;
+/// Most of the height of a plot that words at flags may pile up to.
+const WORDS_SHARE: f64 = 0.4;
 
 /// Paints the things of one chart, given in CSS px.
 pub(super) struct Brush<'a> {
@@ -223,13 +225,25 @@ impl Brush<'_> {
         let plot = &self.frame.plot;
         let x = (x + label.offset.0).min(plot.right() - 2.0 - ahead).max(plot.left + 2.0 + behind);
         let font = if label.bold { FontStyle::Bold } else { FontStyle::Normal };
-        let y = y + label.offset.1;
+        let half = LINE / 2.0;
         if label.on_ground {
-            let corners = [(x - behind - 1.0, y - LINE / 2.0), (x + ahead + 1.0, y + LINE / 2.0)];
-            self.paper.block(corners.map(|corner| self.fine(corner)), opaque(self.style.palette.background));
+            // A low plot has no room for a pile of words: they would cover what it shows.
+            if half - label.offset.1 > WORDS_SHARE * plot.height {
+                return;
+            }
+        }
+        // Not `clamp`, which panics where the plot is lower than a line.
+        let y = (y + label.offset.1).min(plot.bottom() - half).max(plot.top + half);
+        if label.on_ground {
+            self.ground([(x - behind - 1.0, y - half), (x + ahead + 1.0, y + half)]);
         }
         let text = Text { words: &label.text, color: self.style.palette.color(label.role), font, h_pos, turned: false };
         self.text(&text, (x, y));
+    }
+
+    /// A piece of the background, for words to stand on.
+    fn ground(&self, corners: [Px; 2]) {
+        self.paper.block(corners.map(|corner| self.fine(corner)), opaque(self.style.palette.background));
     }
 
     fn names(&self, names: &Names) {
@@ -240,8 +254,7 @@ impl Brush<'_> {
         }
         for names::Placed { index, place, h_pos, .. } in placed {
             if names.on_ground {
-                let corners = [(place.left, place.top), (place.right(), place.bottom())];
-                self.paper.block(corners.map(|corner| self.fine(corner)), opaque(self.style.palette.background));
+                self.ground([(place.left, place.top), (place.right(), place.bottom())]);
             }
             let x = match h_pos {
                 HPos::Left => place.left,
