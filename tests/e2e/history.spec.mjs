@@ -140,6 +140,12 @@ test.describe('by touch', () => {
   /** A finger that goes from the middle of a slider by so many CSS px. */
   async function swipe(lab, page, name, right, down) {
     await lab.id(name).scrollIntoViewIfNeeded();
+    // A page that still glides would carry the slider away from under the finger.
+    await page.waitForFunction(async () => {
+      const before = scrollY;
+      for (let frame = 0; frame < 5; frame += 1) await new Promise(requestAnimationFrame);
+      return scrollY === before;
+    });
     const from = await lab.middle(name);
     const client = await page.context().newCDPSession(page);
     const touch = (type, x, y) => client.send('Input.dispatchTouchEvent', { type, touchPoints: type === 'touchEnd' ? [] : [{ x, y }] });
