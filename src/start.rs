@@ -87,7 +87,7 @@ impl StartFlags {
                 true
             }
             "lang" => {
-                self.language = Language::spoken(&value);
+                self.language = Language::spoken(value);
                 self.language.is_some()
             }
             "theme" => {
