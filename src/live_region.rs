@@ -10,10 +10,10 @@ use web_sys::HtmlElement;
 
 use super::lab::use_lab;
 
-/// How long all results have to stay as they are until they are told (ms): a drag changes half a dozen sentences twenty times a second.
+/// Pause after the last change of any result before the changes are announced (ms). During a drag, results change twenty times a second.
 const RESTED_MS: u32 = 1000;
 
-/// The results that are told: elements with this attribute, which is a name of each.
+/// Selects the elements whose changes are announced. The value of the attribute names the result.
 const RESULTS: &str = "[data-result]";
 
 /// Tells the results that have changed, once they have stayed as they are for a second. A result that comes into sight with its card

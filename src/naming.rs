@@ -5,6 +5,7 @@ use quadtank_scenario::Label;
 
 use super::lab::{Lab, use_lab};
 use super::texts::say;
+use super::widgets::{TextField, limited};
 
 /// Fields for name and note of the experiment on the bench that is shown.
 #[component]
@@ -16,26 +17,19 @@ pub fn NameFields() -> impl IntoView {
         change(&mut label);
         (lab.bench.get_untracked().set_label)(lab, label);
     };
-    let rename = move |event| {
-        let name = limited(&event_target_value(&event), Label::MAX_NAME);
-        change(&|label| label.name.clone_from(&name));
-    };
+    let rename = move |name: String| change(&|label| label.name.clone_from(&name));
     let note = move |event| {
         let note = limited(&event_target_value(&event), Label::MAX_NOTE);
         change(&|label| label.note.clone_from(&note));
     };
     view! {
-        <label class="text">
-            {say!(lab, naming.name)}
-            <input
-                type="text"
-                class="text-field"
-                maxlength=Label::MAX_NAME
-                data-testid="experiment-name"
-                prop:value=move || label().name
-                on:change=rename
-            />
-        </label>
+        <TextField
+            id="experiment-name"
+            label=say!(lab, naming.name)
+            value=Signal::derive(move || label().name)
+            max=Label::MAX_NAME
+            on_change=rename
+        />
         <label class="text">
             {say!(lab, naming.note)}
             <textarea
@@ -60,11 +54,6 @@ pub fn ExperimentName() -> impl IntoView {
             {move || label.get().name}
         </span>
     }
-}
-
-/// A text of at most `max` characters: a field counts units of UTF-16, a document characters.
-pub fn limited(text: &str, max: usize) -> String {
-    text.chars().take(max).collect()
 }
 
 /// What a file of the experiment is called: its name in letters that every file system takes, before `usual`.

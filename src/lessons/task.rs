@@ -97,7 +97,7 @@ fn Said(lesson: Arc<Lesson>, task: Arc<Task>) -> impl IntoView {
             Some(match (is_marked, is_right, record.shown) {
                 (false, ..) => tr!(lab, lesson.recorded),
                 (true, true, _) => tr!(lab, lesson.right),
-                // A goal is shown when it is asked for; what is said of a wrong choice stays said of it.
+                // A student asks for the solution of a goal. That of a choice comes after the last wrong answer, whose remark is shown first.
                 (true, false, true) if !has_options => tr!(lab, lesson.solution_shown),
                 // A remark while the student tries is no verdict.
                 (true, false, false) if record.wrong == 0 => return None,

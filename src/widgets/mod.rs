@@ -17,6 +17,7 @@ mod segmented;
 mod select;
 mod table;
 mod terms;
+mod text_field;
 mod tick;
 mod time_bar;
 mod time_surface;
@@ -40,6 +41,7 @@ pub use table::{
     Caption, Cells, Figure, FigureCells, Figures, Folded, Headings, ReasonedRow, Row, TableContent, is_open,
 };
 pub use terms::{Terms, Text};
+pub use text_field::{TextField, limited};
 pub use tick::Tick;
 pub use time_bar::{Playback, TimeBar, prefers_less_motion, shown_times};
 pub use time_surface::{TimeAxis, TimeSurface, ZoomButtons};

@@ -227,7 +227,7 @@ impl Brush<'_> {
         let font = if label.bold { FontStyle::Bold } else { FontStyle::Normal };
         let half = LINE / 2.0;
         if label.on_ground {
-            // A low plot has no room for a pile of words: they would cover what it shows.
+            // Words of several flags stand above each other; in a low plot the upper ones would cover the curves.
             if half - label.offset.1 > WORDS_SHARE * plot.height {
                 return;
             }

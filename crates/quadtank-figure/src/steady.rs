@@ -3,8 +3,8 @@
 use super::range::join;
 use super::{Axis, Chart};
 
-/// Widens the value axes of `charts` so that each shows at least what `shown`, those of the frame before, showed. An axis whose label or
-/// scale has changed shows something else and stays as it is. Returns whether an axis is now wider than its chart asked for.
+/// Widens the value axes of `charts` so that each shows at least what `shown`, those of the frame before, showed. An axis with another label
+/// or scale shows another quantity or unit and is left alone. Returns whether an axis is now wider than its curves need.
 pub fn hold_value_axes(charts: &mut [Chart], shown: &[Axis]) -> bool {
     let mut is_wider = false;
     for (Chart { y, .. }, shown) in charts.iter_mut().zip(shown) {

@@ -10,9 +10,8 @@ use super::flags::locks;
 use super::session::{Session, use_session};
 use crate::errors::of_error;
 use crate::lab::Lab;
-use crate::naming::limited;
 use crate::texts::{say, tr};
-use crate::widgets::{NumberField, Scale, is_open};
+use crate::widgets::{NumberField, Scale, TextField, is_open};
 
 /// A number that each tank or each pump has, or the rig alone.
 struct RigNumber {
@@ -217,23 +216,17 @@ fn RigName() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
     let is_published = session.part(|s| matches!(s.plant, PlantSpec::Preset(_)));
-    let rename = move |event| {
-        let name = limited(&event_target_value(&event), Label::MAX_NAME);
-        session.document.update(|document| document.rig_name = name);
-    };
+    let rename = move |name: String| session.document.update(|document| document.rig_name = name);
     view! {
-        <label class="text" hidden=is_published>
-            {say!(lab, rig.name)}
-            <input
-                type="text"
-                class="text-field"
-                maxlength=Label::MAX_NAME
-                data-testid="rig-name"
-                disabled=lab.locks(locks::PRESET)
-                prop:value=move || session.document.with(|document| document.rig_name.clone())
-                on:change=rename
-            />
-        </label>
+        <TextField
+            id="rig-name"
+            label=say!(lab, rig.name)
+            value=Signal::derive(move || session.document.with(|document| document.rig_name.clone()))
+            max=Label::MAX_NAME
+            on_change=rename
+            disabled=lab.locks(locks::PRESET)
+            hidden=is_published
+        />
     }
 }
 

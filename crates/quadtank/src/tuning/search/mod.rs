@@ -98,7 +98,7 @@ pub trait Search<const N: usize> {
     /// The next point to be evaluated, the same until [`tell`](Self::tell); `None` when the search has ended.
     fn ask(&mut self) -> Option<[f64; N]>;
 
-    /// The cost of the point asked for. NaN counts as an infinite cost.
+    /// Takes the cost of the point that [`ask`](Self::ask) returned last. NaN counts as an infinite cost.
     fn tell(&mut self, cost: f64);
 
     /// The best point so far.
