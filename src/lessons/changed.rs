@@ -43,7 +43,8 @@ fn number(lab: Lab, difference: &Difference) -> Option<String> {
 fn symbol(row: &str) -> Option<&'static str> {
     Some(match row {
         "valves[]" => "γ",
-        "operating_point.pump_voltage[]" => "v",
+        "operating_point.pump_voltage[]" | "operating_point.state.pump_voltage[]" => "v",
+        "operating_point.levels[]" | "operating_point.state.levels[]" => "h",
         "controller.loops[].gain" => "K",
         "controller.loops[].integral_time_s" | "controller.pi.integral_time_s" => "Ti",
         "controller.pi.gain" => "Kp",

@@ -224,3 +224,44 @@ test('a rig of one\'s own has a name, which its link keeps', async ({ lab, page 
   await lab.settle();
   expect(await shown()).toBe('Bench 3, <b>new</b> outlets');
 });
+
+// The printed time constants are those of the printed levels, which are not at rest; the zeros too, with fewer digits.
+test('an operating point may be the printed one, or any other that is not at rest', async ({ lab, page }) => {
+  const shown = (kind, key) => lab.id('published').locator(`[data-${kind}^="${key}"]`).textContent();
+  await lab.open('preset=johansson-2000-minimum-phase&lang=en');
+  await page.locator('[data-testid=operating-point-fold] > summary').click();
+  expect(await shown('exact', 'T₃')).toBe('22.76');
+  expect(await lab.text('process-sentence')).not.toContain('not at rest');
+  await lab.id('standing').selectOption('printed');
+  await lab.settle();
+  for (const [key, exact] of [['h₁', '12.40'], ['h₃', '1.80'], ['T₁', '62.70'], ['T₂', '90.34'], ['T₃', '23.89'], ['T₄', '29.99'], ['z₁', '−0.05802']]) {
+    expect(await shown('exact', key), key).toBe(exact);
+  }
+  expect(await lab.text('process-sentence')).toContain('not at rest: with both voltages held, level 3 would fall, at first by 0.43 cm/min');
+
+  // A level by keyboard makes the state one's own; the valves leave it alone, and the address keeps it.
+  await lab.id('state-level1').fill('11.5');
+  await lab.id('state-level1').press('Enter');
+  await lab.settle();
+  await expect(lab.id('standing')).toHaveValue('own');
+  await lab.id('gamma1-number').fill('0.5');
+  await lab.id('gamma1-number').press('Enter');
+  await lab.settle();
+  expect(await shown('exact', 'h₁')).toBe('11.50');
+  expect(await lab.text('process-sentence')).toMatch(/level \d would (rise|fall)/);
+  await lab.axe();
+  await page.waitForURL(/#/);
+  await page.reload();
+  await lab.ready();
+  await page.locator('[data-testid=operating-point-fold] > summary').click();
+  await expect(lab.id('state-level1')).toHaveValue('11.50');
+  expect(await lab.value('gamma1-number')).toBe(0.5);
+
+  // Back at rest the levels follow the voltages again.
+  await lab.id('standing').selectOption('rest');
+  await lab.settle();
+  expect(await lab.id('state-level1').count()).toBe(0);
+  expect(await lab.text('process-sentence')).not.toContain('not at rest');
+  expect(await lab.value('voltage1')).toBe(3);
+  await lab.clean();
+});

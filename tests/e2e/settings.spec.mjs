@@ -170,7 +170,7 @@ test('what is not understood in the address has no effect and is named', async (
 const LOCKS = {
   preset: ['preset'],
   valves: ['gamma1', 'gamma1-number', 'gamma2', 'gamma2-number'],
-  voltages: ['voltage1', 'voltage2'],
+  voltages: ['standing', 'voltage1', 'voltage2'],
   pairing: ['pairing-diagonal', 'pairing-swapped', 'try-advised'],
   gains: ['gain1', 'gain1-number', 'gain2', 'gain2-number', 'integral1', 'integral1-number', 'integral2', 'integral2-number', 'sign1', 'sign2', 'try-advised'],
   sampling: ['antiwindup', 'manual1', 'manual2', 'sampling', 'sampling-number', 'tracking', 'tracking-number', 'weight', 'weight-number'],

@@ -23,6 +23,14 @@ export const CASES = [
     },
   },
   {
+    name: 'levels that are not at rest, with tanks that taper',
+    preset: COCOTA_MINUS,
+    set: {
+      'setup.operating_point': { state: { levels: [0.12, 0.19, 0.04, 0.08], pump_voltage: [5.5, 6] } },
+      'setup.experiment.duration_s': 400,
+    },
+  },
+  {
     name: 'swapped pairing, weights, no anti-windup',
     preset: P_PLUS,
     set: {

@@ -3,7 +3,7 @@
 use std::array::from_fn;
 
 use quadtank::control::{AntiWindup, LoopMode, PiSettings};
-use quadtank::plant::{Pump, Tank};
+use quadtank::plant::{OperatingPoint, Pump, Tank};
 use quadtank::sim::Load;
 use quadtank::study::quadruple_tank::{OperatingPointSpec, Setup};
 
@@ -87,15 +87,22 @@ fn rig(setup: &Setup) -> Section {
 }
 
 fn operating_point(setup: &Setup) -> Section {
-    let (voltage, level) = match setup.operating_point {
-        OperatingPointSpec::PumpVoltage(voltage) => (Value::Numbers(voltage.to_vec()), Value::Missing),
-        OperatingPointSpec::Levels(level) => (Value::Missing, Value::Numbers(level.to_vec())),
-    };
+    let (mut rest_voltage, mut rest_level, mut state_level, mut state_voltage) = (None, None, None, None);
+    match setup.operating_point {
+        OperatingPointSpec::PumpVoltage(voltage) => rest_voltage = Some(voltage.to_vec()),
+        OperatingPointSpec::Levels(level) => rest_level = Some(level.to_vec()),
+        OperatingPointSpec::State(OperatingPoint { levels, pump_voltage }) => {
+            (state_level, state_voltage) = (Some(levels.to_vec()), Some(pump_voltage.to_vec()));
+        }
+    }
+    let given = |numbers: Option<Vec<f64>>| numbers.map_or(Value::Missing, Value::Numbers);
     Section {
-        title: "The operating point: one of these is given, the other follows.",
+        title: "The operating point: voltages or levels at rest are given and the others follow, or a state that may not be at rest.",
         items: vec![
-            item("rest_voltage", voltage, "voltages of pumps 1 and 2 (V)"),
-            item("rest_level", level, "levels of tanks 1 and 2 (m)"),
+            item("rest_voltage", given(rest_voltage), "voltages of pumps 1 and 2 at rest (V)"),
+            item("rest_level", given(rest_level), "levels of tanks 1 and 2 at rest (m)"),
+            item("state_level", given(state_level), "levels of tanks 1 to 4 of a given state (m)"),
+            item("state_voltage", given(state_voltage), "voltages of pumps 1 and 2 that belong to it (V)"),
         ],
     }
 }

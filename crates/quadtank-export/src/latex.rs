@@ -47,6 +47,9 @@ pub fn latex(scenario: &Scenario) -> Result<String, ExportError> {
         ("levels", row(&rest.levels)),
         ("voltages", row(&rest.pump_voltage)),
         ("valves", row(&setup.valves)),
+        ("rest", if analysis.drift.is_none() { " at rest" } else { ", which are not at rest" }.to_owned()),
+        ("drifts", if analysis.drift.is_none() { "" } else { "d + " }.to_owned()),
+        ("drift", drift(&analysis)),
         ("states", states(&analysis)),
         ("a", of_model(&model.a)),
         ("b", of_model(&model.b)),
@@ -74,6 +77,14 @@ fn placeholder(name: &str) -> String {
 
 fn of_model(of: &DMatrix<f64>) -> String {
     matrix(of.row_iter().map(|row| row.iter().map(|&entry| number(entry)).collect::<Vec<_>>()))
+}
+
+/// How fast the states leave a point that is not at rest by themselves (m/s).
+fn drift(analysis: &Analysis) -> String {
+    let Some(drift) = analysis.drift else { return String::new() };
+    let states: Vec<f64> =
+        (0..4).filter(|&tank| analysis.time_constants_s[tank].is_some()).map(|tank| drift[tank]).collect();
+    format!("  d &= {}^{{\\mathsf{{T}}}}, \\\\\n", row(&states))
 }
 
 /// The tanks that are not dry, whose levels are the states.

@@ -60,8 +60,11 @@ function flows(level, pumped, loads)
     return pumped .+ [out[3], out[4], 0.0, 0.0], out .+ leak
 end
 
-"Levels (m) and pump voltages (V) at rest, by the flow balance of each tank (Cocota section 3.2.1); no walls, no limits."
+"Levels (m) and pump voltages (V): as given, or at rest by the flow balance of each tank (Cocota section 3.2.1); no walls, no limits."
 function operating_point()
+    if !isnothing(STATE_LEVEL)
+        return STATE_LEVEL, STATE_VOLTAGE
+    end
     gamma1, gamma2 = GAMMA
     k1, k2 = PUMP_GAIN
     voltage = REST_VOLTAGE
@@ -82,7 +85,7 @@ end
 # ---------------------------------------------------------------- linear analysis
 
 """
-T1 to T4 (s) at rest, T = A/(k_l a) sqrt(2 h/g) (Cocota eqs. 3.14 to 3.17, Johansson section II), and which tanks have a
+T1 to T4 (s) of upright walls, T = A/(k_l a) sqrt(2 h/g) (Cocota eqs. 3.14 to 3.17, Johansson section II), and which tanks have a
 state. One without water follows its inflow at once, and so does an upper one with next to none; its time constant is 0.
 """
 function time_constants(level)
@@ -91,20 +94,27 @@ function time_constants(level)
     return time .* wet, wet
 end
 
-"The model dx/dt = A x + B u, y = C x around rest: levels (m), pump voltages (V), measured signals (V)."
-function linear_model(level)
+"1 + T_j delta_j: how much faster a tank drains whose walls taper and whose level is not at rest (Cocota eqs. 3.14 to 3.17)."
+function drains(level, voltage)
+    time, _ = time_constants(level)
+    inflow, out = flows(level, valve_flows(voltage, no_loads()) .+ INFLOW, no_loads())
+    return 1 .+ time .* TANK_AREA_SLOPE ./ area(level) .^ 2 .* (inflow .- out)
+end
+
+"The model dx/dt = A x + B u, y = C x around the operating point: levels (m), pump voltages (V), measured signals (V)."
+function linear_model(level, voltage)
     time, wet = time_constants(level)
-    section = area(level)
+    section, drain = area(level), drains(level, voltage)
     a, b, c = zeros(4, 4), zeros(4, 2), zeros(2, 4)
     for lower in 1:2
         upper, other = lower + 2, 3 - lower
         from_above = (1 - GAMMA[other]) * PUMP_GAIN[other]
         if wet[upper]
-            a[upper, upper] = -1 / time[upper]
+            a[upper, upper] = -drain[upper] / time[upper]
             b[upper, other] = from_above / section[upper]
         end
         if wet[lower]
-            a[lower, lower] = -1 / time[lower]
+            a[lower, lower] = -drain[lower] / time[lower]
             b[lower, lower] = GAMMA[lower] * PUMP_GAIN[lower] / section[lower]
             c[lower, lower] = SENSOR_GAIN
             if wet[upper]
@@ -118,12 +128,12 @@ function linear_model(level)
 end
 
 "G(s) from pump voltages to measured signals, in the factored form of Johansson, eq. (4)."
-function transfer_matrix(level)
+function transfer_matrix(level, voltage)
     time, _ = time_constants(level)
-    section = area(level)
+    section, drain = area(level), drains(level, voltage)
     s = tf("s")
     gain(output, pump) = time[output] * SENSOR_GAIN * PUMP_GAIN[pump] / section[output]
-    lag(tank) = time[tank] * s + 1
+    lag(tank) = time[tank] * s + drain[tank]
     g11 = GAMMA[1] * gain(1, 1) / lag(1)
     g12 = (1 - GAMMA[2]) * gain(1, 2) / (lag(3) * lag(1))
     g21 = (1 - GAMMA[1]) * gain(2, 1) / (lag(4) * lag(2))
@@ -386,12 +396,12 @@ function agree(what, found, expected, scale)
 end
 
 "Everything that linear theory says."
-function check_linear_analysis(level)
+function check_linear_analysis(level, voltage)
     if isempty(EXPECTED_POLES)
         println("linear model: none, every tank is dry")
         return
     end
-    plant = linear_model(level)
+    plant = linear_model(level, voltage)
     rate = maximum(abs.(EXPECTED_POLES))
     agree("poles", sort(real.(poles(plant))), EXPECTED_POLES, rate)
     if DEGENERATE
@@ -402,7 +412,7 @@ function check_linear_analysis(level)
     gain = dcgain(plant)
     agree("steady-state gain", gain, EXPECTED_GAIN, maximum(abs.(EXPECTED_GAIN)))
     response = evalfr(plant, im * rate)
-    agree("transfer matrix", evalfr(transfer_matrix(level), im * rate), response, maximum(abs.(response)))
+    agree("transfer matrix", evalfr(transfer_matrix(level, voltage), im * rate), response, maximum(abs.(response)))
     if isnothing(EXPECTED_LAMBDA)
         println("relative gain: none, the steady-state gain is singular")
     else
@@ -428,9 +438,9 @@ end
 
 function main()
     level, voltage = operating_point()
-    agree("levels at rest", level, EXPECTED_LEVEL, TANK_HEIGHT)
-    agree("voltages at rest", voltage, EXPECTED_VOLTAGE, max.(PUMP_MAX, abs.(EXPECTED_VOLTAGE)))
-    check_linear_analysis(level)
+    agree("levels of the operating point", level, EXPECTED_LEVEL, TANK_HEIGHT)
+    agree("voltages of the operating point", voltage, EXPECTED_VOLTAGE, max.(PUMP_MAX, abs.(EXPECTED_VOLTAGE)))
+    check_linear_analysis(level, voltage)
     run = simulate(level, voltage)
     rows = [argmin(abs.(run.time .- moment)) for moment in CHECK_TIME]
     agree("levels of the run", run.level[rows, :], EXPECTED_RUN, TANK_HEIGHT')

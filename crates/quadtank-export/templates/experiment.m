@@ -22,9 +22,9 @@ function quadtank_experiment(option)
   end
   p = parameters();
   [level, voltage] = operating_point(p);
-  agree('levels at rest', level, p.expected_level, p.tank_height);
-  agree('voltages at rest', voltage, p.expected_voltage, max(p.pump_max, abs(p.expected_voltage)));
-  check_linear_analysis(p, level);
+  agree('levels of the operating point', level, p.expected_level, p.tank_height);
+  agree('voltages of the operating point', voltage, p.expected_voltage, max(p.pump_max, abs(p.expected_voltage)));
+  check_linear_analysis(p, level, voltage);
   run = simulate(p, level, voltage);
   [~, rows] = min(abs(run.time - p.check_time), [], 1);
   agree('levels of the run', run.level(rows, :), p.expected_run, p.tank_height);
@@ -91,7 +91,12 @@ function [inflow, drain] = flows(p, level, pumped, loads)
 end
 
 function [level, voltage] = operating_point(p)
-% Levels (m) and pump voltages (V) at rest, by the flow balance of each tank (Cocota section 3.2.1); no walls, no limits.
+% Levels (m) and pump voltages (V): as given, or at rest by the flow balance of each tank (Cocota section 3.2.1); no walls, no
+% limits.
+  if ~isempty(p.state_level)
+    level = p.state_level; voltage = p.state_voltage;
+    return;
+  end
   voltage = p.rest_voltage;
   if isempty(voltage)
     mixing = [p.gamma(1), 1 - p.gamma(2); 1 - p.gamma(1), p.gamma(2)] * diag(p.pump_gain);
@@ -109,27 +114,33 @@ end
 % ---------------------------------------------------------------- linear analysis
 
 function [time, wet] = time_constants(p, level)
-% T1 to T4 (s) at rest, T = A/(k_l a) sqrt(2 h/g) (Cocota eqs. 3.14 to 3.17, Johansson section II), and which tanks have a
+% T1 to T4 (s) of upright walls, T = A/(k_l a) sqrt(2 h/g) (Cocota eqs. 3.14 to 3.17, Johansson section II), and which tanks have a
 % state. One without water follows its inflow at once, and so does an upper one with next to none.
   time = area(p, level) ./ (p.loss_coefficient .* p.outlet_area) .* sqrt(2 * level / p.gravity);
   wet = time > 0 & (time > 1e-8 * max(time) | [true, true, false, false]);
   time(~wet) = 0;
 end
 
-function plant = linear_model(p, level)
-% The model dx/dt = A x + B u, y = C x around rest: levels (m), pump voltages (V), measured signals (V).
+function drain = drains(p, level, voltage)
+% 1 + T_j delta_j: how much faster a tank drains whose walls taper and whose level is not at rest (Cocota eqs. 3.14 to 3.17).
+  [inflow, out] = flows(p, level, valve_flows(p, voltage, no_loads()) + p.inflow, no_loads());
+  drain = 1 + time_constants(p, level) .* p.tank_area_slope ./ area(p, level) .^ 2 .* (inflow - out);
+end
+
+function plant = linear_model(p, level, voltage)
+% The model dx/dt = A x + B u, y = C x around the operating point: levels (m), pump voltages (V), measured signals (V).
   [time, wet] = time_constants(p, level);
-  section = area(p, level);
+  section = area(p, level); drain = drains(p, level, voltage);
   a = zeros(4); b = zeros(4, 2); c = zeros(2, 4);
   for lower = 1:2
     upper = lower + 2; other = 3 - lower;
     from_above = (1 - p.gamma(other)) * p.pump_gain(other);
     if wet(upper)
-      a(upper, upper) = -1 / time(upper);
+      a(upper, upper) = -drain(upper) / time(upper);
       b(upper, other) = from_above / section(upper);
     end
     if wet(lower)
-      a(lower, lower) = -1 / time(lower);
+      a(lower, lower) = -drain(lower) / time(lower);
       b(lower, lower) = p.gamma(lower) * p.pump_gain(lower) / section(lower);
       c(lower, lower) = p.sensor_gain;
       if wet(upper)
@@ -142,13 +153,13 @@ function plant = linear_model(p, level)
   plant = ss(a(wet, wet), b(wet, :), c(:, wet), zeros(2));
 end
 
-function g = transfer_matrix(p, level)
+function g = transfer_matrix(p, level, voltage)
 % G(s) from pump voltages to measured signals, in the factored form of Johansson, eq. (4).
   time = time_constants(p, level);
-  section = area(p, level);
+  section = area(p, level); drain = drains(p, level, voltage);
   s = tf('s');
   gain = @(output, pump) time(output) * p.sensor_gain * p.pump_gain(pump) / section(output);
-  lag = @(tank) time(tank) * s + 1;
+  lag = @(tank) time(tank) * s + drain(tank);
   g = [p.gamma(1) * gain(1, 1) / lag(1), (1 - p.gamma(2)) * gain(1, 2) / (lag(3) * lag(1));
        (1 - p.gamma(1)) * gain(2, 1) / (lag(4) * lag(2)), p.gamma(2) * gain(2, 2) / lag(2)];
 end
@@ -420,13 +431,13 @@ function agree(what, found, expected, scale)
   fprintf('%s: figures %d, largest difference %.1e of the scale\n', what, numel(expected), difference);
 end
 
-function check_linear_analysis(p, level)
+function check_linear_analysis(p, level, voltage)
 % Everything that linear theory says.
   if isempty(p.expected_poles)
     disp('linear model: none, every tank is dry');
     return;
   end
-  plant = linear_model(p, level);
+  plant = linear_model(p, level, voltage);
   rate = max(abs(p.expected_poles));
   agree('poles', reshape(sort(real(pole(plant))), 1, []), p.expected_poles, rate);
   if p.degenerate
@@ -437,7 +448,7 @@ function check_linear_analysis(p, level)
   gain = dcgain(plant);
   agree('steady-state gain', gain, p.expected_gain, max(abs(p.expected_gain(:))));
   response = freqresp(plant, rate);
-  agree('transfer matrix', freqresp(transfer_matrix(p, level), rate), response, max(abs(response(:))));
+  agree('transfer matrix', freqresp(transfer_matrix(p, level, voltage), rate), response, max(abs(response(:))));
   if isempty(p.expected_lambda)
     disp('relative gain: none, the steady-state gain is singular');
   else

@@ -73,7 +73,9 @@ def flows(level, pumped, loads):
 
 
 def operating_point():
-    """Levels (m) and pump voltages (V) at rest, by the flow balance of each tank (Cocota section 3.2.1); no walls, no limits."""
+    """Levels (m) and pump voltages (V): as given, or at rest by the flow balance of each tank (Cocota section 3.2.1); no walls, no limits."""
+    if STATE_LEVEL is not None:
+        return STATE_LEVEL, STATE_VOLTAGE
     gamma1, gamma2 = GAMMA
     k1, k2 = PUMP_GAIN
     if REST_VOLTAGE is not None:
@@ -93,7 +95,7 @@ def operating_point():
 # ---------------------------------------------------------------- linear analysis
 
 def time_constants(level):
-    """T1 to T4 (s) at rest, T = A/(k_l a) sqrt(2 h/g) (Cocota eqs. 3.14 to 3.17, Johansson section II); 0 for a dry tank."""
+    """T1 to T4 (s) of upright walls, T = A/(k_l a) sqrt(2 h/g) (Cocota eqs. 3.14 to 3.17, Johansson section II); 0 for a dry tank."""
     return area(level) / (LOSS_COEFFICIENT * OUTLET_AREA) * np.sqrt(2.0 * level / GRAVITY)
 
 
@@ -103,18 +105,24 @@ def has_state(level):
     return (time > 0.0) & ((np.arange(4) < 2) | (time > 1e-8 * time.max()))
 
 
-def linear_model(level):
-    """The model dx/dt = A x + B u, y = C x around rest: levels (m), pump voltages (V), measured signals (V)."""
-    time, wet, size = time_constants(level), has_state(level), area(level)
+def drains(level, voltage):
+    """1 + T_j delta_j: how much faster a tank drains whose walls taper and whose level is not at rest (Cocota eqs. 3.14 to 3.17)."""
+    inflow, out = flows(level, valve_flows(voltage, Loads()) + INFLOW, Loads())
+    return 1.0 + time_constants(level) * TANK_AREA_SLOPE / area(level) ** 2 * (inflow - out)
+
+
+def linear_model(level, voltage):
+    """The model dx/dt = A x + B u, y = C x around the operating point: levels (m), pump voltages (V), measured signals (V)."""
+    time, wet, size, drain = time_constants(level), has_state(level), area(level), drains(level, voltage)
     a, b, c = np.zeros((4, 4)), np.zeros((4, 2)), np.zeros((2, 4))
     for lower in (0, 1):
         upper, other = lower + 2, 1 - lower
         from_above = (1.0 - GAMMA[other]) * PUMP_GAIN[other]
         if wet[upper]:
-            a[upper, upper] = -1.0 / time[upper]
+            a[upper, upper] = -drain[upper] / time[upper]
             b[upper, other] = from_above / size[upper]
         if wet[lower]:
-            a[lower, lower] = -1.0 / time[lower]
+            a[lower, lower] = -drain[lower] / time[lower]
             b[lower, lower] = GAMMA[lower] * PUMP_GAIN[lower] / size[lower]
             c[lower, lower] = SENSOR_GAIN
             if wet[upper]:
@@ -124,15 +132,16 @@ def linear_model(level):
     return ct.ss(a[np.ix_(wet, wet)], b[wet], c[:, wet], np.zeros((2, 2)))
 
 
-def transfer_matrix(level):
+def transfer_matrix(level, voltage):
     """G(s) from pump voltages to measured signals, in the factored form of Johansson, eq. (4)."""
-    time = np.where(has_state(level), time_constants(level), 0.0)
+    wet = has_state(level)
+    time, drain = np.where(wet, time_constants(level), 0.0), np.where(wet, drains(level, voltage), 1.0)
 
     def element(output, pump):
         gain = time[output] * SENSOR_GAIN * PUMP_GAIN[pump] / area(level)[output]
         if output == pump:
-            return [GAMMA[pump] * gain], [time[output], 1.0]
-        return [(1.0 - GAMMA[pump]) * gain], np.polymul([time[output + 2], 1.0], [time[output], 1.0])
+            return [GAMMA[pump] * gain], [time[output], drain[output]]
+        return [(1.0 - GAMMA[pump]) * gain], np.polymul([time[output + 2], drain[output + 2]], [time[output], drain[output]])
 
     elements = [[element(i, j) for j in (0, 1)] for i in (0, 1)]
     return ct.tf([[num for num, _ in row] for row in elements], [[den for _, den in row] for row in elements])
@@ -256,7 +265,7 @@ def advance(level, pumped, loads, duration):
 
 
 def simulate(level, voltage):
-    """The run from rest: times (s), levels (m), references (m) and pump voltages (V), a row for each sample and for the end."""
+    """The run from the operating point: times (s), levels (m), references (m) and pump voltages (V), a row for each sample and for the end."""
     slack = 1e-9 * SAMPLING_TIME
     reference = level[:2].copy()
     loops = [Pi(i, voltage[PUMP_OF_LOOP[i]] / POWER_GAIN, SENSOR_GAIN * level[i]) for i in (0, 1)]
@@ -337,7 +346,7 @@ def agree(what, found, expected, scale):
     print(f"{what}: figures {expected.size}, largest difference {difference:.1e} of the scale" if expected.size else f"{what}: none")
 
 
-def check_linear_analysis(level, plant):
+def check_linear_analysis(level, voltage, plant):
     """Everything that linear theory says."""
     if EXPECTED_POLES.size == 0:
         print("linear model: none, every tank is dry")
@@ -350,7 +359,7 @@ def check_linear_analysis(level, plant):
         agree("transmission zeros", transmission_zeros(plant), EXPECTED_ZEROS, rate)
     gain = plant.dcgain()
     agree("steady-state gain", gain, EXPECTED_GAIN, np.abs(EXPECTED_GAIN).max())
-    agree("transfer matrix", transfer_matrix(level)(1j * rate), plant(1j * rate), np.abs(plant(1j * rate)).max())
+    agree("transfer matrix", transfer_matrix(level, voltage)(1j * rate), plant(1j * rate), np.abs(plant(1j * rate)).max())
     if EXPECTED_LAMBDA is None:
         print("relative gain: none, the steady-state gain is singular")
     else:
@@ -381,9 +390,9 @@ def plot(time, levels, references, voltages):
 
 def main():
     level, voltage = operating_point()
-    agree("levels at rest", level, EXPECTED_LEVEL, TANK_HEIGHT)
-    agree("voltages at rest", voltage, EXPECTED_VOLTAGE, np.maximum(PUMP_MAX, np.abs(EXPECTED_VOLTAGE)))
-    check_linear_analysis(level, linear_model(level))
+    agree("levels of the operating point", level, EXPECTED_LEVEL, TANK_HEIGHT)
+    agree("voltages of the operating point", voltage, EXPECTED_VOLTAGE, np.maximum(PUMP_MAX, np.abs(EXPECTED_VOLTAGE)))
+    check_linear_analysis(level, voltage, linear_model(level, voltage))
     run = time, levels, _, _ = simulate(level, voltage)
     rows = [np.abs(time - moment).argmin() for moment in CHECK_TIME]
     agree("levels of the run", levels[rows], EXPECTED_RUN, TANK_HEIGHT)

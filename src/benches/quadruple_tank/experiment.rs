@@ -12,7 +12,7 @@ use crate::shown::{ShownUnit, finer_digits, to_shown};
 use crate::texts::{say, terms, tr};
 use crate::widgets::{Card, Choice, Scale, Select, Text, Tick};
 use quadtank::sim::{Experiment, Load, LoadStep, SetPointStep};
-use quadtank::study::quadruple_tank::Setup;
+use quadtank::study::quadruple_tank::{OperatingPointSpec, Setup};
 use quadtank_scenario::{Limits, limits};
 
 /// Time of a step that the student adds (s).
@@ -201,7 +201,10 @@ pub fn ExperimentCard() -> impl IntoView {
     let lab = session.lab;
     let further = move || session.document.with(|s| further_steps(&s.setup.experiment));
     let begins = move || {
-        let is_given = session.document.with(|s| s.setup.experiment.initial_levels.is_some());
+        let is_given = session.document.with(|s| {
+            let is_state = matches!(s.setup.operating_point, OperatingPointSpec::State(_));
+            is_state || s.setup.experiment.initial_levels.is_some()
+        });
         if is_given { tr!(lab, experiment.from_levels) } else { tr!(lab, experiment.remark) }
     };
     let about = move || view! { <span class="remark">{begins}</span> };

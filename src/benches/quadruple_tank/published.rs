@@ -8,6 +8,7 @@ use crate::shown::{length_digits, to_shown, unit_name};
 use crate::texts::{say, tr};
 use crate::widgets::{Figures, Headings};
 use quadtank::literature::{Preset, PresetId};
+use quadtank::study::quadruple_tank::OperatingPointSpec;
 
 /// A row: what, computed, printed.
 type Row = (String, String, Option<String>);
@@ -32,8 +33,13 @@ pub fn PublishedFigures() -> impl IntoView {
                 return tr!(lab, process.none_printed, source = p.source);
             }
             let at_home = session.throttled.setup.with(|s| **s == quadtank::study::quadruple_tank::setup_of(p.id));
-            let lead = tr!(lab, process.charts_use, source = p.source, table = p.table);
-            let rest = if at_home { String::new() } else { format!(" {}", tr!(lab, process.printed_for)) };
+            let is_state = session.throttled.setup.with(|s| matches!(s.operating_point, OperatingPointSpec::State(_)));
+            let lead = if is_state {
+                tr!(lab, process.charts_use_state, source = p.source, table = p.table)
+            } else {
+                tr!(lab, process.charts_use, source = p.source, table = p.table)
+            };
+            let rest = if at_home || is_state { String::new() } else { format!(" {}", tr!(lab, process.printed_for)) };
             lead + &rest
         })
     };

@@ -4,11 +4,14 @@ use leptos::prelude::*;
 
 use super::session::Session;
 use crate::errors::of_plant_error;
+use crate::shown::{to_shown, unit_name};
 use crate::texts::tr;
 use quadtank::linear::{Complex, Stability};
 use quadtank::plant::PlantError;
 use quadtank::study::quadruple_tank::{ZeroEffect, ZeroSituation};
 use quadtank::study::{StudyError, StudyErrorKind};
+
+const SECONDS_PER_MINUTE: f64 = 60.0;
 
 /// The situation of the plant in force.
 pub fn situation(session: Session) -> Option<ZeroSituation> {
@@ -44,14 +47,32 @@ pub fn of_zero(session: Session) -> (String, bool) {
     (text, situation.limits_control())
 }
 
-/// What walls and pumps do not allow at the operating point.
+/// What walls and pumps do not allow at the operating point, and that it is not at rest.
 pub fn of_equilibrium(session: Session) -> Vec<String> {
     session.throttled.analysis.with(|outcome| match outcome.as_ref() {
-        Ok(analysis) => analysis.out_of_range.iter().map(|e| of_limit(session, e)).collect(),
+        Ok(analysis) => {
+            let limits = analysis.out_of_range.iter().map(|e| of_limit(session, e));
+            limits.chain(analysis.drift.map(|drift| of_drift(session, drift))).collect()
+        }
         Err(StudyError { fault: StudyErrorKind::Plant(PlantError::SingularPlant { .. }), .. }) => Vec::new(),
         Err(StudyError { fault: StudyErrorKind::Plant(error), .. }) => vec![of_limit(session, error)],
         Err(_) => Vec::new(),
     })
+}
+
+/// Which level leaves a state that is not at rest fastest, and how fast. `drift` in m/s.
+fn of_drift(session: Session, drift: [f64; 4]) -> String {
+    let lab = session.lab;
+    let unit = session.own.unit.get();
+    let (tank, rate) =
+        (0..4).map(|tank| (tank, drift[tank])).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs())).unwrap_or_default();
+    let shown = lab.number_style().significant(to_shown(rate.abs() * SECONDS_PER_MINUTE, unit), 2);
+    let unit = unit_name(unit);
+    if rate > 0.0 {
+        tr!(lab, process.state_rises, tank = tank + 1, rate = shown, unit = unit)
+    } else {
+        tr!(lab, process.state_falls, tank = tank + 1, rate = shown, unit = unit)
+    }
 }
 
 fn of_limit(session: Session, error: &PlantError) -> String {

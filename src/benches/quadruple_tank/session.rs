@@ -142,7 +142,9 @@ pub fn turn_valves(session: Session, valves: [f64; 2]) {
     }
     session.edit(|s| {
         let held = session.own.held.get_value().filter(|held| held.point == s.operating_point).or_else(|| {
-            let point = s.operating_point().ok()?;
+            // A state of one's own stays: nothing of it is held, nor released.
+            let is_rest = !matches!(s.operating_point, OperatingPointSpec::State(_));
+            let point = s.operating_point().ok().filter(|_| is_rest)?;
             let levels = [point.levels[0], point.levels[1]];
             Some(Held { levels, voltages: point.pump_voltage, point: s.operating_point })
         });

@@ -5,10 +5,10 @@ use quadtank::study::quadruple_tank::Setup;
 use quadtank_scenario::Limits;
 
 use super::flags::locks;
+use super::four_levels::{FourLevels, LEVEL};
 use super::session::use_session;
-use crate::controls::{ParamControl, ParamNumber};
+use crate::controls::ParamControl;
 use crate::lab::Lab;
-use crate::shown::{ShownUnit, finer_digits, unit_name};
 use crate::texts::{say, tr};
 use crate::widgets::{Choice, Select};
 
@@ -18,7 +18,7 @@ const LOWER: ParamControl<Setup> = ParamControl {
     read: |s, k| initial_level(s, k),
     write: |s, k, level| set_initial_level(s, k, level),
     within: |s, k| Limits::new(0.0, s.plant().tanks[k].height),
-    ..LEVEL
+    ..INITIAL
 };
 const UPPER: ParamControl<Setup> = ParamControl {
     ids: [("", "start-level3"), ("", "start-level4")],
@@ -26,15 +26,9 @@ const UPPER: ParamControl<Setup> = ParamControl {
     read: |s, k| initial_level(s, k + 2),
     write: |s, k, level| set_initial_level(s, k + 2, level),
     within: |s, k| Limits::new(0.0, s.plant().tanks[k + 2].height),
-    ..LEVEL
+    ..INITIAL
 };
-const LEVEL: ParamControl<Setup> = ParamControl {
-    path: |_, _| "experiment.initial_levels[]",
-    shown_unit: Some(|s| ShownUnit::length(s.plant.display_unit())),
-    finer: Some(|s| finer_digits(s.plant.display_unit())),
-    digits: Some(2),
-    ..ParamControl::locked_by(locks::EXPERIMENT)
-};
+const INITIAL: ParamControl<Setup> = ParamControl { path: |_, _| "experiment.initial_levels[]", ..LEVEL };
 
 fn initial_level(setup: &Setup, tank: usize) -> f64 {
     setup.experiment.initial_levels.map_or(0.0, |levels| levels[tank])
@@ -66,17 +60,7 @@ pub fn StartControls() -> impl IntoView {
             Choice::new(true, "levels", tr!(lab, experiment.start_levels)),
         ]
     });
-    let fields = move || {
-        view! {
-            <div class="levels" role="group" aria-label=say!(lab, experiment.start)>
-                {[&LOWER, &UPPER].into_iter().enumerate().flat_map(|(row, control)| [0, 1].map(|index| {
-                    let symbol = ["h₁", "h₂", "h₃", "h₄"][2 * row + index];
-                    view! { <span class="field"><span aria-hidden="true">{symbol}</span><ParamNumber session control index /></span> }
-                })).collect_view()}
-                <span class="unit">{move || unit_name(session.own.unit.get())}</span>
-            </div>
-        }
-    };
+    let fields = move || view! { <FourLevels controls=[&LOWER, &UPPER] name=say!(lab, experiment.start) /> };
     view! {
         <div class="row load">
             <label for="start-kind">{say!(lab, experiment.start)}</label>

@@ -1,10 +1,19 @@
 use quadtank::literature::PresetId;
-use quadtank::study::quadruple_tank::setup_of;
+use quadtank::plant::OperatingPoint;
+use quadtank::study::quadruple_tank::{OperatingPointSpec, setup_of};
 
 use super::*;
 use crate::sample;
 
-/// Documents of every shape: each preset, everything at once, singular plants, dry tanks.
+/// A rig at levels that are not at rest.
+fn at_a_state() -> Scenario {
+    let mut scenario = Scenario::default();
+    scenario.setup.operating_point =
+        OperatingPointSpec::State(OperatingPoint { levels: [0.124, 0.127, 0.018, 0.014], pump_voltage: [3.0, 3.0] });
+    scenario
+}
+
+/// Documents of every shape: each preset, everything at once, singular plants, dry tanks, a state that is not at rest.
 fn scenarios() -> Vec<Scenario> {
     let presets = PresetId::ALL.map(|id| Scenario::from(setup_of(id)));
     let valves = [[0.4, 0.6], [1.0, 0.0], [0.0, 0.0], [1.0, 1.0], [0.0, 0.5]].map(|valves| {
@@ -12,7 +21,7 @@ fn scenarios() -> Vec<Scenario> {
         scenario.setup.valves = valves;
         scenario
     });
-    presets.into_iter().chain(valves).chain([sample::everything_acts()]).collect()
+    presets.into_iter().chain(valves).chain([sample::everything_acts(), at_a_state()]).collect()
 }
 
 /// What stands outside of comments.
@@ -53,6 +62,18 @@ fn braces_and_environments_are_closed_in_order() {
             }
         }
         assert!(text.is_ascii(), "{text}");
+    }
+}
+
+#[test]
+fn a_model_away_from_rest_has_its_drift() {
+    let rest = latex(&Scenario::default()).unwrap();
+    assert!(rest.contains("(V) at rest,") && !rest.contains("d + A x"), "{rest}");
+    let state = latex(&at_a_state()).unwrap();
+    assert!(state.contains("not at rest,") && state.contains(r"\dot{x} &= d + A x + B u"), "{state}");
+    let drift = analyse(&at_a_state().setup).unwrap().drift.unwrap();
+    for rate in drift {
+        assert!(state.contains(&number(rate)), "{rate}: {state}");
     }
 }
 

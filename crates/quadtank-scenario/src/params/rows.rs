@@ -54,6 +54,8 @@ pub const PARAMS: &[Param] = &[
     row("valves[]", "", limits::VALVE, Linear, "Valve fractions γ1, γ2: the share of the flow of each pump that goes to the lower tank"),
     row("operating_point.pump_voltage[]", "V", limits::PUMP_VOLTAGE, Linear, "Voltages of pumps 1 and 2 at rest; the levels follow"),
     row("operating_point.levels[]", "m", limits::LEVEL, Linear, "Levels of tanks 1 and 2 at rest; the voltages follow"),
+    row("operating_point.state.levels[]", "m", limits::LEVEL, Linear, "Levels of tanks 1 to 4 that the run begins at and the linear model is taken around, at rest or not"),
+    row("operating_point.state.pump_voltage[]", "V", limits::PUMP_VOLTAGE, Linear, "Voltages of pumps 1 and 2 that belong to these levels"),
 
     // Two PI loops.
     row("controller.loops[].gain", "V/V", limits::GAIN, Logarithmic, "Gain K of the loop, of either sign but not 0"),

@@ -9,14 +9,17 @@ use serde::Serialize;
 
 use super::{Answer, ComplexNumber, complex_numbers};
 
-/// What linear theory says of a setup at its equilibrium.
+/// What linear theory says of a setup at its operating point.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct AnalysisReport {
-    /// The equilibrium: levels (m) and pump voltages (V), walls and limits ignored.
+    /// Levels (m) and pump voltages (V), walls and limits ignored.
     pub operating_point: OperatingPoint,
     /// Where the walls (m) or the pumps (V) do not allow it.
     pub out_of_range: Vec<PlantError>,
+    /// How fast the levels leave an operating point that is not at rest by themselves (m/s); absent at rest.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub drift: Option<[f64; 4]>,
     /// Time constants T1…T4 (s); null for a tank that is dry.
     pub time_constants_s: [Option<f64>; 4],
     /// The linear model without dry tanks: inputs pump voltages (V), outputs measured signals (V), states levels (m).
@@ -98,6 +101,7 @@ impl From<&Analysis> for AnalysisReport {
         let [diagonal, swapped] = analysis.linear.niederlinski;
         Self {
             operating_point: analysis.operating_point,
+            drift: analysis.drift,
             out_of_range: analysis.out_of_range.clone(),
             time_constants_s: analysis.time_constants_s,
             model: LinearModel::from(&analysis.linear.model),

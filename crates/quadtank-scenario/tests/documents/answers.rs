@@ -7,7 +7,7 @@ use quadtank::control::Pairing;
 use quadtank::interaction::{PairingReason, PairingVerdict};
 use quadtank::linear::{LinearError, Stability};
 use quadtank::literature::PresetId;
-use quadtank::plant::PlantError;
+use quadtank::plant::{OperatingPoint, PlantError};
 use quadtank::sim::{NoResponse, Settling, Trajectory};
 use quadtank::study::quadruple_tank::{Analysis, OperatingPointSpec, Setup, ValveMap, analyse, run, setup_of};
 use quadtank::study::{StudyError, StudyErrorKind};
@@ -231,6 +231,53 @@ fn an_operating_point_given_by_levels_is_that_of_its_voltages() {
     let by_levels = Setup { operating_point: OperatingPointSpec::Levels(levels), ..by_voltage };
     for (found, expected) in by_levels.operating_point().unwrap().pump_voltage.into_iter().zip(point.pump_voltage) {
         assert_relative_eq!(found, expected, max_relative = 1e-12);
+    }
+}
+
+/// Johansson (2000) prints 62, 90, 23 and 30 s: less than 1 s from what follows from the printed levels, not from those at rest.
+/// The expected figures are those of an independent computation, to their last digit.
+#[test]
+fn the_time_constants_that_johansson_prints_are_those_of_the_printed_levels() {
+    let preset = PresetId::JohanssonMinimumPhase.preset();
+    let state = OperatingPoint { levels: preset.printed.unwrap().levels, pump_voltage: preset.pump_voltage };
+    let setup = Setup { operating_point: OperatingPointSpec::State(state), ..johansson([0.7, 0.6]) };
+    for (setup, expected) in
+        [(&setup, [62.70, 90.34, 23.89, 29.99]), (&johansson([0.7, 0.6]), [62.36, 90.63, 22.76, 30.09])]
+    {
+        for (found, expected) in analyse(setup).unwrap().time_constants_s.into_iter().zip(expected) {
+            assert!((found.unwrap() - expected).abs() <= 0.005, "{found:?} {expected}");
+        }
+    }
+    let report = |setup: &Setup| serde_json::to_value(AnalysisReport::from(&analyse(setup).unwrap())).unwrap();
+    assert!(report(&setup)["drift"].is_array());
+    assert_eq!(report(&johansson([0.7, 0.6])).get("drift"), None);
+}
+
+/// A state that is at rest is the operating point of its voltages.
+#[test]
+fn a_state_at_rest_gives_the_answers_of_that_rest() {
+    let by_voltage = setup_of(PresetId::CocotaNonMinimumPhase);
+    let rest = by_voltage.operating_point().unwrap();
+    let by_state = Setup { operating_point: OperatingPointSpec::State(rest), ..by_voltage.clone() };
+    assert_eq!(analyse(&by_state), analyse(&by_voltage));
+    assert_eq!(run(&by_state), run(&by_voltage));
+}
+
+/// The loops bring the levels back to their references, which are the given levels, from a state that is not at rest.
+#[test]
+fn a_run_from_a_state_begins_there_and_comes_to_rest_there() {
+    let levels = [0.10, 0.14, 0.03, 0.02];
+    let state = OperatingPoint { levels, pump_voltage: [3.0, 3.0] };
+    let mut setup = Setup { operating_point: OperatingPointSpec::State(state), ..johansson([0.7, 0.6]) };
+    setup.experiment.set_point_steps.clear();
+    let run = run(&setup).unwrap();
+    for trajectory in [&run.nonlinear, &run.linear] {
+        assert_eq!(trajectory.levels.each_ref().map(|level| level[0]), levels);
+        for (level, reference) in trajectory.levels.iter().zip(levels).take(2) {
+            let moved = level.iter().map(|h| (h - reference).abs()).fold(0.0, f64::max);
+            assert!(moved > 1e-4, "{moved}");
+            assert!((level.last().unwrap() - reference).abs() < 1e-5);
+        }
     }
 }
 

@@ -106,11 +106,22 @@ pub fn by_hand() -> Value {
     document
 }
 
+/// A run from a state that is not at rest.
+pub fn from_a_state() -> Value {
+    let mut document: Value = serde_json::from_str(include_str!("../data/everything-acts.json")).unwrap();
+    document["setup"]["operating_point"] =
+        json!({ "state": { "levels": [0.12, 0.13, 0.03, 0.02], "pump_voltage": [5.0, 5.5] } });
+    document
+}
+
 /// All of them, each of which can be read.
 pub fn all() -> Vec<Value> {
     let texts = FILES.into_iter().chain(MODEL_FREE.lines()).chain(LEVEL_LOOPS.lines());
-    let documents: Vec<Value> =
-        texts.map(|text| serde_json::from_str(text).unwrap()).chain(sessions()).chain([by_hand()]).collect();
+    let documents: Vec<Value> = texts
+        .map(|text| serde_json::from_str(text).unwrap())
+        .chain(sessions())
+        .chain([by_hand(), from_a_state()])
+        .collect();
     for document in &documents {
         assert!(document_from_json(&document.to_string()).is_ok(), "{:?}", document_from_json(&document.to_string()));
     }

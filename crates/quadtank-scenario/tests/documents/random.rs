@@ -8,7 +8,7 @@ use quadtank::control::{
     ModelFreeSettings, Pairing, PiSettings, Quadrature, Window,
 };
 use quadtank::literature::{DisplayUnit, PresetId};
-use quadtank::plant::{CrossSection, Outlet, Pump, QuadrupleTank, Sensor, Tank, ValveSchedule};
+use quadtank::plant::{CrossSection, OperatingPoint, Outlet, Pump, QuadrupleTank, Sensor, Tank, ValveSchedule};
 use quadtank::sim::{Experiment, InflowStep, Load, LoadStep, Measurement, PumpVoltageStep, SetPointStep};
 use quadtank::study::model_free::{ModelFreeSetup, StartSpec};
 use quadtank::study::quadruple_tank::{OperatingPointSpec, PlantSpec, Setup};
@@ -164,6 +164,12 @@ pub fn setup(steps: usize) -> impl Strategy<Value = Setup> {
     let operating_point = prop_oneof![
         pair(limits::PUMP_VOLTAGE).prop_map(OperatingPointSpec::PumpVoltage),
         pair(limits::LEVEL).prop_map(OperatingPointSpec::Levels),
+        (pair(limits::LEVEL), pair(limits::LEVEL), pair(limits::PUMP_VOLTAGE)).prop_map(
+            |(lower, upper, pump_voltage)| {
+                let levels = [lower[0], lower[1], upper[0], upper[1]];
+                OperatingPointSpec::State(OperatingPoint { levels, pump_voltage })
+            }
+        ),
     ];
     (plant(), pair(limits::VALVE), operating_point, controller(), experiment(steps)).prop_map(
         |(plant, valves, operating_point, controller, experiment)| Setup {

@@ -284,7 +284,14 @@ mod tests {
             a[(i, i)] = -drains[i];
             b[(i, i)] = slopes[i];
         }
-        Jacobian { a, b, c: Matrix2x4::identity(), quasi_steady: [false, false, true, true], input_delay_s: [0.0; 2] }
+        Jacobian {
+            a,
+            b,
+            c: Matrix2x4::identity(),
+            quasi_steady: [false, false, true, true],
+            input_delay_s: [0.0; 2],
+            drift: Vector4::zeros(),
+        }
     }
 
     fn loops() -> [ModelFreeSettings; 2] {

@@ -55,7 +55,7 @@ pub fn eta(gammas: [f64; 2]) -> Option<f64> {
     (!eta.is_nan()).then_some(eta)
 }
 
-/// Finite transmission zeros for upper time constants `t3`, `t4` (s, 0 for a dry tank) and valve settings γ1, γ2.
+/// Finite transmission zeros at rest for upper time constants `t3`, `t4` (s, 0 for a dry tank) and valve settings γ1, γ2.
 ///
 /// At γ1 + γ2 = 1 the right-most one is exactly 0.
 ///
@@ -64,9 +64,22 @@ pub fn eta(gammas: [f64; 2]) -> Option<f64> {
 /// [`LinearError::DegenerateRank`] where det G(s) ≡ 0: at (γ1, γ2) = (1, 0) and (0, 1), and at γ1 + γ2 = 1 when both
 /// upper tanks are dry.
 pub fn zeros(t3: f64, t4: f64, gammas: [f64; 2]) -> Result<FiniteZeros, LinearError> {
-    for (field, value, max) in
-        [("t3", t3, f64::MAX), ("t4", t4, f64::MAX), ("gamma1", gammas[0], 1.0), ("gamma2", gammas[1], 1.0)]
-    {
+    zeros_off_rest(t3, t4, gammas, 1.0)
+}
+
+/// As [`zeros`], at levels that need not be at rest: `(T3 s + 1)(T4 s + 1) = ρ η`, where `ρ` is `passed`, the product of the
+/// steady-state gains from inflow to outflow of both upper tanks. Each is 1 at rest, and in a tank with upright walls.
+///
+/// # Errors
+/// As [`zeros`], and [`LinearError::OutOfRange`] for a negative, infinite or undefined `passed`.
+pub fn zeros_off_rest(t3: f64, t4: f64, gammas: [f64; 2], passed: f64) -> Result<FiniteZeros, LinearError> {
+    for (field, value, max) in [
+        ("t3", t3, f64::MAX),
+        ("t4", t4, f64::MAX),
+        ("gamma1", gammas[0], 1.0),
+        ("gamma2", gammas[1], 1.0),
+        ("passed", passed, f64::MAX),
+    ] {
         if !(0.0..=max).contains(&value) {
             return Err(LinearError::OutOfRange { field, value });
         }
@@ -78,8 +91,9 @@ pub fn zeros(t3: f64, t4: f64, gammas: [f64; 2]) -> Result<FiniteZeros, LinearEr
     if eta.is_infinite() {
         return Ok(FiniteZeros::None);
     }
-    // 1 − η without cancellation, so that the zero at the origin is exact.
-    let gap = excess_over_one(gammas) / (gamma1 * gamma2);
+    // 1 − ρη without cancellation, so that the zero at the origin is exact.
+    let gap = excess_over_one(gammas) / (gamma1 * gamma2) - (passed - 1.0) * eta;
+    let eta = passed * eta;
     if sum == 0.0 {
         return if gap == 0.0 { Err(degenerate) } else { Ok(FiniteZeros::None) };
     }
@@ -102,19 +116,18 @@ pub fn rightmost_zero(t3: f64, t4: f64, gammas: [f64; 2]) -> Option<f64> {
 }
 
 /// The path of both zeros while the valves go in a straight line from one setting to another, at `points` (at least
-/// two) settings, ends included. `time_constants` gives T3 and T4 (s) at a setting, since the operating point moves too.
+/// two) settings, ends included. `zeros_at` gives them at a setting, since the operating point may move too.
 pub fn path(
     from: [f64; 2],
     to: [f64; 2],
     points: usize,
-    time_constants: impl Fn([f64; 2]) -> [f64; 2],
+    zeros_at: impl Fn([f64; 2]) -> Result<FiniteZeros, LinearError>,
 ) -> impl Iterator<Item = PathPoint> {
     let points = points.max(2);
     (0..points).map(move |i| {
         let share = i as f64 / (points - 1) as f64;
         let gammas = [0, 1].map(|k: usize| from[k] * (1.0 - share) + to[k] * share);
-        let [t3, t4] = time_constants(gammas);
-        PathPoint { gammas, zeros: zeros(t3, t4, gammas) }
+        PathPoint { gammas, zeros: zeros_at(gammas) }
     })
 }
 
@@ -207,7 +220,7 @@ mod tests {
 
     #[test]
     fn along_a_path_the_right_most_zero_crosses_the_origin_where_the_valves_sum_to_one() {
-        let points: Vec<PathPoint> = path([0.9, 0.9], [0.1, 0.1], 101, |_| [30.0, 40.0]).collect();
+        let points: Vec<PathPoint> = path([0.9, 0.9], [0.1, 0.1], 101, |gammas| zeros(30.0, 40.0, gammas)).collect();
         assert_eq!(points.len(), 101);
         assert_eq!(points[0].gammas, [0.9, 0.9]);
         assert_eq!(points[100].gammas, [0.1, 0.1]);

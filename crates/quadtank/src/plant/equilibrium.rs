@@ -1,4 +1,4 @@
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{Disturbance, PlantError, QuadrupleTank};
 use crate::numeric::{complements, excess_over_one};
@@ -9,9 +9,10 @@ use crate::numeric::{complements, excess_over_one};
 /// seven digits in the voltages that [`QuadrupleTank::inputs_for_levels`] finds.
 pub const SINGULAR_MARGIN: f64 = 1e-9;
 
-/// Where the plant rests: the levels that given pump voltages hold, or the voltages that hold given lower levels.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+/// Levels and voltages around which the plant is looked at. It rests there where the voltages hold the levels.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
 pub struct OperatingPoint {
     /// Levels h1…h4 (m).
     pub levels: [f64; 4],

@@ -1,4 +1,4 @@
-use nalgebra::{DMatrix, Matrix2x4, Matrix4, Matrix4x2};
+use nalgebra::{DMatrix, Matrix2x4, Matrix4, Matrix4x2, Vector4};
 
 use super::{Disturbance, OperatingPoint, QuadrupleTank};
 use crate::numeric::complements;
@@ -11,8 +11,12 @@ const QUASI_STEADY: f64 = 1e-8;
 /// the slope of the outflow, `∝ 1/√h`, would leave the range of numbers.
 const DRY_LEVEL_M: f64 = 1e-60;
 
-/// The linear model `dx/dt = A x + B u(t − θ)`, `y = C x` of the plant around an operating point, in deviations: `x` levels
-/// (m), `u` pump voltages (V), each delayed by its own hose, `y` measured signals (V).
+/// A tank whose inflow and outflow differ by at most this share of the largest flow in the plant is at rest: it is far above
+/// the rounding of an equilibrium, and far below what any printed level leaves.
+const BALANCED: f64 = 1e-9;
+
+/// The linear model `dx/dt = d + A x + B u(t − θ)`, `y = C x` of the plant around an operating point, in deviations: `x` levels
+/// (m), `u` pump voltages (V), each delayed by its own hose, `y` measured signals (V). At rest the drift d is 0.
 ///
 /// A tank without water at the operating point is dry: its √-slope is infinite, so it follows its inflow at once. An upper
 /// tank with so little water that its time constant is below 1e-8 of the longest is taken to do so too. Such tanks are
@@ -30,6 +34,8 @@ pub struct Jacobian {
     pub quasi_steady: [bool; 4],
     /// Transport delay θ of each input (s).
     pub input_delay_s: [f64; 2],
+    /// Drift d: how fast the levels leave the operating point by themselves (m/s).
+    pub drift: Vector4<f64>,
 }
 
 impl Jacobian {
@@ -44,6 +50,19 @@ impl Jacobian {
             DMatrix::from_fn(2, n, |i, j| self.c[(i, states[j])]),
         )
     }
+
+    /// Slopes of the levels (m/s) that flows into the tanks (m³/s) make, where the tanks have these cross-sections (m²). Water
+    /// passes a quasi-steady upper tank at once; a dry lower tank stays dry.
+    pub fn slopes_by_flows(&self, flow: [f64; 4], area: [f64; 4]) -> [f64; 4] {
+        let passed = |lower: usize| if self.quasi_steady[lower + 2] { flow[lower + 2] } else { 0.0 };
+        let flow = [flow[0] + passed(0), flow[1] + passed(1), flow[2], flow[3]];
+        std::array::from_fn(|j| if self.quasi_steady[j] { 0.0 } else { flow[j] / area[j] })
+    }
+
+    /// Whether the plant rests at the operating point.
+    pub fn is_at_rest(&self) -> bool {
+        self.drift == Vector4::zeros()
+    }
 }
 
 impl QuadrupleTank {
@@ -51,14 +70,17 @@ impl QuadrupleTank {
     /// `1/T_j = (k_l a/A) √(g/(2h)) + δ_j` with `δ_j = (A′/A²) (inflow − outflow)`, which is 0 at an exact equilibrium
     /// and for a prismatic tank (Cocota 2009, eqs. 3.14–3.17).
     pub fn time_constants_s(&self, operating_point: &OperatingPoint) -> [Option<f64>; 4] {
-        self.decay_rates(operating_point).map(|rate| rate.map(f64::recip))
+        let OperatingPoint { levels, pump_voltage } = operating_point;
+        let net_inflow = self.net_inflows(levels, pump_voltage, &Disturbance::default());
+        self.decay_rates(levels, &net_inflow).map(|rate| rate.map(f64::recip))
     }
 
     /// The exact linear model at any point, at rest or not (Cocota 2009, eqs. 3.14–3.17).
     pub fn linearise(&self, operating_point: &OperatingPoint) -> Jacobian {
         let levels = operating_point.levels;
         let area: [f64; 4] = std::array::from_fn(|j| self.tanks[j].section.area(levels[j]));
-        let rates = self.decay_rates(operating_point);
+        let net_inflow = self.net_inflows(&levels, &operating_point.pump_voltage, &Disturbance::default());
+        let rates = self.decay_rates(&levels, &net_inflow);
         let quasi_steady = self.quasi_steady(&levels);
         let above = complements(self.valves);
 
@@ -68,7 +90,12 @@ impl QuadrupleTank {
             c: Matrix2x4::zeros(),
             quasi_steady,
             input_delay_s: self.pumps.map(|pump| pump.delay_s),
+            drift: Vector4::zeros(),
         };
+        let largest = self.largest_flow(operating_point);
+        if net_inflow.iter().any(|net| net.abs() > BALANCED * largest) {
+            jacobian.drift = jacobian.slopes_by_flows(net_inflow, area).into();
+        }
         for (j, rate) in rates.into_iter().enumerate() {
             jacobian.a[(j, j)] = if quasi_steady[j] { 0.0 } else { -rate.unwrap_or(0.0) };
         }
@@ -95,10 +122,14 @@ impl QuadrupleTank {
         jacobian
     }
 
-    /// `1/T_j` (1/s), `None` for a dry tank.
-    fn decay_rates(&self, operating_point: &OperatingPoint) -> [Option<f64>; 4] {
-        let OperatingPoint { levels, pump_voltage } = operating_point;
-        let net_inflow = self.net_inflows(levels, pump_voltage, &Disturbance::default());
+    /// The largest flow into or out of a tank (m³/s).
+    fn largest_flow(&self, operating_point: &OperatingPoint) -> f64 {
+        let fed = self.feed_flows(&operating_point.pump_voltage, &Disturbance::default());
+        fed.into_iter().chain(self.outflows(&operating_point.levels)).fold(0.0, f64::max)
+    }
+
+    /// `1/T_j` (1/s) at given levels (m) and inflows less outflows (m³/s), `None` for a dry tank.
+    fn decay_rates(&self, levels: &[f64; 4], net_inflow: &[f64; 4]) -> [Option<f64>; 4] {
         std::array::from_fn(|j| {
             let (tank, level) = (&self.tanks[j], levels[j]);
             let area = tank.section.area(level);
@@ -149,6 +180,37 @@ mod tests {
         let rest = plant.free_equilibrium(preset.pump_voltage);
         let without_delta = tank_2.outflow_slope(rest.levels[1], plant.gravity) / tank_2.section.area(rest.levels[1]);
         assert_relative_eq!(plant.linearise(&rest).a[(1, 1)], -without_delta, max_relative = 1e-12);
+    }
+
+    #[test]
+    fn the_drift_is_how_fast_the_levels_leave_a_point_that_is_not_at_rest() {
+        for id in PresetId::ALL {
+            let preset = id.preset();
+            assert!(preset.plant.linearise(&preset.plant.free_equilibrium(preset.pump_voltage)).is_at_rest(), "{id:?}");
+            let Some(printed) = preset.printed else { continue };
+            let point = OperatingPoint { levels: printed.levels, pump_voltage: preset.pump_voltage };
+            let jacobian = preset.plant.linearise(&point);
+            let expected = preset.plant.derivative(&point.levels, &point.pump_voltage, &Disturbance::default());
+            for (tank, slope) in expected.into_iter().enumerate() {
+                // Some print all digits of levels at rest, which the share of the flows says that counts as rest.
+                let rest = BALANCED * preset.plant.largest_flow(&point)
+                    / preset.plant.tanks[tank].section.area(point.levels[tank]);
+                assert_relative_eq!(jacobian.drift[tank], slope, max_relative = 1e-12, epsilon = rest);
+            }
+            if id == PresetId::JohanssonMinimumPhase {
+                assert!(!jacobian.is_at_rest());
+            }
+        }
+    }
+
+    #[test]
+    fn what_drips_into_a_dry_upper_tank_drives_the_lower_one() {
+        let (plant, _) = johansson([0.7, 0.6], [3.0, 3.0]);
+        let point = OperatingPoint { levels: [0.12, 0.13, 0.0, 0.01], pump_voltage: [3.0, 3.0] };
+        let drift = plant.linearise(&point).drift;
+        let net = 0.7 * 3.33e-6 * 3.0 + 0.4 * 3.35e-6 * 3.0 - plant.tanks[0].outflow(0.12, plant.gravity);
+        assert_relative_eq!(drift[0], net / 28e-4, max_relative = 1e-12);
+        assert_eq!(drift[2], 0.0);
     }
 
     #[test]

@@ -211,16 +211,6 @@ impl Experiment {
         self.pump_voltage_steps.iter().any(|step| step.pump == pump)
     }
 
-    /// Whether anything but the references acts on the loops.
-    pub fn is_disturbed(&self) -> bool {
-        !self.load_steps.is_empty()
-            || self.initial_levels.is_some()
-            || !self.pump_voltage_steps.is_empty()
-            || !self.inflow_steps.is_empty()
-            || self.is_noisy()
-            || self.measurement.quantised
-    }
-
     /// The reference step (m) that comes first, in all levels that step at that time; `None` when no reference moves. Steps
     /// of one level at the same time add up, and those that cancel are none.
     pub fn first_reference_step(&self) -> Option<[f64; 2]> {
@@ -315,22 +305,6 @@ mod tests {
         let reference = |time_s| experiment.reference_after(0, 2.0, time_s);
         assert_eq!([0.0, 10.0, 25.0, 30.0, 90.0].map(reference), [2.0, 2.25, 2.25, 2.125, 2.125]);
         assert_eq!(experiment.reference_after(1, 3.0, 90.0), 3.5);
-    }
-
-    #[test]
-    fn loads_noise_and_the_grid_of_the_sensor_disturb() {
-        let calm = with_steps(&[(0, 10.0, 0.25)]);
-        assert!(!calm.is_disturbed());
-        let with = |change: fn(&mut Experiment)| {
-            let mut experiment = calm.clone();
-            change(&mut experiment);
-            experiment.is_disturbed()
-        };
-        assert!(with(|e| e.load_steps.push(LoadStep { time_s: 5.0, load: Load::PumpFlow { pump: 0, flow: 1e-6 } })));
-        assert!(with(|e| e.measurement.noise_std = 1e-4));
-        assert!(with(|e| e.measurement.quantised = true));
-        assert!(with(|e| e.initial_levels = Some([0.1; 4])));
-        assert!(with(|e| e.pump_voltage_steps.push(PumpVoltageStep { pump: 1, time_s: 5.0, voltage: 3.0 })));
     }
 
     #[test]

@@ -29,10 +29,10 @@ struct LinearModel<'a> {
     op: &'a OperatingPoint,
     jacobian: &'a Jacobian,
     deviation: Vector4<f64>,
-    /// The loads that act, which change a few times in a run, and the slopes (m/s) that they make.
+    /// The loads that act, which change a few times in a run, and the slopes (m/s) that they make on top of the drift.
     loads: Disturbance,
     loaded: Vector4<f64>,
-    /// `B u` plus the loads (m/s).
+    /// `d + B u` plus the loads (m/s).
     forcing: Vector4<f64>,
     hold: ZeroOrderHold,
     hold_duration: f64,
@@ -56,7 +56,7 @@ impl<'a> LinearModel<'a> {
             jacobian,
             deviation: Vector4::from_fn(|tank, _| levels[tank] - op.levels[tank]),
             loads: Disturbance::default(),
-            loaded: Vector4::zeros(),
+            loaded: jacobian.drift,
             forcing: Vector4::zeros(),
             hold: ZeroOrderHold::new(&jacobian.a, duration),
             hold_duration: duration,
@@ -97,15 +97,6 @@ impl<'a> LinearModel<'a> {
         let leaked: [f64; 4] = from_fn(|j| load.leak_area[j] * (2.0 * plant.gravity * op.levels[j]).sqrt());
         from_fn(|j| through_valves[j] + from_above[j] - drained[j] - leaked[j] + load.tank_flow[j])
     }
-
-    /// Slopes of the levels that these flows make (m/s). Water passes a dry upper tank at once; a dry lower tank stays dry.
-    fn slopes_by_flows(&self, flow: [f64; 4]) -> [f64; 4] {
-        let is_dry = self.jacobian.quasi_steady;
-        let passed = |lower: usize| if is_dry[lower + 2] { flow[lower + 2] } else { 0.0 };
-        let flow = [flow[0] + passed(0), flow[1] + passed(1), flow[2], flow[3]];
-        let area = |j: usize| self.plant.tanks[j].section.area(self.op.levels[j]);
-        from_fn(|j| if is_dry[j] { 0.0 } else { flow[j] / area(j) })
-    }
 }
 
 impl Process for LinearModel<'_> {
@@ -118,7 +109,9 @@ impl Process for LinearModel<'_> {
         let input = Vector2::new(pump_voltage[0] - self.op.pump_voltage[0], pump_voltage[1] - self.op.pump_voltage[1]);
         if *disturbance != self.loads {
             self.loads = *disturbance;
-            self.loaded = self.slopes_by_flows(self.load_flows(disturbance)).into();
+            let area = from_fn(|j| self.plant.tanks[j].section.area(self.op.levels[j]));
+            let slopes = self.jacobian.slopes_by_flows(self.load_flows(disturbance), area);
+            self.loaded = self.jacobian.drift + Vector4::from(slopes);
         }
         self.forcing = self.jacobian.b * input + self.loaded;
         self.push = self.hold.push(&self.forcing);
@@ -188,6 +181,37 @@ mod tests {
             simulate_linear(&preset.plant, &op, &jacobian, &controller, &experiment),
         ];
         runs.map(|run| std::array::from_fn(|i| run.levels[i].last().copied().unwrap_or(f64::NAN) - op.levels[i]))
+    }
+
+    #[test]
+    fn away_from_rest_the_linear_model_drifts_as_the_plant_does() {
+        let preset = PresetId::CocotaMinimumPhase.preset();
+        let rest = preset.plant.free_equilibrium(preset.pump_voltage);
+        // Levels that are off their rest by a tenth.
+        let op = OperatingPoint { levels: rest.levels.map(|level| 1.1 * level), ..rest };
+        let by_hand = |pump: usize| PiSettings {
+            mode: LoopMode::Manual { output: op.pump_voltage[pump] / preset.plant.power_gain, until_s: f64::INFINITY },
+            ..PiSettings {
+                gain: 1.0,
+                integral_time_s: 30.0,
+                set_point_weight: 1.0,
+                anti_windup: AntiWindup::Off,
+                mode: LoopMode::Automatic,
+            }
+        };
+        let controller =
+            DecentralisedPi { pairing: Pairing::Diagonal, loops: [by_hand(0), by_hand(1)], sampling_time_s: 1.0 };
+        let experiment = Experiment::at_rest(20.0);
+        let jacobian = preset.plant.linearise(&op);
+        let nonlinear = simulate(&preset.plant, &op, &controller, &experiment);
+        let linear = simulate_linear(&preset.plant, &op, &jacobian, &controller, &experiment);
+        for tank in 0..4 {
+            let [moved, linear_moved] =
+                [&nonlinear, &linear].map(|run| run.levels[tank].last().copied().unwrap_or(f64::NAN) - op.levels[tank]);
+            assert!(moved < -1e-4, "{tank}: {moved}");
+            // What is left is the square of the way, in 20 s a few hundredths of the level.
+            assert_relative_eq!(moved, linear_moved, max_relative = 0.02);
+        }
     }
 
     #[test]

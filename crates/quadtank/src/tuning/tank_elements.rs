@@ -8,7 +8,7 @@ use crate::plant::Jacobian;
 /// # Errors
 /// None for a model of a plant; the type is that of [`TransferFunction::new`].
 pub fn tank_transfer_matrix(jacobian: &Jacobian) -> Result<TransferMatrix, LinearError> {
-    let Jacobian { a, b, c, quasi_steady, input_delay_s: delay } = jacobian;
+    let Jacobian { a, b, c, quasi_steady, input_delay_s: delay, drift: _ } = jacobian;
     let time = |tank: usize| -1.0 / a[(tank, tank)];
     let none = || TransferFunction::lags(0.0, &[], 0.0);
     let own = |i: usize| {

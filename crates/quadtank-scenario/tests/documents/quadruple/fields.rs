@@ -2,7 +2,7 @@
 
 use quadtank::control::LoopMode;
 use quadtank::literature::PresetId;
-use quadtank::plant::Pump;
+use quadtank::plant::{OperatingPoint, Pump};
 use quadtank::sim::{InflowStep, Load, PumpVoltageStep};
 use quadtank::study::quadruple_tank::{OperatingPointSpec, PlantSpec, setup_of};
 use quadtank_scenario::{DOCUMENT_LIMIT, Scenario, ScenarioError, View, from_json, limits, to_json, to_link};
@@ -31,7 +31,10 @@ pub fn full() -> Value {
     }
     let mut pinned = setup_of(PresetId::JohanssonMinimumPhase);
     pinned.operating_point = OperatingPointSpec::Levels([0.1, 0.12]);
-    scenario.pinned = vec![pinned];
+    let mut at_a_state = pinned.clone();
+    at_a_state.operating_point =
+        OperatingPointSpec::State(OperatingPoint { levels: [0.124, 0.127, 0.018, 0.014], pump_voltage: [3.0, 3.0] });
+    scenario.pinned = vec![pinned, at_a_state];
     scenario.view = View { cursor_s: Some(10.0), zoom_s: Some([0.0, 100.0]), hide_linear: false };
     serde_json::from_str(&to_json(&scenario).unwrap()).unwrap()
 }

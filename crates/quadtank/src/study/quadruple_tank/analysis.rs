@@ -7,16 +7,18 @@ use crate::study::{LinearPlant, StudyError};
 
 use super::{Prepared, Setup};
 
-/// All that linear theory says about a setup, at the exact equilibrium of its inputs.
+/// All that linear theory says about a setup, at the exact equilibrium of its inputs or at a state of one's own.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Analysis {
-    /// The equilibrium; walls and pump limits are ignored so that theory goes on where the rig would overflow.
+    /// The operating point; walls and pump limits are ignored so that theory goes on where the rig would overflow.
     pub operating_point: OperatingPoint,
-    /// Where the walls or the pumps do not allow this equilibrium.
+    /// Where the walls or the pumps do not allow it.
     pub out_of_range: Vec<PlantError>,
+    /// How fast the levels leave the operating point by themselves (m/s), the loops being open; `None` at rest.
+    pub drift: Option<[f64; 4]>,
     /// T1…T4 (s); `None` for a tank that is dry.
     pub time_constants_s: [Option<f64>; 4],
-    /// The linear plant around the equilibrium.
+    /// The linear plant around the operating point.
     pub linear: LinearPlant,
     /// The sampled closed loop with the controller of the setup.
     pub closed_loop: ClosedLoop,
@@ -53,6 +55,7 @@ impl Analysis {
         Ok(Self {
             operating_point: *operating_point,
             out_of_range: plant.violations(operating_point),
+            drift: (!jacobian.is_at_rest()).then(|| jacobian.drift.into()),
             time_constants_s: plant.time_constants_s(operating_point),
             linear: LinearPlant::of(jacobian)?,
             closed_loop: closed_loop(jacobian, &setup.controller, plant.power_gain)?,

@@ -75,8 +75,11 @@ pub fn detuned(setup: &Setup) -> Option<Setup> {
 }
 
 /// Where a rig rests whose valves are turned while its lower levels (m) are held, as long as pumps and walls allow that; else what
-/// the pumps do at `voltages` (V). Near γ1 + γ2 = 1 no pumps hold two levels of one's choice.
+/// the pumps do at `voltages` (V). Near γ1 + γ2 = 1 no pumps hold two levels of one's choice. A state of one's own stays.
 pub fn held_operating_point(setup: &Setup, levels: [f64; 2], voltages: [f64; 2]) -> OperatingPointSpec {
+    if matches!(setup.operating_point, OperatingPointSpec::State(_)) {
+        return setup.operating_point;
+    }
     let held = Setup { operating_point: OperatingPointSpec::Levels(levels), ..setup.clone() };
     let is_allowed = held.operating_point().is_ok_and(|point| held.plant().violations(&point).is_empty());
     if is_allowed { held.operating_point } else { OperatingPointSpec::PumpVoltage(voltages) }

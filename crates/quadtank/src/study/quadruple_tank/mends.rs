@@ -1,4 +1,5 @@
 use crate::linear::Stability;
+use crate::plant::OperatingPoint;
 use crate::sim::NoResponse;
 
 use super::{Analysis, OperatingPointSpec, PlantSpec, Run, Setup, detuned, run};
@@ -18,7 +19,7 @@ pub enum Mend {
     AdvisedPairing,
     /// The valves of the published rig, with which its gain is not singular.
     PublishedValves,
-    /// A lower operating point, at which no tank runs over and no pump is beyond its limits.
+    /// A lower operating point, with which no tank runs over and no pump is beyond its limits.
     LowerRest,
     /// Steps of the references that are halved until no tank runs over or dry and no pump meets a limit.
     HalvedSteps,
@@ -83,11 +84,17 @@ pub fn mend_run(setup: &Setup, found: &Run) -> Option<Mend> {
     offers.then_some(Mend::HalvedSteps)
 }
 
-/// With both voltages, or both levels, at a share of theirs.
+/// With whatever gives the operating point at a share of it.
 fn lowered(setup: &Setup, share: f64) -> Setup {
     let operating_point = match setup.operating_point {
         OperatingPointSpec::PumpVoltage(voltages) => OperatingPointSpec::PumpVoltage(voltages.map(|v| v * share)),
         OperatingPointSpec::Levels(levels) => OperatingPointSpec::Levels(levels.map(|level| level * share)),
+        OperatingPointSpec::State(OperatingPoint { levels, pump_voltage }) => {
+            OperatingPointSpec::State(OperatingPoint {
+                levels: levels.map(|level| level * share),
+                pump_voltage: pump_voltage.map(|v| v * share),
+            })
+        }
     };
     Setup { operating_point, ..setup.clone() }
 }

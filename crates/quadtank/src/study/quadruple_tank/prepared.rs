@@ -3,12 +3,12 @@ use crate::study::StudyError;
 
 use super::Setup;
 
-/// The plant of a setup at rest: what analysis and run both begin with.
+/// The plant of a setup at its operating point: what analysis and run both begin with.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prepared {
     /// The rig, with the valves of the setup.
     pub plant: QuadrupleTank,
-    /// The equilibrium; walls and pump limits are ignored.
+    /// The operating point; walls and pump limits are ignored.
     pub operating_point: OperatingPoint,
     /// The linear model around it.
     pub jacobian: Jacobian,

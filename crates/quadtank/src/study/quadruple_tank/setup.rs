@@ -50,6 +50,9 @@ pub enum OperatingPointSpec {
     PumpVoltage([f64; 2]),
     /// The levels of tanks 1 and 2 (m); the voltages follow, unless γ1 + γ2 = 1.
     Levels([f64; 2]),
+    /// Levels of all tanks (m) and pump voltages (V), at rest or not, such as those that are printed somewhere: the linear model
+    /// is the one around them, and a run begins there.
+    State(OperatingPoint),
 }
 
 /// Everything that one run depends on.
@@ -61,7 +64,7 @@ pub struct Setup {
     pub plant: PlantSpec,
     /// Valve fractions γ1, γ2, each in [0, 1].
     pub valves: [f64; 2],
-    /// Where it rests before the experiment.
+    /// Where it is before the experiment: at rest, but for a state of one's own.
     pub operating_point: OperatingPointSpec,
     /// The controller.
     pub controller: DecentralisedPi,
@@ -99,7 +102,7 @@ impl Setup {
         self.plant.rig().with_valves([0.5; 2]) == other.plant.rig().with_valves([0.5; 2])
     }
 
-    /// The equilibrium that the experiment starts from, whether or not walls and pumps allow it.
+    /// What the experiment starts from, whether or not walls and pumps allow it: an equilibrium, but for a state of one's own.
     ///
     /// # Errors
     /// [`StudyError`] at `operating_point` when levels are given and no input holds them.
@@ -110,6 +113,7 @@ impl Setup {
             OperatingPointSpec::Levels(levels) => {
                 plant.inputs_for_levels(levels).map_err(StudyError::at("operating_point"))
             }
+            OperatingPointSpec::State(state) => Ok(state),
         }
     }
 }

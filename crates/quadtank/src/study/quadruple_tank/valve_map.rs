@@ -1,31 +1,44 @@
-use crate::linear::Complex;
-use crate::linear::quadruple::{path, rightmost_zero};
-use crate::plant::QuadrupleTank;
+use crate::linear::quadruple::{FiniteZeros, path, zeros, zeros_off_rest};
+use crate::linear::{Complex, LinearError};
+use crate::plant::{OperatingPoint, QuadrupleTank};
 
-use super::Setup;
+use super::{OperatingPointSpec, Setup};
 use crate::study::StudyError;
 
-/// The transmission zeros of a rig as its valves move and its pump voltages stay: the map under the valve plane, and the
-/// paths in the pole-zero chart. Each question takes well under a microsecond.
+/// Where a rig is while its valves move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Standing {
+    /// At rest at these pump voltages (V).
+    Rest([f64; 2]),
+    /// In a state of one's own, which stays.
+    State(OperatingPoint),
+}
+
+/// The transmission zeros of a rig as its valves move and its pump voltages, or its state, stay: the map under the valve plane,
+/// and the paths in the pole-zero chart. Each question takes well under a microsecond.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ValveMap {
     plant: QuadrupleTank,
-    pump_voltage: [f64; 2],
+    standing: Standing,
 }
 
 impl ValveMap {
-    /// The map at the pump voltages of a setup.
+    /// The map at the pump voltages of a setup, or at its state.
     ///
     /// # Errors
     /// [`StudyError`] at `operating_point` when levels are given and no input holds them.
     pub fn of(setup: &Setup) -> Result<Self, StudyError> {
-        Ok(Self { plant: setup.plant(), pump_voltage: setup.operating_point()?.pump_voltage })
+        let standing = match setup.operating_point {
+            OperatingPointSpec::State(state) => Standing::State(state),
+            _ => Standing::Rest(setup.operating_point()?.pump_voltage),
+        };
+        Ok(Self { plant: setup.plant(), standing })
     }
 
     /// The map of a rig at these pump voltages (V), or in the middle of what its pumps can do.
     pub fn at(plant: QuadrupleTank, pump_voltage: Option<[f64; 2]>) -> Self {
         let middle = plant.pumps.each_ref().map(|pump| f64::midpoint(pump.voltage_min, pump.voltage_max));
-        Self { plant, pump_voltage: pump_voltage.unwrap_or(middle) }
+        Self { plant, standing: Standing::Rest(pump_voltage.unwrap_or(middle)) }
     }
 
     /// The same map without a present setting: equal for any two settings of one rig at the same voltages, so that what
@@ -37,15 +50,32 @@ impl ValveMap {
 
     /// Right-most finite zero (1/s) at valve fractions γ1, γ2; `None` where there is none.
     pub fn rightmost_zero(&self, valves: [f64; 2]) -> Option<f64> {
-        let [t3, t4] = self.upper_time_constants_s(valves);
-        rightmost_zero(t3, t4, valves)
+        self.zeros(valves).ok()?.rightmost()
     }
 
-    /// T3 and T4 (s) at valve fractions γ1, γ2; 0 for a tank that is dry, which follows its inflow at once.
-    pub fn upper_time_constants_s(&self, valves: [f64; 2]) -> [f64; 2] {
+    fn zeros(&self, valves: [f64; 2]) -> Result<FiniteZeros, LinearError> {
         let plant = self.plant.with_valves(valves);
-        let [_, _, t3, t4] = plant.time_constants_s(&plant.free_equilibrium(self.pump_voltage));
-        [t3, t4].map(|time_constant| time_constant.unwrap_or(0.0))
+        // A tank that is dry follows its inflow at once.
+        let upper_time_constants = |point: &OperatingPoint| {
+            let [_, _, t3, t4] = plant.time_constants_s(point);
+            [t3, t4].map(|time_constant| time_constant.unwrap_or(0.0))
+        };
+        match self.standing {
+            Standing::Rest(pump_voltage) => {
+                let [t3, t4] = upper_time_constants(&plant.free_equilibrium(pump_voltage));
+                zeros(t3, t4, valves)
+            }
+            Standing::State(state) => {
+                let [t3, t4] = upper_time_constants(&state);
+                // What an upper tank passes on of a change of its inflow in the long run.
+                let passed = |upper: usize, time_constant: f64| {
+                    let (tank, level) = (plant.tanks[upper], state.levels[upper]);
+                    let rate = tank.outflow_slope(level, plant.gravity) / tank.section.area(level);
+                    if time_constant > 0.0 { time_constant * rate } else { 1.0 }
+                };
+                zeros_off_rest(t3, t4, valves, passed(2, t3) * passed(3, t4))
+            }
+        }
     }
 
     /// The paths of both zeros (1/s) while both valves open by the same amount, along the line through the present
@@ -57,7 +87,7 @@ impl ValveMap {
         let from = [gamma_1 - back, gamma_2 - back];
         let to = [gamma_1 + ahead, gamma_2 + ahead];
         let mut paths = [Vec::new(), Vec::new()];
-        for point in path(from, to, points, |valves| self.upper_time_constants_s(valves)) {
+        for point in path(from, to, points, |valves| self.zeros(valves)) {
             let zeros = point.zeros.as_ref().map_or(&[][..], |zeros| zeros.as_slice());
             if let [left, right] = *zeros {
                 for (path, zero) in paths.iter_mut().zip([left, right]) {
@@ -66,5 +96,29 @@ impl ValveMap {
             }
         }
         paths
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::literature::PresetId;
+    use crate::study::quadruple_tank::{analyse, setup_of};
+
+    #[test]
+    fn at_a_state_of_ones_own_the_map_has_the_zeros_of_theory() {
+        // Two tanks of this rig taper, so that the drift matters.
+        let mut setup = setup_of(PresetId::CocotaNonMinimumPhase);
+        let rest = setup.operating_point().unwrap();
+        for share in [1.0, 0.5, 1.5] {
+            let levels = rest.levels.map(|level| share * level);
+            setup.operating_point = OperatingPointSpec::State(OperatingPoint { levels, ..rest });
+            for valves in [[0.43, 0.43], [0.7, 0.6], [0.3, 0.2]] {
+                setup.valves = valves;
+                let expected = analyse(&setup).unwrap().linear.rightmost_zero().unwrap().value.re;
+                let found = ValveMap::of(&setup).unwrap().rightmost_zero(valves).unwrap();
+                assert!((found - expected).abs() <= 1e-9 * expected.abs(), "{share} {valves:?}: {found} {expected}");
+            }
+        }
     }
 }
