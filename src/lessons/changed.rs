@@ -68,7 +68,7 @@ fn part(lab: Lab, path: &str) -> String {
         "controller" if inside.ends_with("pairing") => tr!(lab, lock.pairing),
         "controller" | "controllers" => tr!(lab, lesson.set_controller),
         "experiment" => tr!(lab, lock.experiment),
-        "test" => tr!(lab, lock.test),
+        "test" => tr!(lab, lesson.set_test),
         "objective" => tr!(lab, lock.objective),
         _ => tr!(lab, lesson.set_rest),
     };

@@ -6,6 +6,7 @@ use std::time::Duration;
 use leptos::context::Provider;
 use leptos::html::H2;
 use leptos::prelude::*;
+use leptos::wasm_bindgen::JsCast;
 use quadtank_lesson::{Answer, Lesson, Step, Task, TaskKind};
 
 use super::catalogue::KeepProgress;
@@ -54,12 +55,23 @@ pub fn focus_at_first(heading: NodeRef<H2>) {
     });
 }
 
+/// On a phone the bench has a window of its own below the text, which the step before may have left scrolled: what a step is about stands
+/// at its top.
+fn show_bench_from_its_top() {
+    if let Ok(windows) = document().query_selector_all(".desk > div") {
+        for window in (0..windows.length()).filter_map(|index| windows.item(index)) {
+            window.unchecked_into::<web_sys::Element>().set_scroll_top(0);
+        }
+    }
+}
+
 #[component]
 fn StepPanel(lesson: Arc<Lesson>, step: Step, index: usize) -> impl IntoView {
     let (lab, room) = (use_lab(), use_classroom());
     let heading = NodeRef::<H2>::new();
     if room.turned() {
         focus_at_first(heading);
+        show_bench_from_its_top();
     }
     let count = lesson.steps.len();
     let is_kept = kept::is_agreed() || course::is_there();

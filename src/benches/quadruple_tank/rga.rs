@@ -86,9 +86,8 @@ fn formula(session: Session) -> impl IntoView {
     let [first, second] = [g1, g2].map(|gamma| lab.number_style().fixed(gamma, 2));
     let below = number(g1 + g2 - 1.0);
     let gamma = |k: &'static str| view! { <msub><mi>"γ"</mi><mn>{k}</mn></msub> };
-    view! {
-        <math>
-            <msub><mi>"λ"</mi><mn>"11"</mn></msub>
+    let by_valves = || {
+        view! {
             <mo>"="</mo>
             <mfrac>
                 <mrow>{gamma("1")}{gamma("2")}</mrow>
@@ -99,6 +98,13 @@ fn formula(session: Session) -> impl IntoView {
                 <mrow><mn>{first}</mn><mo>"·"</mo><mn>{second}</mn></mrow>
                 <mn>{below}</mn>
             </mfrac>
+        }
+    };
+    let is_by_valves = session.throttled.setup.with(|s| s.has_relative_gain_of_valves());
+    view! {
+        <math>
+            <msub><mi>"λ"</mi><mn>"11"</mn></msub>
+            {is_by_valves.then(by_valves)}
         </math>
         // By itself, so that the line can break before it in a narrow card.
         " "

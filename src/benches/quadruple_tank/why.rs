@@ -55,10 +55,7 @@ fn formula((value, unit): (String, String)) -> impl IntoView {
             <msup><mi>"e"</mi><mrow><mo>"−"</mo><mi>"z"</mi><mi>"t"</mi></mrow></msup>
             <mi>"d"</mi><mi>"t"</mi>
             <mo>"="</mo>
-            <mfrac>
-                <mrow><msup><mi>"η"</mi><mi>"T"</mi></msup><mi>"r"</mi></mrow>
-                <mi>"z"</mi>
-            </mfrac>
+            <msup><mi>"η"</mi><mi>"T"</mi></msup><mi>"r"</mi><mo>"/"</mo><mi>"z"</mi>
         </math>
         <math><mo>"="</mo><mn>{value}</mn><mtext>{unit}</mtext></math>
     }

@@ -40,7 +40,7 @@ pub fn Teachers() -> impl IntoView {
             <Builder lessons />
             <section>
                 <h3>{say!(lab, lesson.grades)}</h3>
-                <p>{say!(lab, lesson.grades_lead)}</p>
+                <p>{move || if is_single_file() { tr!(lab, lesson.grades_single) } else { tr!(lab, lesson.grades_lead) }}</p>
                 <p>{say!(lab, lesson.grades_code)}</p>
             </section>
             <ReadCodes lessons />

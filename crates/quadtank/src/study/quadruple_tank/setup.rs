@@ -89,6 +89,13 @@ impl Setup {
         acting
     }
 
+    /// Whether λ11 is γ1γ2/(γ1 + γ2 − 1) (Cocota 2009, eq. 4.10): where the upper tanks pass on all of a change of their inflow in the
+    /// long run, so at rest, and in upright walls also away from it.
+    pub fn has_relative_gain_of_valves(&self) -> bool {
+        let is_state = matches!(self.operating_point, OperatingPointSpec::State(_));
+        !is_state || self.plant.rig().tanks[2..].iter().all(|tank| tank.section.area_slope == 0.0)
+    }
+
     /// This setup in the experiment of `present`, so that both runs can be compared: rig, valves and controller are its own. The
     /// operating point is that of `present` too where both have the same rig; one of another rig says nothing of this one.
     #[must_use]

@@ -103,21 +103,33 @@ impl ValveMap {
 mod tests {
     use super::*;
     use crate::literature::PresetId;
-    use crate::study::quadruple_tank::{analyse, setup_of};
+    use crate::study::quadruple_tank::{PlantSpec, analyse, setup_of};
 
     #[test]
     fn at_a_state_of_ones_own_the_map_has_the_zeros_of_theory() {
-        // Two tanks of this rig taper, so that the drift matters.
         let mut setup = setup_of(PresetId::CocotaNonMinimumPhase);
+        let mut rig = setup.plant.rig();
+        // With an upper tank that tapers, as the lower one does, zeros and gains depend on the drift.
+        rig.tanks[3].section = rig.tanks[1].section;
+        assert!(rig.tanks[3].section.area_slope != 0.0);
+        setup.plant = PlantSpec::Parameters { rig, display_unit: setup.plant.display_unit() };
         let rest = setup.operating_point().unwrap();
+        assert!(setup.has_relative_gain_of_valves());
         for share in [1.0, 0.5, 1.5] {
             let levels = rest.levels.map(|level| share * level);
             setup.operating_point = OperatingPointSpec::State(OperatingPoint { levels, ..rest });
+            assert!(!setup.has_relative_gain_of_valves());
             for valves in [[0.43, 0.43], [0.7, 0.6], [0.3, 0.2]] {
                 setup.valves = valves;
-                let expected = analyse(&setup).unwrap().linear.rightmost_zero().unwrap().value.re;
+                let linear = analyse(&setup).unwrap().linear;
+                let expected = linear.rightmost_zero().unwrap().value.re;
                 let found = ValveMap::of(&setup).unwrap().rightmost_zero(valves).unwrap();
                 assert!((found - expected).abs() <= 1e-9 * expected.abs(), "{share} {valves:?}: {found} {expected}");
+                let by_valves = valves[0] * valves[1] / (valves[0] + valves[1] - 1.0);
+                let error = (linear.rga_11.unwrap() / by_valves - 1.0).abs();
+                // Other valves than those of the rest make a drift too.
+                let is_at_rest = share == 1.0 && valves == [0.43, 0.43];
+                assert_eq!(error < 1e-9, is_at_rest, "{share} {valves:?}: {error}");
             }
         }
     }
