@@ -100,6 +100,19 @@ test('the last experiment is offered at the next visit', async ({ lab, page }) =
   await expect(lab.id('notice')).toHaveCount(0);
 });
 
+test('the offer to go on names the bench of another experiment, and its address', async ({ lab, page }) => {
+  await lab.open('bench=level-loop&lang=en');
+  await lab.type('level-gain-number', '5');
+  await expect.poll(() => page.url()).toContain('#lab=');
+  await page.goto('about:blank');
+  await lab.open('lang=en');
+  await expect(lab.id('notice')).toContainText('Level loop');
+  await lab.id('continue').click();
+  await lab.settle();
+  expect(await lab.value('level-gain-number')).toBe(5);
+  expect(page.url()).toContain('bench=level-loop');
+});
+
 test('a sandboxed frame says that it keeps nothing', async ({ page, lab }) => {
   const site = await serve({ open: true });
   const frame = `<iframe title="lab" sandbox="allow-scripts" width="1200" height="800" src="${site.origin}/?embed=1&lang=en"></iframe>`;

@@ -42,6 +42,70 @@ test.describe('on a phone', () => {
   }
 });
 
+test.describe('on a phone, step by step', () => {
+  test.use({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
+
+  test('a step begins with the top of its bench, and what is said of an answer comes into sight', async ({ lab, page }) => {
+    await begin(lab, lessonOf('two-valves-one-zero'));
+    const desk = page.locator('.desk > div:visible');
+    await desk.evaluate((element) => { element.scrollTop = 300; });
+    expect(await desk.evaluate((element) => element.scrollTop)).toBe(300);
+    const lesson = lessonOf('two-valves-one-zero');
+    for (const task of lesson.steps[0].tasks) {
+      await lab.id(`task-${task.id}-0`).tap();
+      await lab.id(`check-${task.id}`).tap();
+    }
+    await lab.id('lesson-next').tap();
+    await expect(lab.id('step-title')).toContainText('Step 2');
+    await expect.poll(() => desk.evaluate((element) => element.scrollTop)).toBe(0);
+
+    const task = lesson.steps[1].tasks[0];
+    const wrong = task.kind.choose.options.findIndex((option) => !option.correct);
+    await lab.id(`task-${task.id}-${wrong}`).tap();
+    // Pressed at the lower end of what the bench leaves free, so that the remark would be behind it.
+    await lab.id(`check-${task.id}`).evaluate((button) => button.scrollIntoView({ block: 'end' }));
+    await lab.id(`check-${task.id}`).tap();
+    const said = lab.id(`said-${task.id}`);
+    await expect(said).toContainText(task.kind.choose.options[wrong].feedback.en.slice(0, 25));
+    const bench = await desk.boundingBox();
+    await expect.poll(async () => { const box = await said.boundingBox(); return box.y >= 0 && box.y + box.height <= bench.y + 1; }).toBe(true);
+  });
+});
+
+test('on its side a phone shows the text and the bench beside each other', async ({ lab, page }) => {
+  await page.setViewportSize({ width: 844, height: 390 });
+  await begin(lab, lessonOf('directions'), { step: 2 });
+  const [text, bench] = [await lab.id('lesson').boundingBox(), await page.locator('section.card.responses').boundingBox()];
+  expect(text.x + text.width).toBeLessThanOrEqual(bench.x);
+  expect(Math.abs(text.y - bench.y)).toBeLessThan(40);
+  await expect(lab.id('lesson-next')).toBeInViewport();
+  expect(await page.evaluate(() => document.documentElement.scrollWidth - innerWidth)).toBeLessThanOrEqual(0);
+  await lab.axe();
+});
+
+test('the last wrong choice and the solution are told apart', async ({ lab }) => {
+  const lesson = lessonOf('two-valves-one-zero');
+  await begin(lab, lesson, { step: 2 });
+  const task = lesson.steps[1].tasks[0];
+  const { options } = task.kind.choose;
+  const said = lab.id(`said-${task.id}`);
+  for (const wrong of options.keys()) {
+    if (options[wrong].correct) continue;
+    await lab.id(`task-${task.id}-${wrong}`).check();
+    await lab.id(`check-${task.id}`).click();
+    await expect(said).toContainText(options[wrong].feedback.en.slice(0, 25));
+    if (await said.locator('text=solution').count()) break;
+  }
+  const right = options.find((option) => option.correct);
+  const text = (await said.locator('div:last-child').textContent()).replaceAll('\u00a0', ' ');
+  const plain = (words) => words.replaceAll('**', '').slice(0, 25);
+  expect(text.indexOf(plain(right.feedback.en))).toBeGreaterThan(0);
+  // The remark on what was chosen comes first, that on the solution after its word.
+  const wrongs = options.filter((option) => !option.correct).map((option) => text.indexOf(plain(option.feedback.en)));
+  expect(Math.max(...wrongs)).toBeGreaterThanOrEqual(0);
+  expect(Math.max(...wrongs)).toBeLessThan(text.indexOf(plain(right.feedback.en)));
+});
+
 test('a wrong answer says why, costs a point, and moves nothing', async ({ lab }) => {
   const lesson = lessonOf('two-valves-one-zero');
   await begin(lab, lesson, { step: 2 });

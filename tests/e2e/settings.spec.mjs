@@ -166,6 +166,14 @@ test('what is not understood in the address has no effect and is named', async (
   await expect(lab.id('notice')).toHaveCount(0);
 });
 
+test('a language may be named by a part of its tag, as links from elsewhere do', async ({ lab, page }) => {
+  for (const [asked, tag] of [['pt', 'pt-BR'], ['pt-PT', 'pt-BR'], ['es-MX', 'es'], ['en-GB', 'en']]) {
+    await lab.open(`lang=${asked}`);
+    await expect(page.locator('html'), asked).toHaveAttribute('lang', tag);
+    await expect(lab.id('notice'), asked).toHaveCount(0);
+  }
+});
+
 // What each lock disables, by data-testid.
 const LOCKS = {
   preset: ['preset'],

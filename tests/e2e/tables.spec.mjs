@@ -81,3 +81,23 @@ test('model and controller are saved as LaTeX with the numbers of the page', asy
   expect(text).toContain('\\Lambda &= \\begin{bmatrix} 1.4 & -0.4 \\\\ -0.4 & 1.4 \\end{bmatrix}');
   expect(text).toContain('\\usepackage{amsmath}');
 });
+
+test('the first column of a wide table stays in sight on a phone', async ({ lab, page }) => {
+  await page.setViewportSize({ width: 390, height: 844 });
+  await lab.open('bench=relay-tuning&lang=en');
+  const wide = await page.locator('.scroll').evaluateAll((boxes) => {
+    for (const details of document.querySelectorAll('details')) details.open = true;
+    return boxes.map((box, index) => [index, box.scrollWidth - box.clientWidth]).filter(([, more]) => more > 40).map(([index]) => index);
+  });
+  expect(wide.length).toBeGreaterThan(0);
+  for (const index of wide) {
+    const box = page.locator('.scroll').nth(index);
+    const [scrolled, first, left] = await box.evaluate((element) => {
+      element.scrollLeft = element.scrollWidth;
+      const cell = element.querySelector('tbody tr > :first-child');
+      return [element.scrollLeft, cell.getBoundingClientRect().left, element.getBoundingClientRect().left];
+    });
+    expect(scrolled).toBeGreaterThan(20);
+    expect(Math.abs(first - left)).toBeLessThanOrEqual(2);
+  }
+});
