@@ -12,6 +12,7 @@ mod download;
 mod errors;
 mod format;
 mod frames;
+mod ghosts;
 mod glossary;
 mod handout;
 mod header;

@@ -241,3 +241,23 @@ test('the tour frames one thing after the other and ends where one likes', async
   await page.keyboard.press('Escape');
   await expect(lab.id('tour')).toBeHidden();
 });
+
+test('marks of the least and the highest level stay on the walls on every bench', async ({ lab, page }) => {
+  const marks = (rig) => lab.id(rig).locator('.ghost');
+  await lab.open('preset=johansson-2000-minimum-phase');
+  await expect(marks('rig')).toHaveCount(0);
+  await lab.type('step1-number', '3');
+  await lab.settle();
+  expect(await marks('rig').count()).toBeGreaterThanOrEqual(2);
+  await lab.open('bench=model-free');
+  expect(await marks('free-rig').count()).toBe(8);
+  // With the band of averaging two more.
+  await lab.open('bench=level-loop');
+  await expect(marks('level-rig')).toHaveCount(2);
+  const places = () => marks('level-rig').evaluateAll((paths) => paths.map((path) => path.getAttribute('d')));
+  const before = await places();
+  await lab.type('level-gain-number', '2');
+  await lab.settle();
+  expect(await places()).not.toEqual(before);
+  await lab.clean();
+});

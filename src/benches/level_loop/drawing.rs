@@ -6,6 +6,7 @@ use quadtank::study::level_loop::{Element, Objective};
 
 use super::pictures::{output_unit, unit_of};
 use super::session::{Session, shown, use_session};
+use crate::ghosts::moved_between;
 use crate::lab::Lab;
 use crate::texts::tr;
 
@@ -34,6 +35,15 @@ pub fn LoopDrawing() -> impl IntoView {
             view! { <g aria-hidden="true">{drawing(lab, &plant, &signals, reference, band)}</g> }
         })
     };
+    let ghosts = move || {
+        let height = session.throttled.setup.with(|setup| setup.plant().tank.height);
+        let levels = session.throttled.with_answer(|answer| moved_between(&answer.log.level, height)).flatten()?;
+        let (left, top, _, tall) = TANK;
+        Some(levels.map(|level| {
+            let y = top + tall * (1.0 - (level / height).clamp(0.0, 1.0));
+            view! { <path class="ghost" d=format!("M{} {y} h9", left + 3.0) /> }
+        }))
+    };
     let summary = move || moment.get().map(|(time, plant, signals)| summary(lab, time, &plant, &signals));
     let buttons = Element::ALL.map(|element| view! { <ElementButton element moment=moment.into() /> });
     view! {
@@ -45,6 +55,7 @@ pub fn LoopDrawing() -> impl IntoView {
             data-testid="level-rig"
         >
             {picture}
+            <g aria-hidden="true">{ghosts}</g>
             {buttons}
         </svg>
     }

@@ -4,7 +4,7 @@ use leptos::prelude::*;
 
 use super::flags::panels;
 use super::session::{set_cursor, shown, use_session};
-use crate::benches::quadruple_tank::{drawing, summary};
+use crate::benches::quadruple_tank::{drawing, ghosts, summary};
 use crate::texts::say;
 use crate::widgets::{Card, Playback, Scale, SliderField, TimeBar, shown_times};
 use quadtank::literature::DisplayUnit;
@@ -15,6 +15,10 @@ pub fn ProcessCard() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
     let picture = move || shown(session).map(|shown| drawing(lab, &shown.plant, DisplayUnit::Cm, Some(&shown.state)));
+    let marks = move || {
+        let heights = session.throttled.setup.with(|s| s.plant.rig().tanks.map(|tank| tank.height));
+        session.throttled.with_answer(|answer| ghosts(&answer.run.trajectory, heights))
+    };
     let summary = move || shown(session).map(|shown| summary(lab, &shown.state, DisplayUnit::Cm)).unwrap_or_default();
     let end = session.part(|s| s.experiment.duration_s);
     let on_cursor = Callback::new(move |time| set_cursor(session, Some(time)));
@@ -36,7 +40,7 @@ pub fn ProcessCard() -> impl IntoView {
                 unit="s".to_owned()
             />
             <TimeBar playback id="free-play" lab slider=false />
-            <svg class="rig" viewBox="0 0 276 296" role="img" aria-label=summary data-testid="free-rig">{picture}</svg>
+            <svg class="rig" viewBox="0 0 276 296" role="img" aria-label=summary data-testid="free-rig">{picture} {marks}</svg>
         </Card>
     }
 }

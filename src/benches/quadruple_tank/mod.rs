@@ -40,7 +40,7 @@ use flags::panels;
 pub use moment::RigState;
 use moment::provide_moment;
 pub use preset::{load, name_of};
-pub use rig::{drawing, summary};
+pub use rig::{drawing, ghosts, summary};
 pub use session::QuadrupleTank;
 use session::Session;
 

@@ -1,5 +1,6 @@
 //! The drawing of the rig: tanks, pipes, pumps and valves, with the water where it stands and runs.
 
+use crate::ghosts::moved_between;
 use crate::lab::Lab;
 use leptos::prelude::*;
 
@@ -131,22 +132,16 @@ fn tank(lab: Lab, index: usize, tank: &Tank, level: f64, unit: DisplayUnit) -> i
     }
 }
 
-/// Small ticks at the least and the highest level of each tank in the run, where it moves enough to tell them apart.
-fn ghosts(run: &Trajectory, heights: [f64; 4]) -> impl IntoView + use<> {
+/// Small ticks at the least and the highest level of each tank in a run, where it moves enough to tell them apart; walls in m.
+pub fn ghosts(run: &Trajectory, heights: [f64; 4]) -> impl IntoView + use<> {
     let mark = |k: usize, level: f64| {
         let (x, y) = (TANKS[k].0 + 3.0, TANKS[k].1 + TANK.1 * (1.0 - (level / heights[k]).clamp(0.0, 1.0)));
         view! { <path class="ghost" d=format!("M{x} {y} h7") /> }
     };
-    let marks = (0..4).filter_map(move |k| {
-        let levels = run.levels[k].iter().copied();
-        let (low, high) = (levels.clone().reduce(f64::min)?, levels.reduce(f64::max)?);
-        (high - low > MIN_GHOST * heights[k]).then(|| [mark(k, low), mark(k, high)])
-    });
+    let marks =
+        (0..4).filter_map(move |k| Some(moved_between(&run.levels[k], heights[k])?.map(|level| mark(k, level))));
     marks.collect_view()
 }
-
-/// Least difference of the two ghost marks of a tank, as a share of its height.
-const MIN_GHOST: f64 = 0.04;
 
 /// The scale on the far wall of a tank, in whole steps of 1, 2 or 5 times a power of ten of the shown unit.
 fn scale(height: f64, unit: DisplayUnit, (right, top): (f64, f64)) -> String {
