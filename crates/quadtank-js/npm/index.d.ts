@@ -13,7 +13,11 @@ export interface Scenario extends Document {
     plant: any;
     /** Valve fractions γ1 and γ2, 0 to 1. */
     valves: [number, number];
-    operating_point: { pump_voltage: [number, number] } | { levels: [number, number] };
+    /** Voltages (V) or levels of tanks 1 and 2 (m) at rest, or all levels and both voltages of a state that may not be at rest. */
+    operating_point:
+      | { pump_voltage: [number, number] }
+      | { levels: [number, number] }
+      | { state: { levels: [number, number, number, number]; pump_voltage: [number, number] } };
     controller: {
       pairing: 'diagonal' | 'swapped';
       loops: [PiSettings, PiSettings];
@@ -52,10 +56,12 @@ export type TheoryError = string | Record<string, unknown>;
 
 /** What linear theory says about a run of the quadruple tank. */
 export interface AnalysisReport {
-  /** The equilibrium: levels (m) and pump voltages (V), walls and limits ignored. */
+  /** Levels (m) and pump voltages (V), walls and limits ignored. */
   operating_point: { levels: [number, number, number, number]; pump_voltage: [number, number] };
   /** Where the walls (m) or the pumps (V) do not allow it. */
   out_of_range: unknown[];
+  /** How fast the levels leave an operating point that is not at rest by themselves (m/s); absent at rest. */
+  drift?: [number, number, number, number];
   /** T1 to T4 (s); null for a tank that is dry. */
   time_constants_s: (number | null)[];
   /** The linear model without dry tanks, by rows. */
