@@ -19,8 +19,11 @@ fn floor_of(module: &str) -> usize {
     FLOORS.iter().position(|floor| floor.contains(&module)).unwrap_or_else(|| panic!("`{module}` stands on no floor"))
 }
 
-/// Text of every source file at or below a path, without its unit tests, which are at the end.
+/// Text of every source file at or below a path, without its unit tests, which are at the end or in a file of their own.
 fn sources(path: &Path) -> Vec<String> {
+    if path.file_name().is_some_and(|name| name == "tests.rs") {
+        return Vec::new();
+    }
     if path.is_file() {
         let text = fs::read_to_string(path).expect("a source file is readable");
         let end = ["#[cfg(test)]", "#[cfg(all(test"].iter().filter_map(|mark| text.find(mark)).min();
