@@ -93,5 +93,5 @@ test('scenes leave as a file and as a link, and those that were there are not lo
   await lab.id('open-input').setInputFiles({ name: 'scenes.json', mimeType: 'application/json', buffer: Buffer.from(JSON.stringify(wrong)) });
   await expect(lab.id('notice')).toContainText('Scene 2: It is a document of version 9');
   await lab.id('open-input').setInputFiles({ name: 'scenes.json', mimeType: 'application/json', buffer: Buffer.from(JSON.stringify(file)) });
-  expect(await place(lab)).toBe('1 of 2 · The easy side');
+  await expect.poll(() => place(lab)).toBe('1 of 2 · The easy side');
 });
