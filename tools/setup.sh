@@ -37,16 +37,26 @@ toolchain() {
 # Whether a tool says that it has this version.
 is() { [ "$("$1" --version 2>/dev/null | awk '{ print $2; exit }')" = "$2" ]; }
 
+# The binaries of a tool's publisher into .tools, where cargo-binstall is there to fetch them; in this version or not at all.
+fetched() {
+  command -v cargo-binstall >/dev/null || return
+  say "$1 $2, by cargo-binstall"
+  cargo binstall --no-confirm --log-level warn --strategies crate-meta-data --install-path .tools/bin "$1@$2" || {
+    say "$1 $2 could not be fetched"
+    return 1
+  }
+}
+
 build_tools() {
   # A debug build of Trunk is as quick in use and compiles in a quarter of the time; without its default features it
   # can download nothing.
-  is trunk "$TRUNK" || {
-    say "trunk $TRUNK, compiled once (about 3 minutes)"
+  is trunk "$TRUNK" || fetched trunk "$TRUNK" || {
+    say "trunk $TRUNK, compiled once (about 2 minutes)"
     CARGO_PROFILE_DEV_DEBUG=0 CARGO_INCREMENTAL=0 cargo install --quiet --debug --locked --no-default-features \
       "trunk@$TRUNK" --root .tools --target-dir target/tools
   }
-  { is wasm-bindgen "$BINDGEN" && is wasm-bindgen-test-runner "$BINDGEN"; } || {
-    say "wasm-bindgen $BINDGEN, compiled once (about 3 minutes)"
+  { is wasm-bindgen "$BINDGEN" && is wasm-bindgen-test-runner "$BINDGEN"; } || fetched wasm-bindgen-cli "$BINDGEN" || {
+    say "wasm-bindgen $BINDGEN, compiled once (about 2 minutes)"
     cargo install --quiet --locked --no-default-features --force \
       "wasm-bindgen-cli@$BINDGEN" --root .tools --target-dir target/tools
   }
