@@ -44,6 +44,28 @@ test('dragging the point across the line flips zero, relative gain, pairing and 
   await lab.clean();
 });
 
+test('fractions that fall with the flow take the zero across while the valves stand', async ({ lab }) => {
+  await lab.open('view=full');
+  await minimumPhase(lab);
+  const plane = await lab.picture('valve-plane');
+  await lab.id('rig-numbers').locator('summary').click();
+  await lab.type('rig-valve-slope1', '-0.01');
+  await lab.type('rig-valve-slope2', '-0.01');
+  await lab.settle();
+  // γ̃ = γ + 2 s q with flows of 9.99 and 10.05 cm³/s from 3 V.
+  const [first, second] = [0.7 - 0.02 * 9.99, 0.6 - 0.02 * 10.05];
+  await rightHalfPlane(lab);
+  const sentence = await lab.text('process-sentence');
+  for (const text of [(first + second).toFixed(2), first.toFixed(3), second.toFixed(3), (0.7 - 0.0999).toFixed(3)]) {
+    expect(sentence).toContain(text);
+  }
+  expect(await lab.number('lambda-11')).toBeCloseTo((first * second) / (first + second - 1), 2);
+  expect(await lab.value('gamma1-number')).toBeCloseTo(0.7, 9);
+  expect((await lab.picture('valve-plane')).hash).not.toBe(plane.hash);
+  await lab.clean();
+  await lab.axe();
+});
+
 test('the arrow keys do the same as the mouse', async ({ lab, page }) => {
   await lab.open();
   await minimumPhase(lab);

@@ -122,6 +122,11 @@ export const CASES = [
     document: 'crates/quadtank-scenario/tests/data/hoses.json',
     set: {},
   },
+  {
+    name: 'valves whose fractions depend on the flow',
+    document: 'crates/quadtank-scenario/tests/data/flow-dependent-valves.json',
+    set: {},
+  },
   { name: 'one loop open', preset: P_MINUS, set: { [`${second}.gain`]: 0 } },
   { name: 'a real sensor', preset: COCOTA_MINUS, set: { 'setup.experiment.measurement.quantised': true } },
   {

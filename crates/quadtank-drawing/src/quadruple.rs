@@ -57,14 +57,18 @@ fn responses(setup: &Setup, style: &Style) -> Result<String, StudyError> {
 fn valve_plane(setup: &Setup, style: &Style) -> Result<String, StudyError> {
     let map = ValveMap::of(setup)?;
     let published = published_settings(setup);
+    let singular_sum = map.singular_sum();
+    let boundary =
+        if singular_sum == 1.0 { "γ1 + γ2 = 1".to_owned() } else { format!("γ1 + γ2 = {singular_sum:.2}") };
     let chart = quadtank_figure::valve_plane(&ValvePlane {
         right_most_zero: &|valves| map.rightmost_zero(valves),
+        singular_sum,
         published: &published,
         setting: Some(setup.valves),
         texts: ValvePlaneTexts {
             gamma_1: "γ1",
             gamma_2: "γ2",
-            boundary: "γ1 + γ2 = 1",
+            boundary: &boundary,
             minimum_phase: "minimum phase",
             right_half_plane: "zero in the right half-plane",
         },

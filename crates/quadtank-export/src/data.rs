@@ -75,7 +75,16 @@ fn rig(setup: &Setup) -> Section {
                 "largest flow (m^3/s); 1e9 for none",
             ),
             item("pump_delay", pumps(|pump| pump.delay_s), "transport delay of the hose behind the pump (s)"),
-            item("gamma", Value::Numbers(plant.valves.to_vec()), "share of each pump that goes to its lower tank"),
+            item(
+                "gamma",
+                Value::Numbers(plant.valves.to_vec()),
+                "share of each pump that goes to its lower tank, as its flow goes to 0",
+            ),
+            item(
+                "gamma_slope",
+                Value::Numbers(plant.valve_slopes.to_vec()),
+                "growth of gamma with the flow through the valve (s/m^3)",
+            ),
             item("power_gain", Value::Number(plant.power_gain), "pump voltage per controller output"),
             item("sensor_gain", Value::Number(plant.sensor.gain), "k_c (V/m)"),
             item("sensor_range", Value::Number(plant.sensor.range), "highest level that is measured (m)"),

@@ -47,6 +47,7 @@ pub fn latex(scenario: &Scenario) -> Result<String, ExportError> {
         ("levels", row(&rest.levels)),
         ("voltages", row(&rest.pump_voltage)),
         ("valves", row(&setup.valves)),
+        ("fractions", fractions(setup, rest.pump_voltage)),
         ("rest", if analysis.drift.is_none() { " at rest" } else { ", which are not at rest" }.to_owned()),
         ("drifts", if analysis.drift.is_none() { "" } else { "d + " }.to_owned()),
         ("drift", drift(&analysis)),
@@ -73,6 +74,21 @@ pub fn latex(scenario: &Scenario) -> Result<String, ExportError> {
 /// Where a part goes in the template; a remark has its line with the mark of a comment to itself.
 fn placeholder(name: &str) -> String {
     if name == "remark" { format!("% {{{{ {name} }}}}\n") } else { format!("{{{{ {name} }}}}") }
+}
+
+/// What the fractions are where they depend on the flow: those of the flow, and of a small change of it.
+fn fractions(setup: &Setup, pump_voltage: [f64; 2]) -> String {
+    let plant = setup.plant();
+    if !plant.has_flow_dependent_valves() {
+        return String::new();
+    }
+    let [slopes, of_flow, of_change] =
+        [plant.valve_slopes, plant.fractions_at(pump_voltage), plant.incremental_fractions(pump_voltage)]
+            .map(|pair| row(&pair));
+    format!(
+        " of small flows, which grow\nwith the flow through each valve by ${slopes}$\\,s/m$^3$ to \
+         ${of_flow}$; of a small change of it goes ${of_change}$\nto the lower tanks"
+    )
 }
 
 fn of_model(of: &DMatrix<f64>) -> String {

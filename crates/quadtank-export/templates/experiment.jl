@@ -40,10 +40,19 @@ no_loads() = (pump_flow = zeros(2), tank_flow = zeros(4), leak_area = zeros(4),
 "Flow of each pump (m^3/s): a straight line (Cocota eq. 2.25) that may have a dead zone, an offset and an end."
 pump_flow(voltage) = ifelse.(voltage .< PUMP_START, 0.0, clamp.(PUMP_GAIN .* voltage .+ PUMP_OFFSET, 0.0, PUMP_FLOW_MAX))
 
+"Share of the flow of each pump (m^3/s) that goes to its lower tank; it may grow with the flow."
+fraction(gamma, flow) = clamp.(gamma .+ GAMMA_SLOPE .* flow, 0.0, 1.0)
+
+"Share of a small change of the flow of each pump (m^3/s) that goes to its lower tank, d(gamma q)/dq."
+function incremental_fraction(flow)
+    gamma = fraction(GAMMA, flow)
+    return gamma .+ (0.0 .< gamma .< 1.0) .* GAMMA_SLOPE .* flow
+end
+
 "Flow from the pumps into each tank (m^3/s). A load adds to the flow of a pump ahead of its valve; no pump sucks."
 function valve_flows(voltage, loads)
     q1, q2 = max.(max.(1 .+ loads.pump_gain, 0.0) .* pump_flow(voltage) .+ loads.pump_flow, 0.0)
-    gamma1, gamma2 = clamp.(GAMMA .+ loads.valve, 0.0, 1.0)
+    gamma1, gamma2 = fraction(clamp.(GAMMA .+ loads.valve, 0.0, 1.0), [q1, q2])
     return [gamma1 * q1, gamma2 * q2, (1 - gamma2) * q2, (1 - gamma1) * q1]
 end
 
@@ -60,18 +69,27 @@ function flows(level, pumped, loads)
     return pumped .+ [out[3], out[4], 0.0, 0.0], out .+ leak
 end
 
+"Flows of the pumps (m^3/s) that bring the lower tanks what they need, by Newton's method; one step where gamma is constant."
+function pump_flows_for(needed)
+    flow = fill(sum(needed) / 2, 2)
+    for _ in 1:50
+        gamma1, gamma2 = incremental_fraction(flow)
+        mixing = [gamma1 (1-gamma2); (1-gamma1) gamma2]
+        straight_down = fraction(GAMMA, flow) .* flow
+        flow = flow .+ mixing \ (needed .- straight_down .- reverse(flow .- straight_down))
+    end
+    return flow
+end
+
 "Levels (m) and pump voltages (V): as given, or at rest by the flow balance of each tank (Cocota section 3.2.1); no walls, no limits."
 function operating_point()
     if !isnothing(STATE_LEVEL)
         return STATE_LEVEL, STATE_VOLTAGE
     end
-    gamma1, gamma2 = GAMMA
-    k1, k2 = PUMP_GAIN
     voltage = REST_VOLTAGE
     if isnothing(voltage)
-        mixing = [gamma1*k1 (1-gamma2)*k2; (1-gamma1)*k1 gamma2*k2]
         needed = outflow([REST_LEVEL; 0.0; 0.0])[1:2] .- INFLOW[1:2] .- INFLOW[3:4]
-        voltage = mixing \ needed .- PUMP_OFFSET ./ PUMP_GAIN
+        voltage = (pump_flows_for(needed) .- PUMP_OFFSET) ./ PUMP_GAIN
     end
     pumped = valve_flows(voltage, no_loads()) .+ INFLOW
     inflow = pumped .+ [pumped[3], pumped[4], 0.0, 0.0]
@@ -105,17 +123,18 @@ end
 function linear_model(level, voltage)
     time, wet = time_constants(level)
     section, drain = area(level), drains(level, voltage)
+    gamma = incremental_fraction(pump_flow(voltage))
     a, b, c = zeros(4, 4), zeros(4, 2), zeros(2, 4)
     for lower in 1:2
         upper, other = lower + 2, 3 - lower
-        from_above = (1 - GAMMA[other]) * PUMP_GAIN[other]
+        from_above = (1 - gamma[other]) * PUMP_GAIN[other]
         if wet[upper]
             a[upper, upper] = -drain[upper] / time[upper]
             b[upper, other] = from_above / section[upper]
         end
         if wet[lower]
             a[lower, lower] = -drain[lower] / time[lower]
-            b[lower, lower] = GAMMA[lower] * PUMP_GAIN[lower] / section[lower]
+            b[lower, lower] = gamma[lower] * PUMP_GAIN[lower] / section[lower]
             c[lower, lower] = SENSOR_GAIN
             if wet[upper]
                 a[lower, upper] = section[upper] / (section[lower] * time[upper])
@@ -131,13 +150,14 @@ end
 function transfer_matrix(level, voltage)
     time, _ = time_constants(level)
     section, drain = area(level), drains(level, voltage)
+    gamma = incremental_fraction(pump_flow(voltage))
     s = tf("s")
     gain(output, pump) = time[output] * SENSOR_GAIN * PUMP_GAIN[pump] / section[output]
     lag(tank) = time[tank] * s + drain[tank]
-    g11 = GAMMA[1] * gain(1, 1) / lag(1)
-    g12 = (1 - GAMMA[2]) * gain(1, 2) / (lag(3) * lag(1))
-    g21 = (1 - GAMMA[1]) * gain(2, 1) / (lag(4) * lag(2))
-    g22 = GAMMA[2] * gain(2, 2) / lag(2)
+    g11 = gamma[1] * gain(1, 1) / lag(1)
+    g12 = (1 - gamma[2]) * gain(1, 2) / (lag(3) * lag(1))
+    g21 = (1 - gamma[1]) * gain(2, 1) / (lag(4) * lag(2))
+    g22 = gamma[2] * gain(2, 2) / lag(2)
     return [g11 g12; g21 g22]
 end
 

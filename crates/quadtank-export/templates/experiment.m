@@ -61,13 +61,27 @@ function loads = no_loads()
                  'pump_gain', zeros(1, 2), 'valve', zeros(1, 2), 'outlet', zeros(1, 4));
 end
 
+function flow = pump_flow(p, voltage)
+% Flow of each pump (m^3/s): a straight line (Cocota eq. 2.25) that may have a dead zone, an offset and an end.
+  flow = min(max(p.pump_gain .* voltage + p.pump_offset, 0), p.pump_flow_max);
+  flow(voltage < p.pump_start) = 0;
+end
+
+function gamma = fraction(p, gamma, flow)
+% Share of the flow of each pump (m^3/s) that goes to its lower tank; it may grow with the flow.
+  gamma = min(max(gamma + p.gamma_slope .* flow, 0), 1);
+end
+
+function gamma = incremental_fraction(p, flow)
+% Share of a small change of the flow of each pump (m^3/s) that goes to its lower tank, d(gamma q)/dq.
+  gamma = fraction(p, p.gamma, flow);
+  gamma = gamma + (gamma > 0 & gamma < 1) .* p.gamma_slope .* flow;
+end
+
 function pumped = valve_flows(p, voltage, loads)
-% Flow from the pumps into each tank (m^3/s). A load adds to the flow of a pump ahead of its valve; no pump sucks. The curve
-% of a pump is a straight line (Cocota eq. 2.25) that may have a dead zone, an offset and an end.
-  curve = min(max(p.pump_gain .* voltage + p.pump_offset, 0), p.pump_flow_max);
-  curve(voltage < p.pump_start) = 0;
-  q = max(max(1 + loads.pump_gain, 0) .* curve + loads.pump_flow, 0);
-  gamma = min(max(p.gamma + loads.valve, 0), 1);
+% Flow from the pumps into each tank (m^3/s). A load adds to the flow of a pump ahead of its valve; no pump sucks.
+  q = max(max(1 + loads.pump_gain, 0) .* pump_flow(p, voltage) + loads.pump_flow, 0);
+  gamma = fraction(p, min(max(p.gamma + loads.valve, 0), 1), q);
   pumped = [gamma(1) * q(1), gamma(2) * q(2), (1 - gamma(2)) * q(2), (1 - gamma(1)) * q(1)];
 end
 
@@ -90,6 +104,17 @@ function [inflow, drain] = flows(p, level, pumped, loads)
   drain = out + loads.leak_area .* speed;
 end
 
+function flow = pump_flows_for(p, needed)
+% Flows of the pumps (m^3/s) that bring the lower tanks what they need, by Newton's method; one step where gamma is constant.
+  flow = sum(needed) / 2 * [1, 1];
+  for k = 1:50
+    gamma = incremental_fraction(p, flow);
+    mixing = [gamma(1), 1 - gamma(2); 1 - gamma(1), gamma(2)];
+    straight_down = fraction(p, p.gamma, flow) .* flow;
+    flow = flow + (mixing \ (needed - straight_down - fliplr(flow - straight_down)).').';
+  end
+end
+
 function [level, voltage] = operating_point(p)
 % Levels (m) and pump voltages (V): as given, or at rest by the flow balance of each tank (Cocota section 3.2.1); no walls, no
 % limits.
@@ -99,9 +124,8 @@ function [level, voltage] = operating_point(p)
   end
   voltage = p.rest_voltage;
   if isempty(voltage)
-    mixing = [p.gamma(1), 1 - p.gamma(2); 1 - p.gamma(1), p.gamma(2)] * diag(p.pump_gain);
     [~, needed] = flows(p, [p.rest_level, 0, 0], zeros(1, 4), no_loads());
-    voltage = (mixing \ (needed(1:2) - p.inflow(1:2) - p.inflow(3:4)).').' - p.pump_offset ./ p.pump_gain;
+    voltage = (pump_flows_for(p, needed(1:2) - p.inflow(1:2) - p.inflow(3:4)) - p.pump_offset) ./ p.pump_gain;
   end
   pumped = valve_flows(p, voltage, no_loads()) + p.inflow;
   inflow = pumped + [pumped(3), pumped(4), 0, 0];
@@ -131,17 +155,18 @@ function plant = linear_model(p, level, voltage)
 % The model dx/dt = A x + B u, y = C x around the operating point: levels (m), pump voltages (V), measured signals (V).
   [time, wet] = time_constants(p, level);
   section = area(p, level); drain = drains(p, level, voltage);
+  gamma = incremental_fraction(p, pump_flow(p, voltage));
   a = zeros(4); b = zeros(4, 2); c = zeros(2, 4);
   for lower = 1:2
     upper = lower + 2; other = 3 - lower;
-    from_above = (1 - p.gamma(other)) * p.pump_gain(other);
+    from_above = (1 - gamma(other)) * p.pump_gain(other);
     if wet(upper)
       a(upper, upper) = -drain(upper) / time(upper);
       b(upper, other) = from_above / section(upper);
     end
     if wet(lower)
       a(lower, lower) = -drain(lower) / time(lower);
-      b(lower, lower) = p.gamma(lower) * p.pump_gain(lower) / section(lower);
+      b(lower, lower) = gamma(lower) * p.pump_gain(lower) / section(lower);
       c(lower, lower) = p.sensor_gain;
       if wet(upper)
         a(lower, upper) = section(upper) / (section(lower) * time(upper));
@@ -157,11 +182,12 @@ function g = transfer_matrix(p, level, voltage)
 % G(s) from pump voltages to measured signals, in the factored form of Johansson, eq. (4).
   time = time_constants(p, level);
   section = area(p, level); drain = drains(p, level, voltage);
+  gamma = incremental_fraction(p, pump_flow(p, voltage));
   s = tf('s');
   gain = @(output, pump) time(output) * p.sensor_gain * p.pump_gain(pump) / section(output);
   lag = @(tank) time(tank) * s + drain(tank);
-  g = [p.gamma(1) * gain(1, 1) / lag(1), (1 - p.gamma(2)) * gain(1, 2) / (lag(3) * lag(1));
-       (1 - p.gamma(1)) * gain(2, 1) / (lag(4) * lag(2)), p.gamma(2) * gain(2, 2) / lag(2)];
+  g = [gamma(1) * gain(1, 1) / lag(1), (1 - gamma(2)) * gain(1, 2) / (lag(3) * lag(1));
+       (1 - gamma(1)) * gain(2, 1) / (lag(4) * lag(2)), gamma(2) * gain(2, 2) / lag(2)];
 end
 
 function zeros_of_plant = transmission_zeros(plant)

@@ -53,10 +53,21 @@ def pump_flow(voltage):
     return np.where(voltage < PUMP_START, 0.0, line)
 
 
+def fraction(gamma, flow):
+    """Share of the flow of each pump (m^3/s) that goes to its lower tank; it may grow with the flow."""
+    return np.clip(gamma + GAMMA_SLOPE * flow, 0.0, 1.0)
+
+
+def incremental_fraction(flow):
+    """Share of a small change of the flow of each pump (m^3/s) that goes to its lower tank, d(gamma q)/dq."""
+    gamma = fraction(GAMMA, flow)
+    return np.where((gamma > 0.0) & (gamma < 1.0), gamma + GAMMA_SLOPE * flow, gamma)
+
+
 def valve_flows(voltage, loads):
     """Flow from the pumps into each tank (m^3/s). A load adds to the flow of a pump ahead of its valve; no pump sucks."""
     q1, q2 = np.maximum(np.maximum(1.0 + loads.pump_gain, 0.0) * pump_flow(voltage) + loads.pump_flow, 0.0)
-    gamma1, gamma2 = np.clip(GAMMA + loads.valve, 0.0, 1.0)
+    gamma1, gamma2 = fraction(np.clip(GAMMA + loads.valve, 0.0, 1.0), np.array([q1, q2]))
     return np.array([gamma1 * q1, gamma2 * q2, (1.0 - gamma2) * q2, (1.0 - gamma1) * q1])
 
 
@@ -72,18 +83,26 @@ def flows(level, pumped, loads):
     return pumped + np.array([out[2], out[3], 0.0, 0.0]), out + leak
 
 
+def pump_flows_for(needed):
+    """Flows of the pumps (m^3/s) that bring the lower tanks what they need, by Newton's method; one step where gamma is constant."""
+    flow = np.full(2, needed.sum() / 2.0)
+    for _ in range(50):
+        gamma1, gamma2 = incremental_fraction(flow)
+        mixing = np.array([[gamma1, 1.0 - gamma2], [1.0 - gamma1, gamma2]])
+        straight_down = fraction(GAMMA, flow) * flow
+        flow = flow + np.linalg.solve(mixing, needed - straight_down - (flow - straight_down)[::-1])
+    return flow
+
+
 def operating_point():
     """Levels (m) and pump voltages (V): as given, or at rest by the flow balance of each tank (Cocota section 3.2.1); no walls, no limits."""
     if STATE_LEVEL is not None:
         return STATE_LEVEL, STATE_VOLTAGE
-    gamma1, gamma2 = GAMMA
-    k1, k2 = PUMP_GAIN
     if REST_VOLTAGE is not None:
         voltage = REST_VOLTAGE
     else:
-        mixing = np.array([[gamma1 * k1, (1.0 - gamma2) * k2], [(1.0 - gamma1) * k1, gamma2 * k2]])
         needed = outflow(np.append(REST_LEVEL, [0.0, 0.0]))[:2] - INFLOW[:2] - INFLOW[2:]
-        voltage = np.linalg.solve(mixing, needed) - PUMP_OFFSET / PUMP_GAIN
+        voltage = (pump_flows_for(needed) - PUMP_OFFSET) / PUMP_GAIN
     pumped = valve_flows(voltage, Loads()) + INFLOW
     inflow = pumped + np.array([pumped[2], pumped[3], 0.0, 0.0])
     level = (inflow / (LOSS_COEFFICIENT * OUTLET_AREA)) ** 2 / (2.0 * GRAVITY)
@@ -114,16 +133,17 @@ def drains(level, voltage):
 def linear_model(level, voltage):
     """The model dx/dt = A x + B u, y = C x around the operating point: levels (m), pump voltages (V), measured signals (V)."""
     time, wet, size, drain = time_constants(level), has_state(level), area(level), drains(level, voltage)
+    gamma = incremental_fraction(pump_flow(voltage))
     a, b, c = np.zeros((4, 4)), np.zeros((4, 2)), np.zeros((2, 4))
     for lower in (0, 1):
         upper, other = lower + 2, 1 - lower
-        from_above = (1.0 - GAMMA[other]) * PUMP_GAIN[other]
+        from_above = (1.0 - gamma[other]) * PUMP_GAIN[other]
         if wet[upper]:
             a[upper, upper] = -drain[upper] / time[upper]
             b[upper, other] = from_above / size[upper]
         if wet[lower]:
             a[lower, lower] = -drain[lower] / time[lower]
-            b[lower, lower] = GAMMA[lower] * PUMP_GAIN[lower] / size[lower]
+            b[lower, lower] = gamma[lower] * PUMP_GAIN[lower] / size[lower]
             c[lower, lower] = SENSOR_GAIN
             if wet[upper]:
                 a[lower, upper] = size[upper] / (size[lower] * time[upper])
@@ -134,14 +154,14 @@ def linear_model(level, voltage):
 
 def transfer_matrix(level, voltage):
     """G(s) from pump voltages to measured signals, in the factored form of Johansson, eq. (4)."""
-    wet = has_state(level)
+    wet, gamma = has_state(level), incremental_fraction(pump_flow(voltage))
     time, drain = np.where(wet, time_constants(level), 0.0), np.where(wet, drains(level, voltage), 1.0)
 
     def element(output, pump):
         gain = time[output] * SENSOR_GAIN * PUMP_GAIN[pump] / area(level)[output]
         if output == pump:
-            return [GAMMA[pump] * gain], [time[output], drain[output]]
-        return [(1.0 - GAMMA[pump]) * gain], np.polymul([time[output + 2], drain[output + 2]], [time[output], drain[output]])
+            return [gamma[pump] * gain], [time[output], drain[output]]
+        return [(1.0 - gamma[pump]) * gain], np.polymul([time[output + 2], drain[output + 2]], [time[output], drain[output]])
 
     elements = [[element(i, j) for j in (0, 1)] for i in (0, 1)]
     return ct.tf([[num for num, _ in row] for row in elements], [[den for _, den in row] for row in elements])

@@ -13,6 +13,8 @@ const USUAL_ZERO: f64 = 1.0;
 pub struct ValvePlane<'a> {
     /// Right-most transmission zero at the valve fractions γ1, γ2 (1/s); `None` where there is none that is finite.
     pub right_most_zero: &'a dyn Fn([f64; 2]) -> Option<f64>,
+    /// The sum γ1 + γ2 at which it crosses into the right half-plane: 1, but where fractions depend on the flow.
+    pub singular_sum: f64,
     /// Published settings: name, γ1, γ2.
     pub published: &'a [(&'a str, [f64; 2])],
     /// The present setting, for pictures; on screen it is a handle laid over the chart.
@@ -28,7 +30,7 @@ pub struct ValvePlaneTexts<'a> {
     pub gamma_1: &'a str,
     /// Name of γ2.
     pub gamma_2: &'a str,
-    /// Beside the line γ1 + γ2 = 1.
+    /// Beside the line on which the right-most zero is at the origin.
     pub boundary: &'a str,
     /// Above that line.
     pub minimum_phase: &'a str,
@@ -37,13 +39,14 @@ pub struct ValvePlaneTexts<'a> {
 }
 
 /// The plane of the two valves (Johansson 2000): shaded by the right-most zero, which crosses into the right
-/// half-plane where γ1 + γ2 falls below 1.
+/// half-plane where γ1 + γ2 falls below 1, or below the sum that takes its place.
 pub fn valve_plane(spec: &ValvePlane) -> Chart<'static> {
     let mut chart = Chart::new(Axis::new(spec.texts.gamma_1, (0.0, 1.0)), Axis::new(spec.texts.gamma_2, (0.0, 1.0)));
     chart.square = true;
     chart.layers.push(Layer::Field(shading(spec)));
-    chart.layers.push(line(Role::Neutral, Pen::Solid, [(0.0, 1.0), (1.0, 0.0)]));
-    chart.layers.extend(words(&spec.texts));
+    let ends = boundary(spec.singular_sum);
+    chart.layers.extend(ends.map(|ends| line(Role::Neutral, Pen::Solid, ends)));
+    chart.layers.extend(words(&spec.texts, ends));
     for &(name, [x, y]) in spec.published {
         chart.layers.push(mark((x, y), Shape::Point));
         chart.layers.push(word((x, y), (8.0, 0.0), Anchor::Left, name));
@@ -80,7 +83,7 @@ fn shading(spec: &ValvePlane) -> Field {
 
 /// From −1 for a zero far to the left to 1 for one far to the right, ½ for the zero `halfway` (1/s). Without a finite zero the side of the line counts.
 fn shade(spec: &ValvePlane, halfway: f64, gammas: [f64; 2]) -> f64 {
-    let below_line = 1.0 - gammas.iter().sum::<f64>();
+    let below_line = spec.singular_sum - gammas.iter().sum::<f64>();
     match (spec.right_most_zero)(gammas).filter(|zero| zero.is_finite()) {
         Some(zero) => zero / (zero.abs() + halfway),
         None if below_line == 0.0 => 0.0,
@@ -88,12 +91,20 @@ fn shade(spec: &ValvePlane, halfway: f64, gammas: [f64; 2]) -> f64 {
     }
 }
 
-fn words(texts: &ValvePlaneTexts) -> [Layer<'static>; 3] {
-    [
-        word((0.0, 1.0), (22.0, 11.0), Anchor::Left, texts.boundary),
+/// Ends of the line γ1 + γ2 = `sum` within the plane; `None` where it misses the plane.
+fn boundary(sum: f64) -> Option<[(f64, f64); 2]> {
+    let (least, most) = ((sum - 1.0).max(0.0), sum.min(1.0));
+    (least < most).then_some([(least, most), (most, least)])
+}
+
+/// The names of the line, beside its upper end, and of both sides that the plane has.
+fn words(texts: &ValvePlaneTexts, ends: Option<[(f64, f64); 2]>) -> impl Iterator<Item = Layer<'static>> {
+    let of_line = ends.map(|[upper, _]| word(upper, (22.0, 11.0), Anchor::Left, texts.boundary));
+    let of_sides = [
         word((1.0, 1.0), (-6.0, 28.0), Anchor::Right, texts.minimum_phase),
         word((0.0, 0.08), (6.0, 0.0), Anchor::Left, texts.right_half_plane),
-    ]
+    ];
+    of_line.into_iter().chain(of_sides)
 }
 
 fn word(at: (f64, f64), offset: (f64, f64), anchor: Anchor, text: &str) -> Layer<'static> {

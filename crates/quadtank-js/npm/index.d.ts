@@ -62,6 +62,8 @@ export interface AnalysisReport {
   out_of_range: unknown[];
   /** How fast the levels leave an operating point that is not at rest by themselves (m/s); absent at rest. */
   drift?: [number, number, number, number];
+  /** How the valves divide flows: what goes to the lower tank of the flow, and of a small change of it; absent where they divide any flow alike. */
+  flow_fractions?: { of_flow: [number, number]; incremental: [number, number] };
   /** T1 to T4 (s); null for a tank that is dry. */
   time_constants_s: (number | null)[];
   /** The linear model without dry tanks, by rows. */

@@ -44,6 +44,8 @@ impl Limits {
 
 /// Valve fraction γ.
 pub const VALVE: Limits = Limits::new(0.0, 1.0);
+/// Growth of a valve fraction γ with the flow through the valve (s/m³).
+pub const VALVE_SLOPE: Limits = Limits::new(-1e7, 1e7);
 /// Pump voltage at the operating point (V), and the voltage limits of a pump.
 pub const PUMP_VOLTAGE: Limits = Limits::new(0.0, 1000.0);
 /// Level at the operating point (m).

@@ -3,6 +3,7 @@
 use leptos::prelude::*;
 
 use super::session::{Session, shown};
+use crate::benches::quadruple_tank::name_of_boundary;
 use crate::texts::tr;
 use crate::widgets::Picture;
 use quadtank::linear::Complex;
@@ -63,7 +64,7 @@ pub fn course(session: Session, window: Signal<(f64, f64)>) -> Picture {
 
 /// The map under the valve plane: at the voltages that hold the last references or, where there are none, in the middle of
 /// what the pumps can do.
-fn map(session: Session) -> ValveMap {
+pub fn map(session: Session) -> ValveMap {
     let plant = session.charts.setup.get().plant_at(0.0);
     let voltage = session.charts.analysis.with(|a| a.rest.as_ref().ok().map(|rest| rest.pump_voltage));
     ValveMap::at(plant, voltage).without_setting()
@@ -78,12 +79,13 @@ pub fn plane(session: Session, whole: bool) -> Picture {
         let map = map.get();
         let plane = quadtank_figure::valve_plane(&ValvePlane {
             right_most_zero: &|valves| map.rightmost_zero(valves),
+            singular_sum: map.singular_sum(),
             published: &[],
             setting: shown(session).filter(|_| whole).map(|shown| shown.plant.valves),
             texts: ValvePlaneTexts {
                 gamma_1: "γ₁",
                 gamma_2: "γ₂",
-                boundary: "γ₁ + γ₂ = 1",
+                boundary: &name_of_boundary(lab, map.singular_sum()),
                 minimum_phase: &tr!(lab, valves.minimum),
                 right_half_plane: &tr!(lab, valves.right),
             },

@@ -6,6 +6,7 @@ use super::flags::panels;
 use super::pictures;
 use super::sentences;
 use super::session::{Session, shown, use_session};
+use crate::benches::quadruple_tank::name_of_boundary;
 use crate::texts::{say, tr};
 use crate::widgets::{Card, ChartCanvas, ChartMenu, Sentence, first_frame, unmarked};
 use quadtank_figure::Frame;
@@ -20,7 +21,8 @@ pub fn ValvePlaneCard() -> impl IntoView {
     let summary = Signal::derive(move || {
         let style = lab.number_style();
         let [one, two] = shown(session).map_or([f64::NAN; 2], |shown| shown.plant.valves);
-        tr!(lab, valves.summary, gamma1 = style.fixed(one, 2), gamma2 = style.fixed(two, 2))
+        let line = name_of_boundary(lab, pictures::map(session).singular_sum());
+        tr!(lab, valves.summary, line = line, gamma1 = style.fixed(one, 2), gamma2 = style.fixed(two, 2))
     });
     let beside = move || view! { <ChartMenu picture=pictures::plane(session, true) file="free-valve-plane" title /> };
     view! {

@@ -39,6 +39,7 @@ use crate::depth::Depth;
 use flags::panels;
 pub use moment::RigState;
 use moment::provide_moment;
+pub use pictures::name_of_boundary;
 pub use preset::{load, name_of};
 pub use rig::{drawing, ghosts, summary};
 pub use session::QuadrupleTank;

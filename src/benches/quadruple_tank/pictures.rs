@@ -43,21 +43,30 @@ pub fn valve_map(session: Session, whole: bool) -> Picture {
 }
 
 fn valve_plane_with(session: Session, whole: bool, sides: impl Fn() -> [String; 2] + Send + Sync + 'static) -> Picture {
+    let lab = session.lab;
     let map = Memo::new(move |_| session.document.with(|s| ValveMap::of(&s.setup).ok().map(ValveMap::without_setting)));
     let csv = move || map.get().map(|m| valve_map_to_csv(&m, CSV_STEPS)).unwrap_or_default();
     let build = move |visit: &mut dyn FnMut(&mut [Chart])| {
         let Some(map) = map.get() else { return };
         let [minimum_phase, right_half_plane] = &sides();
-        let (gamma_1, gamma_2, boundary) = ("γ₁", "γ₂", "γ₁ + γ₂ = 1");
-        let texts = ValvePlaneTexts { gamma_1, gamma_2, boundary, minimum_phase, right_half_plane };
+        let singular_sum = map.singular_sum();
+        let boundary = &name_of_boundary(lab, singular_sum);
+        let texts = ValvePlaneTexts { gamma_1: "γ₁", gamma_2: "γ₂", boundary, minimum_phase, right_half_plane };
         visit(&mut [quadtank_figure::valve_plane(&ValvePlane {
             right_most_zero: &|valves| map.rightmost_zero(valves),
+            singular_sum,
             published: &[],
             setting: whole.then(|| session.document.with(|s| s.setup.valves)),
             texts,
         })]);
     };
     Picture::new(build, csv)
+}
+
+/// What the line is called on which the right-most zero is at the origin.
+pub fn name_of_boundary(lab: Lab, singular_sum: f64) -> String {
+    let sum = if singular_sum == 1.0 { "1".to_owned() } else { lab.number_style().fixed(singular_sum, 2) };
+    format!("γ₁ + γ₂ = {sum}")
 }
 
 /// Poles and zeros.

@@ -85,13 +85,15 @@ fn Settings() -> impl IntoView {
     }
 }
 
-/// Where the zero is, and what the rig does not allow.
+/// Where the zero is, how the valves divide flows where that depends on the flow, and what the rig does not allow.
 #[component]
 fn Situation() -> impl IntoView {
     let session = use_session();
     let sentence = Memo::new(move |_| sentences::of_zero(session));
     let paragraphs = move || {
-        let all = std::iter::once(sentence.get().0).chain(sentences::of_equilibrium(session));
+        let all = std::iter::once(sentence.get().0)
+            .chain(sentences::of_flow_fractions(session))
+            .chain(sentences::of_equilibrium(session));
         all.map(|text| view! { <p>{marked(&text)}</p> }).collect_view()
     };
     view! {

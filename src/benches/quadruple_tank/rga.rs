@@ -3,6 +3,7 @@
 use leptos::prelude::*;
 
 use super::flags::panels;
+use super::sentences;
 use super::session::{Session, use_session};
 use crate::texts::{say, terms, tr};
 use crate::widgets::{Caption, Card, Text, Verdict, marked};
@@ -76,16 +77,17 @@ fn unbounded(session: Session) -> String {
     if is_degenerate { "–" } else { "∞" }.to_owned()
 }
 
-/// λ11 = γ1γ2/(γ1+γ2−1) with the numbers in it (Cocota 2009, eq. 4.10).
+/// λ11 = γ1γ2/(γ1+γ2−1) with the numbers in it (Cocota 2009, eq. 4.10), of incremental fractions where they depend on the flow.
 fn formula(session: Session) -> impl IntoView {
     let lab = session.lab;
     let number = |v: f64| lab.number_style().at_least(v, 2);
     let value =
         session.throttled.with_analysis(|a| a.linear.rga_11.ok()).flatten().map_or_else(|| unbounded(session), number);
-    let [g1, g2] = session.throttled.setup.with(|s| s.valves);
+    let ([g1, g2], depends_on_flow) = sentences::valves_of_model(session);
     let [first, second] = [g1, g2].map(|gamma| lab.number_style().fixed(gamma, 2));
     let below = number(g1 + g2 - 1.0);
-    let gamma = |k: &'static str| view! { <msub><mi>"γ"</mi><mn>{k}</mn></msub> };
+    let symbol = if depends_on_flow { "γ̃" } else { "γ" };
+    let gamma = |k: &'static str| view! { <msub><mi>{symbol}</mi><mn>{k}</mn></msub> };
     let by_valves = || {
         view! {
             <mo>"="</mo>

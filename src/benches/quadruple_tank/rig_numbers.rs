@@ -78,7 +78,7 @@ const TANKS: [RigNumber; 6] = [
     },
 ];
 
-const PUMPS: [RigNumber; 7] = [
+const PUMPS: [RigNumber; 8] = [
     RigNumber {
         ids: &["rig-gain1", "rig-gain2"],
         label: |lab| tr!(lab, rig.gain),
@@ -135,6 +135,14 @@ const PUMPS: [RigNumber; 7] = [
         shown_per_unit: 1.0,
         get: |rig, k| rig.pumps[k].delay_s,
         put: |rig, k, value| rig.pumps[k].delay_s = value,
+    },
+    RigNumber {
+        ids: &["rig-valve-slope1", "rig-valve-slope2"],
+        label: |lab| tr!(lab, rig.valve_slope),
+        path: "plant.parameters.rig.valve_slopes[]",
+        shown_per_unit: 1e-6,
+        get: |rig, k| rig.valve_slopes[k],
+        put: |rig, k, value| rig.valve_slopes[k] = value,
     },
 ];
 

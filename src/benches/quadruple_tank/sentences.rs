@@ -15,15 +15,23 @@ const SECONDS_PER_MINUTE: f64 = 60.0;
 
 /// The situation of the plant in force.
 pub fn situation(session: Session) -> Option<ZeroSituation> {
-    let valves = session.throttled.setup.with(|s| s.valves);
-    session.throttled.with_analysis(|a| ZeroSituation::of(&a.linear, valves))
+    session.throttled.setup.with(|setup| session.throttled.with_analysis(|analysis| analysis.zero_situation(setup)))
+}
+
+/// Valve fractions of the linear model, and whether they are incremental ones, which depend on the flow.
+pub fn valves_of_model(session: Session) -> ([f64; 2], bool) {
+    session.throttled.setup.with(|setup| {
+        let found = session.throttled.with_analysis(|a| (a.linear_valves(setup), a.flow_fractions.is_some()));
+        found.unwrap_or((setup.valves, false))
+    })
 }
 
 /// The sentence under the drawing, and whether it is a warning.
 pub fn of_zero(session: Session) -> (String, bool) {
     let lab = session.lab;
     let style = lab.number_style();
-    let valves = session.throttled.setup.with(|s| s.valves);
+    let (valves, depends_on_flow) = valves_of_model(session);
+    let fractions = if depends_on_flow { "γ̃₁ + γ̃₂" } else { "γ₁ + γ₂" };
     let (sum, off) = (valves[0] + valves[1], (valves[0] + valves[1] - 1.0).abs());
     // Enough digits to see on which side of 1.
     let sum = style.fixed(sum, if off < 0.005 { 5 } else { 2 });
@@ -31,12 +39,12 @@ pub fn of_zero(session: Session) -> (String, bool) {
         return (tr!(lab, process.no_equilibrium), true);
     };
     let text = match &situation {
-        ZeroSituation::Left(_) => tr!(lab, process.minimum, sum = sum),
+        ZeroSituation::Left(_) => tr!(lab, process.minimum, fractions = fractions, sum = sum),
         ZeroSituation::Right(z) => {
             let zero = format!("+{}", style.significant(*z, 3));
-            tr!(lab, process.right, sum = sum, zero = zero)
+            tr!(lab, process.right, fractions = fractions, sum = sum, zero = zero)
         }
-        ZeroSituation::Origin => tr!(lab, process.origin),
+        ZeroSituation::Origin => tr!(lab, process.origin, fractions = fractions),
         ZeroSituation::NoFinite => tr!(lab, process.few_zeros),
         ZeroSituation::Uncoupled => tr!(lab, process.none_coupled),
         ZeroSituation::Degenerate => {
@@ -45,6 +53,23 @@ pub fn of_zero(session: Session) -> (String, bool) {
         }
     };
     (text, situation.limits_control())
+}
+
+/// How the valves divide flows where that depends on the flow.
+pub fn of_flow_fractions(session: Session) -> Option<String> {
+    let lab = session.lab;
+    let fractions = session.throttled.with_analysis(|a| a.flow_fractions).flatten()?;
+    let fixed = |fraction: f64| lab.number_style().fixed(fraction, 3);
+    let ([first, second], [first_change, second_change]) =
+        (fractions.of_flow.map(fixed), fractions.incremental.map(fixed));
+    Some(tr!(
+        lab,
+        process.flow_fractions,
+        first = first,
+        second = second,
+        first_change = first_change,
+        second_change = second_change
+    ))
 }
 
 /// What walls and pumps do not allow at the operating point, and that it is not at rest.

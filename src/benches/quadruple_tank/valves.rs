@@ -10,6 +10,7 @@ use crate::lab::Notice;
 use crate::texts::{say, terms, tr};
 use crate::widgets::{Card, ChartCanvas, ChartMenu, Nudge, PointButton, PointHandle, Sentence, Text, first_frame};
 use quadtank::literature::PresetId;
+use quadtank::study::quadruple_tank::ValveMap;
 use quadtank_figure::Frame;
 
 /// Steps of the arrow keys between shut and open.
@@ -89,7 +90,9 @@ fn summary(session: Session) -> String {
     let lab = session.lab;
     let [g1, g2] = session.throttled.setup.with(|s| s.valves);
     let style = lab.number_style();
-    tr!(lab, valves.summary, gamma1 = style.fixed(g1, 2), gamma2 = style.fixed(g2, 2))
+    let map = session.throttled.setup.with(|s| ValveMap::of(s).ok());
+    let line = pictures::name_of_boundary(lab, map.map_or(1.0, |map| map.singular_sum()));
+    tr!(lab, valves.summary, line = line, gamma1 = style.fixed(g1, 2), gamma2 = style.fixed(g2, 2))
 }
 
 /// What lies over the picture: guides, published points and the point to drag.

@@ -1,6 +1,7 @@
 use quadtank::literature::PresetId;
 use quadtank::plant::OperatingPoint;
 use quadtank::study::quadruple_tank::{OperatingPointSpec, setup_of};
+use quadtank_scenario::from_json;
 
 use super::*;
 use crate::sample;
@@ -13,6 +14,11 @@ fn at_a_state() -> Scenario {
     scenario
 }
 
+/// A rig whose valve fractions depend on the flow.
+fn with_flow_dependent_valves() -> Scenario {
+    from_json(include_str!("../../../quadtank-scenario/tests/data/flow-dependent-valves.json")).unwrap()
+}
+
 /// Documents of every shape: each preset, everything at once, singular plants, dry tanks, a state that is not at rest.
 fn scenarios() -> Vec<Scenario> {
     let presets = PresetId::ALL.map(|id| Scenario::from(setup_of(id)));
@@ -21,7 +27,11 @@ fn scenarios() -> Vec<Scenario> {
         scenario.setup.valves = valves;
         scenario
     });
-    presets.into_iter().chain(valves).chain([sample::everything_acts(), at_a_state()]).collect()
+    presets
+        .into_iter()
+        .chain(valves)
+        .chain([sample::everything_acts(), at_a_state(), with_flow_dependent_valves()])
+        .collect()
 }
 
 /// What stands outside of comments.
@@ -74,6 +84,17 @@ fn a_model_away_from_rest_has_its_drift() {
     let drift = analyse(&at_a_state().setup).unwrap().drift.unwrap();
     for rate in drift {
         assert!(state.contains(&number(rate)), "{rate}: {state}");
+    }
+}
+
+#[test]
+fn fractions_that_depend_on_the_flow_are_told() {
+    assert!(!latex(&Scenario::default()).unwrap().contains("small flows"));
+    let scenario = with_flow_dependent_valves();
+    let text = latex(&scenario).unwrap();
+    let fractions = analyse(&scenario.setup).unwrap().flow_fractions.unwrap();
+    for pair in [[1e4, -6e3], fractions.of_flow, fractions.incremental] {
+        assert!(text.contains(&row(&pair)), "{pair:?}: {text}");
     }
 }
 

@@ -112,7 +112,7 @@ pub fn plane(right_most_zero: &dyn Fn([f64; 2]) -> Option<f64>, setting: Option<
         right_half_plane: "zero < right & wrong",
     };
     let published = [("P−", [0.7, 0.6]), ("P+", [0.43, 0.34])];
-    valve_plane(&ValvePlane { right_most_zero, published: &published, setting, texts })
+    valve_plane(&ValvePlane { right_most_zero, singular_sum: 1.0, published: &published, setting, texts })
 }
 
 /// The right-most zero for T3 = T4 = 50 s: (50 s + 1)² = η.

@@ -42,6 +42,7 @@ pub const PARAMS: &[Param] = &[
     row("plant.parameters.rig.pumps[].flow_max", "m³/s", limits::PUMP_FLOW_MAX, Logarithmic, "Largest flow of the pump; absent where the voltage alone limits it"),
     row("plant.parameters.rig.pumps[].delay_s", "s", limits::PUMP_DELAY_S, Linear, "Transport delay of the hose behind the pump: what its voltage does reaches the tanks that much later; absent for 0, and refused on the model-free bench"),
     row("plant.parameters.rig.valves[]", "", limits::VALVE, Linear, "Valve fractions γ1, γ2 of the rig; those of the setup take their place"),
+    row("plant.parameters.rig.valve_slopes[]", "s/m³", limits::VALVE_SLOPE, Linear, "Growth of the valve fraction with the flow through the valve, from γ as that goes to 0, within 0 to 1; absent for none"),
     row("plant.parameters.rig.power_gain", "", limits::POWER_GAIN, Logarithmic, "Gain between controller output and pump voltage; 1 without a power module"),
     row("plant.parameters.rig.sensor.gain", "V/m", limits::SENSOR_GAIN, Logarithmic, "Signal of a level sensor for each metre"),
     row("plant.parameters.rig.sensor.range", "m", limits::SENSOR_RANGE, Linear, "Level above which a quantised signal saturates"),

@@ -3,7 +3,7 @@
 use nalgebra::DMatrix;
 use quadtank::interaction::PairingVerdict;
 use quadtank::linear::{ClosedLoop, Stability, StateSpace, TransmissionZero};
-use quadtank::plant::{OperatingPoint, PlantError};
+use quadtank::plant::{FlowFractions, OperatingPoint, PlantError};
 use quadtank::study::quadruple_tank::{Analysis, GuaranteedMargins};
 use serde::Serialize;
 
@@ -20,6 +20,9 @@ pub struct AnalysisReport {
     /// How fast the levels leave an operating point that is not at rest by themselves (m/s); absent at rest.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub drift: Option<[f64; 4]>,
+    /// How the valves divide flows; absent where they divide any flow alike.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub flow_fractions: Option<FlowFractions>,
     /// Time constants T1…T4 (s); null for a tank that is dry.
     pub time_constants_s: [Option<f64>; 4],
     /// The linear model without dry tanks: inputs pump voltages (V), outputs measured signals (V), states levels (m).
@@ -102,6 +105,7 @@ impl From<&Analysis> for AnalysisReport {
         Self {
             operating_point: analysis.operating_point,
             drift: analysis.drift,
+            flow_fractions: analysis.flow_fractions,
             out_of_range: analysis.out_of_range.clone(),
             time_constants_s: analysis.time_constants_s,
             model: LinearModel::from(&analysis.linear.model),

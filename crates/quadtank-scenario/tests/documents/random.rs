@@ -70,11 +70,13 @@ fn rig() -> impl Strategy<Value = QuadrupleTank> {
         .prop_map(|(gain, range, resolution)| Sensor { gain, range, resolution });
     let parts = ([tank(), tank(), tank(), tank()], [pump(), pump()], pair(limits::VALVE), sensor);
     let inflow = prop_oneof![Just([0.0; 4]), prop::array::uniform4(within(limits::INFLOW))];
-    (parts, within(limits::POWER_GAIN), within(limits::GRAVITY), inflow).prop_map(
-        |((tanks, pumps, valves, sensor), power_gain, gravity, inflow)| QuadrupleTank {
+    let valve_slopes = prop_oneof![Just([0.0; 2]), pair(limits::VALVE_SLOPE)];
+    (parts, within(limits::POWER_GAIN), within(limits::GRAVITY), inflow, valve_slopes).prop_map(
+        |((tanks, pumps, valves, sensor), power_gain, gravity, inflow, valve_slopes)| QuadrupleTank {
             tanks,
             pumps,
             valves,
+            valve_slopes,
             power_gain,
             sensor,
             gravity,

@@ -8,33 +8,48 @@
 //!
 //! Nothing here allocates: a chart asks thousands of times.
 
-use super::LinearError;
+use super::{Complex, LinearError};
 use crate::numeric::{complements, excess_over_one};
 
-/// The finite zeros, at most two, real, the smaller first (1/s).
+/// The finite zeros, at most two (1/s).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FiniteZeros {
     /// Both are at infinity: a valve sends nothing to its lower tank, or both upper tanks are dry.
     None,
     /// One is at infinity: an upper tank is dry.
     One(f64),
-    /// The ordinary case.
+    /// The ordinary case: both real, the smaller first.
     Two([f64; 2]),
+    /// A conjugate pair, by the one above the real axis. It takes an incremental fraction outside [0, 1], with which more flow of a
+    /// pump lowers that into one of its tanks.
+    Conjugate(Complex),
 }
 
 impl FiniteZeros {
-    /// The zeros as a slice.
+    /// The real zeros as a slice.
     pub fn as_slice(&self) -> &[f64] {
         match self {
-            Self::None => &[],
+            Self::None | Self::Conjugate(_) => &[],
             Self::One(zero) => std::slice::from_ref(zero),
             Self::Two(zeros) => zeros,
         }
     }
 
-    /// The right-most zero, which says whether the plant is minimum phase.
+    /// Both zeros, the one further to the left or below first; `None` where one is at infinity.
+    pub fn pair(&self) -> Option<[Complex; 2]> {
+        match self {
+            Self::None | Self::One(_) => None,
+            Self::Two(zeros) => Some(zeros.map(Complex::from)),
+            Self::Conjugate(zero) => Some([zero.conj(), *zero]),
+        }
+    }
+
+    /// The right-most zero, or the real part of the right-most ones, which says whether the plant is minimum phase.
     pub fn rightmost(&self) -> Option<f64> {
-        self.as_slice().last().copied()
+        match self {
+            Self::Conjugate(zero) => Some(zero.re),
+            _ => self.as_slice().last().copied(),
+        }
     }
 }
 
@@ -64,26 +79,24 @@ pub fn eta(gammas: [f64; 2]) -> Option<f64> {
 /// [`LinearError::DegenerateRank`] where det G(s) ≡ 0: at (γ1, γ2) = (1, 0) and (0, 1), and at γ1 + γ2 = 1 when both
 /// upper tanks are dry.
 pub fn zeros(t3: f64, t4: f64, gammas: [f64; 2]) -> Result<FiniteZeros, LinearError> {
+    check("gamma1", gammas[0], (0.0, 1.0))?;
+    check("gamma2", gammas[1], (0.0, 1.0))?;
     zeros_off_rest(t3, t4, gammas, 1.0)
 }
 
 /// As [`zeros`], at levels that need not be at rest: `(T3 s + 1)(T4 s + 1) = ρ η`, where `ρ` is `passed`, the product of the
-/// steady-state gains from inflow to outflow of both upper tanks. Each is 1 at rest, and in a tank with upright walls.
+/// steady-state gains from inflow to outflow of both upper tanks. Each is 1 at rest, and in a tank with upright walls. The fractions
+/// may be incremental ones, γ̃, outside [0, 1] (`plant::Valve`).
 ///
 /// # Errors
-/// As [`zeros`], and [`LinearError::OutOfRange`] for a negative, infinite or undefined `passed`.
+/// As [`zeros`] but for the range of γ, which only has to be finite, and [`LinearError::OutOfRange`] for a negative, infinite or
+/// undefined `passed`.
 pub fn zeros_off_rest(t3: f64, t4: f64, gammas: [f64; 2], passed: f64) -> Result<FiniteZeros, LinearError> {
-    for (field, value, max) in [
-        ("t3", t3, f64::MAX),
-        ("t4", t4, f64::MAX),
-        ("gamma1", gammas[0], 1.0),
-        ("gamma2", gammas[1], 1.0),
-        ("passed", passed, f64::MAX),
-    ] {
-        if !(0.0..=max).contains(&value) {
-            return Err(LinearError::OutOfRange { field, value });
-        }
+    for (field, value) in [("t3", t3), ("t4", t4), ("passed", passed)] {
+        check(field, value, (0.0, f64::MAX))?;
     }
+    check("gamma1", gammas[0], (f64::MIN, f64::MAX))?;
+    check("gamma2", gammas[1], (f64::MIN, f64::MAX))?;
     let [gamma1, gamma2] = gammas;
     let sum = t3 + t4;
     let degenerate = LinearError::DegenerateRank { rank: 1, size: 2 };
@@ -97,8 +110,18 @@ pub fn zeros_off_rest(t3: f64, t4: f64, gammas: [f64; 2], passed: f64) -> Result
     if sum == 0.0 {
         return if gap == 0.0 { Err(degenerate) } else { Ok(FiniteZeros::None) };
     }
-    // The discriminant is a sum of squares, (T3 − T4)² + 4 T3 T4 η, and the smaller root comes from the product.
-    let spread = sum + (t3 - t4).hypot(2.0 * (t3 * t4 * eta).sqrt());
+    // The discriminant is (T3 − T4)² + 4 T3 T4 η, a sum of squares for fractions in [0, 1], and the smaller root comes from the
+    // product.
+    let root = if eta >= 0.0 {
+        (t3 - t4).hypot(2.0 * (t3 * t4 * eta).sqrt())
+    } else {
+        let discriminant = (t3 - t4) * (t3 - t4) + 4.0 * t3 * t4 * eta;
+        if discriminant < 0.0 {
+            return Ok(FiniteZeros::Conjugate(Complex::new(-sum, (-discriminant).sqrt()) / (2.0 * t3 * t4)));
+        }
+        discriminant.sqrt()
+    };
+    let spread = sum + root;
     let right = 0.0 - 2.0 * gap / spread;
     let left = -spread / (2.0 * t3 * t4);
     Ok(match (left.is_finite(), right.is_finite()) {
@@ -106,6 +129,10 @@ pub fn zeros_off_rest(t3: f64, t4: f64, gammas: [f64; 2], passed: f64) -> Result
         (false, true) => FiniteZeros::One(right),
         (_, false) => FiniteZeros::None,
     })
+}
+
+fn check(field: &'static str, value: f64, (min, max): (f64, f64)) -> Result<(), LinearError> {
+    if (min..=max).contains(&value) { Ok(()) } else { Err(LinearError::OutOfRange { field, value }) }
 }
 
 /// The right-most finite zero (1/s), negative for a minimum-phase plant; `None` where [`zeros`] has none or fails.
@@ -165,6 +192,20 @@ mod tests {
                 let product = (23.0 * zero + 1.0) * (250.0 * zero + 1.0);
                 assert_relative_eq!(product, eta(gammas).unwrap(), max_relative = 1e-12);
             }
+        }
+    }
+
+    #[test]
+    fn incremental_fractions_outside_0_to_1_can_make_a_conjugate_pair() {
+        let Ok(FiniteZeros::Conjugate(zero)) = zeros_off_rest(30.0, 31.0, [1.1, 0.5], 1.0) else { panic!("a pair") };
+        let product = (zero * 30.0 + 1.0) * (zero * 31.0 + 1.0);
+        assert_relative_eq!(product.re, eta([1.1, 0.5]).unwrap(), max_relative = 1e-12);
+        assert!(product.im.abs() < 1e-12 && zero.re < 0.0);
+        // Time constants that are far apart leave both real.
+        let Ok(FiniteZeros::Two(pair)) = zeros_off_rest(3.0, 310.0, [1.1, 0.5], 1.0) else { panic!("two zeros") };
+        for zero in pair {
+            let product = (3.0 * zero + 1.0) * (310.0 * zero + 1.0);
+            assert_relative_eq!(product, eta([1.1, 0.5]).unwrap(), max_relative = 1e-12);
         }
     }
 

@@ -98,6 +98,7 @@ fn rig(
             }),
             pumps: pump_gain_mm3.map(|k| Pump::proportional(k * MM3, 0.0, 12.0)),
             valves: [gamma; 2],
+            valve_slopes: [0.0; 2],
             power_gain: POWER_GAIN,
             sensor: Sensor { gain: 1.0 / (30.0 * MM), range: 300.0 * MM, resolution: 10.0 / 2_f64.powi(11) },
             gravity: 9787.9 * MM,

@@ -28,6 +28,7 @@ pub(super) fn preset() -> Preset {
             tanks: [tank; 4],
             pumps: [Pump::proportional(CM3, 0.0, 500.0); 2],
             valves: [0.6, 0.7],
+            valve_slopes: [0.0; 2],
             power_gain: 1.0,
             sensor: Sensor { gain: 1.0 / CM, range: HEIGHT, resolution: 0.0 },
             gravity: 981.0 * CM,

@@ -59,6 +59,7 @@ fn rig(
             tanks: [odd, even, odd, even],
             pumps: pump_gain_cm3.map(|k| Pump::proportional(k * CM3, 0.0, 10.0)),
             valves,
+            valve_slopes: [0.0; 2],
             power_gain: 1.0,
             sensor: Sensor { gain: 0.50 / CM, range: height, resolution: 0.0 },
             gravity: 981.0 * CM,

@@ -27,6 +27,7 @@ pub(super) fn case(id: PresetId, gamma: f64) -> Preset {
         tanks: [lower, lower, upper, upper],
         pumps: [3.33, 3.35].map(|k| Pump::proportional(k * CM3, 0.0, 12.0)),
         valves: [gamma; 2],
+        valve_slopes: [0.0; 2],
         power_gain: 1.0,
         sensor: Sensor { gain: 1.0 / CM, range: HEIGHT, resolution: 0.0 },
         gravity: 981.0 * CM,

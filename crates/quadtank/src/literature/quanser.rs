@@ -27,6 +27,7 @@ pub(super) fn preset() -> Preset {
             tanks: [tank; 4],
             pumps: [4.35, 4.39].map(|k| Pump::proportional(k * CM3, 0.0, 12.0)),
             valves: [0.36; 2],
+            valve_slopes: [0.0; 2],
             power_gain: 1.0,
             sensor: Sensor { gain: 1.0 / CM, range: HEIGHT, resolution: 0.0 },
             gravity: 981.0 * CM,

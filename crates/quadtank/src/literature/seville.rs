@@ -31,6 +31,7 @@ pub(super) fn preset() -> Preset {
             }),
             pumps: [3.26, 4.0].map(|most| Pump::proportional(1.0 / HOUR, 0.0, most)),
             valves: [0.3, 0.4],
+            valve_slopes: [0.0; 2],
             power_gain: 1.0,
             sensor: Sensor { gain: 1.0, range: 1.36, resolution: 0.0 },
             gravity: 9.81,

@@ -9,6 +9,13 @@ use crate::numeric::{complements, excess_over_one};
 /// seven digits in the voltages that [`QuadrupleTank::inputs_for_levels`] finds.
 pub const SINGULAR_MARGIN: f64 = 1e-9;
 
+/// Most steps of Newton's method, and how often one is halved at most, to find the flows that valves with a slope need.
+const MAX_STEPS: u32 = 60;
+const MAX_HALVED: i32 = 40;
+
+/// What is left of a flow balance by rounding, as a share of the flow.
+const BALANCED: f64 = 1e-14;
+
 /// Levels and voltages around which the plant is looked at. It rests there where the voltages hold the levels.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -45,17 +52,21 @@ impl QuadrupleTank {
     ///
     /// # Errors
     /// - [`PlantError::LevelOutOfRange`]: a given level is negative or above the walls, or an upper tank would overflow.
-    /// - [`PlantError::SingularPlant`]: γ1 + γ2 is within [`SINGULAR_MARGIN`] of 1.
+    /// - [`PlantError::SingularPlant`]: γ1 + γ2 is within [`SINGULAR_MARGIN`] of 1. Where the fractions depend on the flow, γ̃1 + γ̃2
+    ///   counts (see [`Valve`](super::Valve)), and levels beyond those at which it is 1.
     /// - [`PlantError::VoltageOutOfRange`]: a pump would leave its limits, or have to take water out of the plant.
     pub fn inputs_for_levels(&self, levels: [f64; 2]) -> Result<OperatingPoint, PlantError> {
         if let Some(error) = levels.into_iter().enumerate().find_map(|(tank, level)| self.level_violation(tank, level))
         {
             return Err(error);
         }
-        let gamma_sum = self.valves[0] + self.valves[1];
-        if (gamma_sum - 1.0).abs() < SINGULAR_MARGIN {
-            return Err(PlantError::SingularPlant { gamma_sum });
+        if self.has_flow_dependent_valves() {
+            let flows = self.balancing_flows(self.pumped_at_rest(levels))?;
+            // The levels that these voltages hold differ from the given ones by rounding, which a fraction that is the small difference of
+            // two numbers makes larger: with the given ones the plant would not be at rest.
+            return self.equilibrium([0, 1].map(|pump| self.pumps[pump].voltage_for(flows[pump])));
         }
+        check_gain(self.valves[0] + self.valves[1])?;
         let needed = self.checked(self.free_equilibrium(self.balancing_voltages(levels)))?;
         Ok(OperatingPoint { levels: [levels[0], levels[1], needed.levels[2], needed.levels[3]], ..needed })
     }
@@ -82,7 +93,37 @@ impl QuadrupleTank {
         self.violations_of(operating_point).collect()
     }
 
-    /// Solves the flow balance of the lower tanks for the pump voltages (V), without any check.
+    /// The flows of the pumps (m³/s) that bring the lower tanks `needed` (m³/s), by way of the upper ones too, where fractions depend
+    /// on them. Both together are what both tanks need, so that one equation is left, `γ1(q1) q1 + (1 − γ2(q2)) q2 = needed1`, whose
+    /// slope is γ̃1 + γ̃2 − 1. It may have two solutions, one on each side of slope 0; from equal flows on Newton's method finds the
+    /// one on their side.
+    ///
+    /// # Errors
+    /// [`PlantError::SingularPlant`] where it ends with the slope 0.
+    fn balancing_flows(&self, needed: [f64; 2]) -> Result<[f64; 2], PlantError> {
+        let total = needed[0] + needed[1];
+        let valves = self.valves();
+        let lower = |i: usize, flow: f64| valves[i].fraction_at(flow) * flow;
+        let excess = |q1: f64| lower(0, q1) + (total - q1) - lower(1, total - q1) - needed[0];
+        let gamma_sum = |q1: f64| valves[0].incremental_fraction(q1) + valves[1].incremental_fraction(total - q1);
+        let mut q1 = 0.5 * total;
+        for _ in 0..MAX_STEPS {
+            check_gain(gamma_sum(q1))?;
+            let step = excess(q1) / (gamma_sum(q1) - 1.0);
+            let is_closer = |tried: &f64| excess(*tried).abs() < excess(q1).abs();
+            let Some(next) = (0..MAX_HALVED).map(|times| q1 - step * 0.5_f64.powi(times)).find(is_closer) else {
+                break;
+            };
+            q1 = next;
+        }
+        if excess(q1).abs() > BALANCED * total.abs() {
+            return Err(PlantError::SingularPlant { gamma_sum: gamma_sum(q1) });
+        }
+        Ok([q1, total - q1])
+    }
+
+    /// Solves the flow balance of the lower tanks for the pump voltages (V), without any check; the fractions are the same for any
+    /// flow.
     pub(crate) fn balancing_voltages(&self, levels: [f64; 2]) -> [f64; 2] {
         let ([gamma_1, gamma_2], [above_1, above_2]) = (self.valves, complements(self.valves));
         let [k1, k2] = self.pumps.map(|pump| pump.gain);
@@ -128,6 +169,11 @@ impl QuadrupleTank {
     }
 }
 
+/// Whether the gain at steady state can be inverted, with valve fractions of this sum.
+fn check_gain(gamma_sum: f64) -> Result<(), PlantError> {
+    if (gamma_sum - 1.0).abs() < SINGULAR_MARGIN { Err(PlantError::SingularPlant { gamma_sum }) } else { Ok(()) }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -167,6 +213,33 @@ mod tests {
         assert!(!matches!(outside, Err(PlantError::SingularPlant { .. })));
         let inside = johansson([0.5, 0.5 + 0.5 * SINGULAR_MARGIN]).inputs_for_levels([0.12, 0.12]);
         assert!(matches!(inside, Err(PlantError::SingularPlant { .. })));
+    }
+
+    #[test]
+    fn levels_are_held_where_fractions_depend_on_the_flow() {
+        let rigs = [PresetId::JohanssonMinimumPhase, PresetId::JohanssonNonMinimumPhase, PresetId::CocotaMinimumPhase];
+        for plant in rigs.map(|id| id.preset().plant) {
+            for slopes in [[3e3, -2e3], [-2e3, 0.0], [0.0, 4e3]] {
+                let plant = QuadrupleTank { valve_slopes: slopes, ..plant };
+                let point = plant.equilibrium([3.0, 3.2]).unwrap();
+                let found = plant.inputs_for_levels([point.levels[0], point.levels[1]]).unwrap();
+                for i in 0..2 {
+                    let (found, expected) = (found.pump_voltage[i], point.pump_voltage[i]);
+                    assert!((found - expected).abs() < 1e-9, "{slopes:?}: {found} {expected}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn levels_beyond_the_fold_of_the_flows_are_not_held() {
+        // γ̃1 + γ̃2 = 1 at 10 cm³/s of pump 1, where the share of tank 1 of all water is the largest that there is.
+        let plant = QuadrupleTank { valve_slopes: [-5e3, 0.0], ..johansson([0.55, 0.55]) };
+        let result = plant.inputs_for_levels([0.12, 0.02]);
+        assert!(
+            matches!(result, Err(PlantError::SingularPlant { gamma_sum }) if (gamma_sum - 1.0).abs() < 1e-3),
+            "{result:?}"
+        );
     }
 
     #[test]

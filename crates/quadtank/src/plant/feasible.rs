@@ -6,7 +6,8 @@ impl QuadrupleTank {
     /// some pair of voltages, and none outside; where γ1 + γ2 = 1 the outline collapses to a curve, on which two inputs hold one
     /// ratio of flows. Walls are ignored, those of the upper tanks too.
     ///
-    /// The map from voltages to flows is linear, and flows rise with levels, so edges bound what corners span.
+    /// The map from voltages to flows is linear, and flows rise with levels, so edges bound what corners span. Where fractions depend
+    /// on the flow this holds as long as γ̃1 + γ̃2 stays on one side of 1.
     pub fn feasible_outline(&self, steps: u32) -> Vec<[f64; 2]> {
         let [(low_1, high_1), (low_2, high_2)] = self.pumps.map(|pump| pump.acting_range());
         let corners = [[low_1, low_2], [high_1, low_2], [high_1, high_2], [low_1, high_2]];

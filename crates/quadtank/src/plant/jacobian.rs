@@ -75,14 +75,16 @@ impl QuadrupleTank {
         self.decay_rates(levels, &net_inflow).map(|rate| rate.map(f64::recip))
     }
 
-    /// The exact linear model at any point, at rest or not (Cocota 2009, eqs. 3.14–3.17).
+    /// The exact linear model at any point, at rest or not (Cocota 2009, eqs. 3.14–3.17), with γ̃ for γ where that depends on the
+    /// flow.
     pub fn linearise(&self, operating_point: &OperatingPoint) -> Jacobian {
         let levels = operating_point.levels;
         let area: [f64; 4] = std::array::from_fn(|j| self.tanks[j].section.area(levels[j]));
         let net_inflow = self.net_inflows(&levels, &operating_point.pump_voltage, &Disturbance::default());
         let rates = self.decay_rates(&levels, &net_inflow);
         let quasi_steady = self.quasi_steady(&levels);
-        let above = complements(self.valves);
+        let fractions = self.incremental_fractions(operating_point.pump_voltage);
+        let above = complements(fractions);
 
         let mut jacobian = Jacobian {
             a: Matrix4::zeros(),
@@ -102,7 +104,7 @@ impl QuadrupleTank {
         for lower in 0..2 {
             let (upper, other) = (lower + 2, 1 - lower);
             // Flow per volt of the pump that feeds the lower tank, and of the other one that feeds the upper tank.
-            let direct = self.valves[lower] * self.pumps[lower].gain;
+            let direct = fractions[lower] * self.pumps[lower].gain;
             let from_above = above[other] * self.pumps[other].gain;
             if !quasi_steady[upper] {
                 jacobian.b[(upper, other)] = from_above / area[upper];

@@ -12,6 +12,7 @@ mod pump;
 mod quadruple;
 mod schedule;
 mod tank;
+mod valve;
 
 pub use equilibrium::{OperatingPoint, SINGULAR_MARGIN};
 pub use error::PlantError;
@@ -20,3 +21,4 @@ pub use pump::Pump;
 pub use quadruple::{Disturbance, QuadrupleTank, Sensor};
 pub use schedule::ValveSchedule;
 pub use tank::{CrossSection, Outlet, Tank};
+pub use valve::{FlowFractions, Valve};

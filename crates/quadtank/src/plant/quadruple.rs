@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::numeric::{complements, larger};
 
 use super::tank::torricelli_speed;
-use super::{Pump, Tank};
+use super::{FlowFractions, Pump, Tank, Valve};
 
 /// The level sensors of the two lower tanks: `y = gain × level`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -50,6 +50,10 @@ pub struct QuadrupleTank {
     pub pumps: [Pump; 2],
     /// Valve fractions γ1, γ2, each in [0, 1].
     pub valves: [f64; 2],
+    /// Growth s1, s2 of the valve fractions with the flow through each valve (s/m³): γ is then the fraction to which that of the flow
+    /// tends as it goes to 0, see [`Valve`].
+    #[serde(default, skip_serializing_if = "is_alike_at_any_flow")]
+    pub valve_slopes: [f64; 2],
     /// Gain of the power module between controller output and pump voltage (Cocota 2009: `k_mod`); 1 where there is none.
     pub power_gain: f64,
     /// The level sensors.
@@ -65,6 +69,11 @@ pub struct QuadrupleTank {
 /// Whether no tank receives anything from outside, as on most rigs.
 fn is_nothing(inflow: &[f64; 4]) -> bool {
     *inflow == [0.0; 4]
+}
+
+/// Whether the valves divide any flow alike, as on most rigs.
+fn is_alike_at_any_flow(valve_slopes: &[f64; 2]) -> bool {
+    *valve_slopes == [0.0; 2]
 }
 
 /// Loads that act on the plant besides its inputs.
@@ -110,6 +119,40 @@ impl QuadrupleTank {
     #[must_use]
     pub fn with_valves(self, valves: [f64; 2]) -> Self {
         Self { valves, ..self }
+    }
+
+    /// The valve of each pump.
+    pub fn valves(&self) -> [Valve; 2] {
+        self.valves_at(self.valves)
+    }
+
+    /// The same with the valves set to `[γ1, γ2]`.
+    #[inline]
+    fn valves_at(&self, fractions: [f64; 2]) -> [Valve; 2] {
+        from_fn(|i| Valve { fraction: fractions[i], slope: self.valve_slopes[i] })
+    }
+
+    /// Whether the fraction of a valve depends on the flow through it.
+    pub fn has_flow_dependent_valves(&self) -> bool {
+        !is_alike_at_any_flow(&self.valve_slopes)
+    }
+
+    /// Valve fractions γ1(q1), γ2(q2) of the flows that these pump voltages (V) make.
+    pub fn fractions_at(&self, pump_voltage: [f64; 2]) -> [f64; 2] {
+        from_fn(|i| self.valves()[i].fraction_at(self.pumps[i].flow(pump_voltage[i])))
+    }
+
+    /// How the valves divide flows at these pump voltages (V); `None` where they divide any flow alike.
+    pub fn flow_fractions(&self, pump_voltage: [f64; 2]) -> Option<FlowFractions> {
+        let incremental = self.incremental_fractions(pump_voltage);
+        self.has_flow_dependent_valves()
+            .then(|| FlowFractions { of_flow: self.fractions_at(pump_voltage), incremental })
+    }
+
+    /// Incremental valve fractions γ̃1, γ̃2 at these pump voltages (V), which take the place of γ1 and γ2 in a linear model; see
+    /// [`Valve::incremental_fraction`].
+    pub fn incremental_fractions(&self, pump_voltage: [f64; 2]) -> [f64; 2] {
+        from_fn(|i| self.valves()[i].incremental_fraction(self.pumps[i].flow(pump_voltage[i])))
     }
 
     /// Rates of change of the four levels (m/s) at the given levels (m) and pump voltages (V) under the given loads
@@ -159,7 +202,7 @@ impl QuadrupleTank {
         from_fn(|j| larger(self.inflow[j] + disturbance.tank_flow[j], 0.0))
     }
 
-    /// Flow that each tank receives through the valves (m³/s): `γ1 q1`, `γ2 q2`, `(1 − γ2) q2`, `(1 − γ1) q1`.
+    /// Flow that each tank receives through the valves (m³/s): `γ1 q1`, `γ2 q2`, `(1 − γ2) q2`, `(1 − γ1) q1`, where γ may depend on q.
     #[inline]
     pub fn valve_flows(&self, pump_voltage: &[f64; 2], disturbance: &Disturbance) -> [f64; 4] {
         self.valve_flows_at(self.valves, pump_voltage, disturbance)
@@ -168,9 +211,10 @@ impl QuadrupleTank {
     /// The same with the valves at `[γ1, γ2]` before any load.
     #[inline]
     pub fn valve_flows_at(&self, valves: [f64; 2], pump_voltage: &[f64; 2], disturbance: &Disturbance) -> [f64; 4] {
-        let [q1, q2]: [f64; 2] = from_fn(|i| disturbance.flow_of_pump(i, self.pumps[i].flow(pump_voltage[i])));
-        let valves = disturbance.valves(valves);
-        let ([gamma_1, gamma_2], [above_1, above_2]) = (valves, complements(valves));
+        let flows: [f64; 2] = from_fn(|i| disturbance.flow_of_pump(i, self.pumps[i].flow(pump_voltage[i])));
+        let valves = self.valves_at(disturbance.valves(valves));
+        let fractions = from_fn(|i| valves[i].fraction_at(flows[i]));
+        let ([q1, q2], [gamma_1, gamma_2], [above_1, above_2]) = (flows, fractions, complements(fractions));
         [gamma_1 * q1, gamma_2 * q2, above_2 * q2, above_1 * q1]
     }
 

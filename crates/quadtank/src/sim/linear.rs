@@ -81,10 +81,13 @@ impl<'a> LinearModel<'a> {
     /// state or the voltage counts as at the operating point.
     fn load_flows(&self, load: &Disturbance) -> [f64; 4] {
         let (plant, op) = (self.plant, self.op);
-        let ([gamma_1, gamma_2], [above_1, above_2]) = (plant.valves, complements(plant.valves));
+        let fractions = plant.incremental_fractions(op.pump_voltage);
+        let ([gamma_1, gamma_2], [above_1, above_2]) = (fractions, complements(fractions));
         let pumped: [f64; 2] = from_fn(|i| plant.pumps[i].flow(op.pump_voltage[i]));
+        let turned = plant.with_valves(load.valves(plant.valves)).fractions_at(op.pump_voltage);
+        let before = plant.fractions_at(op.pump_voltage);
         let more: [f64; 2] = from_fn(|i| load.pump_gain_change[i] * pumped[i] + load.pump_flow[i]);
-        let turned: [f64; 2] = from_fn(|i| (load.valves(plant.valves)[i] - plant.valves[i]) * pumped[i]);
+        let turned: [f64; 2] = from_fn(|i| (turned[i] - before[i]) * pumped[i]);
         let through_valves = [
             gamma_1 * more[0] + turned[0],
             gamma_2 * more[1] + turned[1],
@@ -160,10 +163,11 @@ mod tests {
     use crate::literature::PresetId;
     use crate::sim::{Load, LoadStep, simulate};
 
-    /// Levels (m) that a load moves in the end, with both pumps by hand: nonlinear and linear.
-    fn moved_by(load: Load) -> [[f64; 4]; 2] {
+    /// Levels (m) that a load moves in the end, with both pumps by hand and valves of these slopes: nonlinear and linear.
+    fn moved_by(load: Load, valve_slopes: [f64; 2]) -> [[f64; 4]; 2] {
         let preset = PresetId::JohanssonMinimumPhase.preset();
-        let op = preset.plant.free_equilibrium(preset.pump_voltage);
+        let plant = QuadrupleTank { valve_slopes, ..preset.plant };
+        let op = plant.free_equilibrium(preset.pump_voltage);
         let by_hand = |pump: usize| PiSettings {
             gain: 1.0,
             integral_time_s: 30.0,
@@ -175,10 +179,10 @@ mod tests {
             DecentralisedPi { pairing: Pairing::Diagonal, loops: [by_hand(0), by_hand(1)], sampling_time_s: 1.0 };
         let experiment =
             Experiment { load_steps: vec![LoadStep { time_s: 10.0, load }], ..Experiment::at_rest(2000.0) };
-        let jacobian = preset.plant.linearise(&op);
+        let jacobian = plant.linearise(&op);
         let runs = [
-            simulate(&preset.plant, &op, &controller, &experiment),
-            simulate_linear(&preset.plant, &op, &jacobian, &controller, &experiment),
+            simulate(&plant, &op, &controller, &experiment),
+            simulate_linear(&plant, &op, &jacobian, &controller, &experiment),
         ];
         runs.map(|run| std::array::from_fn(|i| run.levels[i].last().copied().unwrap_or(f64::NAN) - op.levels[i]))
     }
@@ -222,8 +226,9 @@ mod tests {
         let of_pumps = (0..2).map(|pump| Load::PumpGain { pump, change: -1e-4 });
         let of_valves = (0..2).map(|valve| Load::Valve { valve, change: 1e-4 });
         let of_outlets = (0..4).map(|tank| Load::Outlet { tank, change: -1e-4 });
-        for load in leaks.chain(flows).chain(from_outside).chain(of_pumps).chain(of_valves).chain(of_outlets) {
-            let [nonlinear, linear] = moved_by(load);
+        let loads = leaks.chain(flows).chain(from_outside).chain(of_pumps).chain(of_valves).chain(of_outlets);
+        for (load, slopes) in loads.flat_map(|load| [(load, [0.0; 2]), (load, [8e3, -5e3])]) {
+            let [nonlinear, linear] = moved_by(load, slopes);
             assert!(nonlinear.iter().any(|x| x.abs() > 1e-6), "{load:?} {nonlinear:?}");
             for i in 0..4 {
                 // The load is small: what is left is the square of a share of 1e-4.

@@ -106,6 +106,7 @@ impl Draw {
             tanks: [self.tank(), self.tank(), self.tank(), self.tank()],
             pumps: [self.pump(), self.pump()],
             valves: self.pair(limits::VALVE),
+            valve_slopes: if self.one_in(4) { self.pair(limits::VALVE_SLOPE) } else { [0.0; 2] },
             power_gain: self.number(limits::POWER_GAIN),
             sensor: Sensor {
                 gain: self.number(limits::SENSOR_GAIN),

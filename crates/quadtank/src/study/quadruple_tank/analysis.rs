@@ -1,11 +1,11 @@
 use crate::control::closed_loop;
 use crate::interaction::interpolation_integral;
 use crate::linear::ClosedLoop;
-use crate::plant::{OperatingPoint, PlantError};
+use crate::plant::{FlowFractions, OperatingPoint, PlantError};
 use crate::sim::Experiment;
 use crate::study::{LinearPlant, StudyError};
 
-use super::{Prepared, Setup};
+use super::{Prepared, Setup, ZeroSituation};
 
 /// All that linear theory says about a setup, at the exact equilibrium of its inputs or at a state of one's own.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,6 +16,8 @@ pub struct Analysis {
     pub out_of_range: Vec<PlantError>,
     /// How fast the levels leave the operating point by themselves (m/s), the loops being open; `None` at rest.
     pub drift: Option<[f64; 4]>,
+    /// How the valves divide the flows there; `None` where they divide any flow alike, by the fractions of the setup.
+    pub flow_fractions: Option<FlowFractions>,
     /// T1…T4 (s); `None` for a tank that is dry.
     pub time_constants_s: [Option<f64>; 4],
     /// The linear plant around the operating point.
@@ -56,10 +58,21 @@ impl Analysis {
             operating_point: *operating_point,
             out_of_range: plant.violations(operating_point),
             drift: (!jacobian.is_at_rest()).then(|| jacobian.drift.into()),
+            flow_fractions: plant.flow_fractions(operating_point.pump_voltage),
             time_constants_s: plant.time_constants_s(operating_point),
             linear: LinearPlant::of(jacobian)?,
             closed_loop: closed_loop(jacobian, &setup.controller, plant.power_gain)?,
         })
+    }
+
+    /// Valve fractions of the linear model: incremental ones where the fractions depend on the flow, else those of the setup.
+    pub fn linear_valves(&self, setup: &Setup) -> [f64; 2] {
+        self.flow_fractions.map_or(setup.valves, |fractions| fractions.incremental)
+    }
+
+    /// Where the right-most transmission zero is.
+    pub fn zero_situation(&self, setup: &Setup) -> ZeroSituation {
+        ZeroSituation::of(&self.linear, self.linear_valves(setup))
     }
 
     /// `∫ ηᵀe(t) e^(−zt) dt` (m s) from the first set-point step of an experiment on, for every stabilising controller

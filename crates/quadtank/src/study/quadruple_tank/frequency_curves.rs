@@ -85,7 +85,7 @@ impl FrequencyCurves {
                 bandwidth: bandwidth(&frequencies, |w| gains(w).sensitivity[0]),
             }
         });
-        let zero = match ZeroSituation::of(&analysis.linear, setup.valves) {
+        let zero = match analysis.zero_situation(setup) {
             ZeroSituation::Right(zero) => Some(zero),
             _ => None,
         };

@@ -1,4 +1,4 @@
-use crate::linear::quadruple::{FiniteZeros, path, zeros, zeros_off_rest};
+use crate::linear::quadruple::{FiniteZeros, path, zeros_off_rest};
 use crate::linear::{Complex, LinearError};
 use crate::plant::{OperatingPoint, QuadrupleTank};
 
@@ -53,6 +53,17 @@ impl ValveMap {
         self.zeros(valves).ok()?.rightmost()
     }
 
+    /// The sum γ1 + γ2 at which the gain at steady state is singular and a zero is at the origin: 1, or where fractions depend on the
+    /// flow, the sum at which γ̃1 + γ̃2 = 1 as long as neither γ(q) is at an end.
+    pub fn singular_sum(&self) -> f64 {
+        let pump_voltage = match self.standing {
+            Standing::Rest(pump_voltage) => pump_voltage,
+            Standing::State(state) => state.pump_voltage,
+        };
+        let growth = |pump: usize| self.plant.valve_slopes[pump] * self.plant.pumps[pump].flow(pump_voltage[pump]);
+        1.0 - 2.0 * (growth(0) + growth(1))
+    }
+
     fn zeros(&self, valves: [f64; 2]) -> Result<FiniteZeros, LinearError> {
         let plant = self.plant.with_valves(valves);
         // A tank that is dry follows its inflow at once.
@@ -63,7 +74,7 @@ impl ValveMap {
         match self.standing {
             Standing::Rest(pump_voltage) => {
                 let [t3, t4] = upper_time_constants(&plant.free_equilibrium(pump_voltage));
-                zeros(t3, t4, valves)
+                zeros_off_rest(t3, t4, plant.incremental_fractions(pump_voltage), 1.0)
             }
             Standing::State(state) => {
                 let [t3, t4] = upper_time_constants(&state);
@@ -73,7 +84,8 @@ impl ValveMap {
                     let rate = tank.outflow_slope(level, plant.gravity) / tank.section.area(level);
                     if time_constant > 0.0 { time_constant * rate } else { 1.0 }
                 };
-                zeros_off_rest(t3, t4, valves, passed(2, t3) * passed(3, t4))
+                let fractions = plant.incremental_fractions(state.pump_voltage);
+                zeros_off_rest(t3, t4, fractions, passed(2, t3) * passed(3, t4))
             }
         }
     }
@@ -88,11 +100,9 @@ impl ValveMap {
         let to = [gamma_1 + ahead, gamma_2 + ahead];
         let mut paths = [Vec::new(), Vec::new()];
         for point in path(from, to, points, |valves| self.zeros(valves)) {
-            let zeros = point.zeros.as_ref().map_or(&[][..], |zeros| zeros.as_slice());
-            if let [left, right] = *zeros {
-                for (path, zero) in paths.iter_mut().zip([left, right]) {
-                    path.push(Complex::new(zero, 0.0));
-                }
+            let zeros = point.zeros.ok().and_then(|zeros| zeros.pair());
+            for (path, zero) in paths.iter_mut().zip(zeros.into_iter().flatten()) {
+                path.push(zero);
             }
         }
         paths
@@ -103,7 +113,36 @@ impl ValveMap {
 mod tests {
     use super::*;
     use crate::literature::PresetId;
-    use crate::study::quadruple_tank::{PlantSpec, analyse, setup_of};
+    use crate::study::quadruple_tank::{PlantSpec, ZeroSituation, analyse, setup_of};
+
+    #[test]
+    fn where_fractions_depend_on_the_flow_the_line_is_where_theory_has_it() {
+        let mut setup = setup_of(PresetId::JohanssonMinimumPhase);
+        let mut rig = setup.plant.rig();
+        rig.valve_slopes = [1e4, -2e3];
+        setup.plant = PlantSpec::Parameters { rig, display_unit: setup.plant.display_unit() };
+        let sum = ValveMap::of(&setup).unwrap().singular_sum();
+        // 1 − 2 (s1 k1 v1 + s2 k2 v2), with about 10 cm³/s from each pump.
+        assert!((sum - (1.0 - 2.0 * (1e4 * 9.99e-6 - 2e3 * 10.05e-6))).abs() < 1e-12, "{sum}");
+        for gamma_1 in [0.3, 0.5, 0.7] {
+            let mut found_at = |off: f64| {
+                setup.valves = [gamma_1, sum - gamma_1 + off];
+                let analysis = analyse(&setup).unwrap();
+                let by_map = ValveMap::of(&setup).unwrap().rightmost_zero(setup.valves).unwrap();
+                (analysis.zero_situation(&setup), by_map)
+            };
+            for off in [-0.05, 0.05] {
+                match found_at(off) {
+                    (ZeroSituation::Left(zero), by_map) if off > 0.0 => {
+                        assert!((zero - by_map).abs() < 1e-9 * zero.abs());
+                    }
+                    (ZeroSituation::Right(zero), by_map) if off < 0.0 => assert!((zero - by_map).abs() < 1e-9 * zero),
+                    other => panic!("{gamma_1} {off}: {other:?}"),
+                }
+            }
+            assert!(found_at(0.0).1.abs() < 1e-12);
+        }
+    }
 
     #[test]
     fn at_a_state_of_ones_own_the_map_has_the_zeros_of_theory() {

@@ -20,7 +20,7 @@ pub enum ZeroSituation {
 }
 
 impl ZeroSituation {
-    /// The situation of a plant with these valve fractions.
+    /// The situation of a plant with these valve fractions, incremental ones where they depend on the flow.
     pub fn of(plant: &LinearPlant, valves: [f64; 2]) -> Self {
         if valves == [1.0, 1.0] {
             return Self::Uncoupled;

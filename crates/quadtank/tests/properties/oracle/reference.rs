@@ -26,6 +26,7 @@ impl Parameters {
             }),
             pumps: self.pump_gain.map(|gain| Pump::proportional(gain, 0.0, f64::INFINITY)),
             valves: self.gamma,
+            valve_slopes: [0.0; 2],
             power_gain: 1.0,
             sensor: Sensor { gain: self.sensor_gain, range: f64::INFINITY, resolution: 0.0 },
             gravity: self.gravity,
