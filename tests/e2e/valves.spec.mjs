@@ -45,9 +45,10 @@ test('dragging the point across the line flips zero, relative gain, pairing and 
 });
 
 test('fractions that fall with the flow take the zero across while the valves stand', async ({ lab }) => {
-  await lab.open('view=full');
+  await lab.open();
   await minimumPhase(lab);
   const plane = await lab.picture('valve-plane');
+  await lab.page.locator('[data-testid=operating-point-fold] > summary').click();
   await lab.id('rig-numbers').locator('summary').click();
   await lab.type('rig-valve-slope1', '-0.01');
   await lab.type('rig-valve-slope2', '-0.01');

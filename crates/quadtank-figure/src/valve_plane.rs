@@ -99,7 +99,11 @@ fn boundary(sum: f64) -> Option<[(f64, f64); 2]> {
 
 /// The names of the line, beside its upper end, and of both sides that the plane has.
 fn words(texts: &ValvePlaneTexts, ends: Option<[(f64, f64); 2]>) -> impl Iterator<Item = Layer<'static>> {
-    let of_line = ends.map(|[upper, _]| word(upper, (22.0, 11.0), Anchor::Left, texts.boundary));
+    let of_line = ends.map(|[upper, _]| {
+        // Beside the line on the side that has the room.
+        let (offset, anchor) = if upper.0 < 0.5 { ((22.0, 11.0), Anchor::Left) } else { ((-6.0, 11.0), Anchor::Right) };
+        word(upper, offset, anchor, texts.boundary)
+    });
     let of_sides = [
         word((1.0, 1.0), (-6.0, 28.0), Anchor::Right, texts.minimum_phase),
         word((0.0, 0.08), (6.0, 0.0), Anchor::Left, texts.right_half_plane),

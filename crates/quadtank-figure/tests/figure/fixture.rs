@@ -104,15 +104,23 @@ pub fn johansson_s_plane() -> Chart<'static> {
 }
 
 pub fn plane(right_most_zero: &dyn Fn([f64; 2]) -> Option<f64>, setting: Option<[f64; 2]>) -> Chart<'static> {
+    plane_with(right_most_zero, setting, 1.0)
+}
+
+pub fn plane_with(
+    right_most_zero: &dyn Fn([f64; 2]) -> Option<f64>,
+    setting: Option<[f64; 2]>,
+    singular_sum: f64,
+) -> Chart<'static> {
     let texts = ValvePlaneTexts {
         gamma_1: "γ₁",
         gamma_2: "γ₂",
-        boundary: "γ₁ + γ₂ = 1",
+        boundary: "the line",
         minimum_phase: "minimum phase",
         right_half_plane: "zero < right & wrong",
     };
     let published = [("P−", [0.7, 0.6]), ("P+", [0.43, 0.34])];
-    valve_plane(&ValvePlane { right_most_zero, singular_sum: 1.0, published: &published, setting, texts })
+    valve_plane(&ValvePlane { right_most_zero, singular_sum, published: &published, setting, texts })
 }
 
 /// The right-most zero for T3 = T4 = 50 s: (50 s + 1)² = η.

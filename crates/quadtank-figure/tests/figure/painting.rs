@@ -4,7 +4,7 @@ use nalgebra::Complex;
 use quadtank_figure::{Axis, Chart, Layer, Palette, Pen, Rect, Rgb, Role, Sheet, Size, layout, responses, table};
 
 use crate::fixture::{
-    Run, SIZE, STYLE, johansson_s_plane, plane, response_charts, response_spec, right_most_zero, s_plane,
+    Run, SIZE, STYLE, johansson_s_plane, plane, plane_with, response_charts, response_spec, right_most_zero, s_plane,
 };
 use crate::recorder::{Drawn, record, record_sheet};
 
@@ -86,6 +86,35 @@ fn a_marker_is_painted_where_the_frame_says() {
     };
     assert!(drawn.iter().filter(hit).count() >= 2);
     assert_eq!(frame.plot.width, frame.plot.height);
+}
+
+#[test]
+fn the_line_of_the_valve_plane_is_where_the_gain_is_singular() {
+    for sum in [0.4, 1.0, 1.8] {
+        let chart = plane_with(&right_most_zero, None, sum);
+        let frame = layout(std::slice::from_ref(&chart), SIZE)[0];
+        let drawn = record(&[chart], SIZE, &STYLE);
+        let ends = [sum.min(1.0), (sum - 1.0).max(0.0)].map(|gamma_2| frame.to_px((sum - gamma_2, gamma_2)));
+        let is_line = |drawn: &&Drawn| match drawn {
+            Drawn::Path { points, .. } => [points.first(), points.last()]
+                .into_iter()
+                .zip(ends)
+                .all(|(found, (x, y))| found.is_some_and(|found| (found.0 - x).hypot(found.1 - y) < 0.1)),
+            _ => false,
+        };
+        assert_eq!(drawn.iter().filter(is_line).count(), 1, "{sum}");
+        let name = drawn.iter().find_map(|drawn| match drawn {
+            Drawn::Text { text, at } if text == "the line" => Some(*at),
+            _ => None,
+        });
+        let (left, _) = name.unwrap();
+        // Eight letters of about half their size.
+        assert!(frame.plot.left < left && left + 8.0 * 7.0 < frame.plot.right(), "{sum}: {left}");
+    }
+    for sum in [-0.2, 2.5] {
+        let drawn = record(&[plane_with(&right_most_zero, None, sum)], SIZE, &STYLE);
+        assert!(!texts(&drawn).contains(&"the line"), "{sum}");
+    }
 }
 
 #[test]
