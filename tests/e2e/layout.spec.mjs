@@ -276,3 +276,32 @@ test.describe('by touch', () => {
     }
   });
 });
+
+/** Sizes of text outside of drawings and formulas that are not on the scale, with where they are. */
+const offScale = (page) =>
+  page.evaluate(() => {
+    const scale = ['12px', '14px', '16px', '20px', '28px'];
+    const isHtml = (element) => element.namespaceURI === 'http://www.w3.org/1999/xhtml';
+    const hasText = (element) =>
+      [...element.childNodes].some((node) => node.nodeType === Node.TEXT_NODE && node.data.trim()) || element.matches('input, select, textarea');
+    return [...document.querySelectorAll('body *')]
+      .filter((element) => isHtml(element) && hasText(element) && element.checkVisibility())
+      .map((element) => [element, getComputedStyle(element).fontSize])
+      .filter(([, size]) => !scale.includes(size))
+      .map(([element, size]) => `${size}: ${element.tagName} ${element.className} ${element.textContent.slice(0, 30)}`);
+  });
+
+for (const [width, height] of [[1440, 900], [390, 844]]) {
+  test(`${width} × ${height}: all text has a size of the scale`, async ({ lab, page }) => {
+    await page.setViewportSize({ width, height });
+    const benches = BENCHES.flatMap((bench) => ['explore', 'full'].map((view) => `bench=${bench}&view=${view}`));
+    const others = ['view=lab', 'lesson=two-valves-one-zero', 'page=lessons', 'page=teachers', 'page=glossary'];
+    for (const query of [...benches, ...others]) {
+      await page.goto(`${lab.origin}/?${query}&lang=en`);
+      await page.locator('#bench:not(.outline)').waitFor({ state: 'attached' });
+      await lab.settle();
+      expect(await offScale(page), query).toEqual([]);
+    }
+    await lab.clean();
+  });
+}

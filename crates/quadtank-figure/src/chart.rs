@@ -318,6 +318,9 @@ pub struct Label {
     pub bold: bool,
     /// Whether it stands on a piece of the background, so that no curve strikes it through.
     pub on_ground: bool,
+    /// Whether it may stand on the other side of its point, above instead of below or the other way round, where an edge of the plot
+    /// would push it onto the point.
+    pub may_turn: bool,
 }
 
 /// Words beside points. Each stands where it covers the least of the words before it, of their points, and of other points.

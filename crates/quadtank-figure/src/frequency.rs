@@ -142,7 +142,16 @@ fn zero(spec: &FrequencyCharts, (bottom, _): (f64, f64)) -> Vec<Layer<'static>> 
 }
 
 fn beside(at: (f64, f64), offset: (f64, f64), anchor: Anchor, text: &str, role: Role) -> Layer<'static> {
-    Layer::Label(Label { at, offset, anchor, text: text.to_owned(), role, bold: true, on_ground: false })
+    Layer::Label(Label {
+        at,
+        offset,
+        anchor,
+        text: text.to_owned(),
+        role,
+        bold: true,
+        on_ground: false,
+        may_turn: false,
+    })
 }
 
 /// The exponent of a gain, which is far from the limits of its type.

@@ -233,7 +233,9 @@ impl Brush<'_> {
             }
         }
         // Not `clamp`, which panics where the plot is lower than a line.
-        let y = (y + label.offset.1).min(plot.bottom() - half).max(plot.top + half);
+        let inside = |at: f64| at.min(plot.bottom() - half).max(plot.top + half);
+        let sides = [y + label.offset.1, y - label.offset.1];
+        let y = sides.into_iter().find(|&at| inside(at) == at).filter(|_| label.may_turn).unwrap_or(inside(sides[0]));
         if label.on_ground {
             self.ground([(x - behind - 1.0, y - half), (x + ahead + 1.0, y + half)]);
         }

@@ -89,7 +89,16 @@ fn ray(importance: f64, name: &str, (right, top): (f64, f64)) -> [Layer<'static>
     let text = name.to_owned();
     [
         line("", Role::Muted, Pen::Dashed, vec![0.0, end.0], vec![0.0, end.1]),
-        Layer::Label(Label { at: end, offset, anchor, text, role: Role::Muted, bold: false, on_ground: false }),
+        Layer::Label(Label {
+            at: end,
+            offset,
+            anchor,
+            text,
+            role: Role::Muted,
+            bold: false,
+            on_ground: false,
+            may_turn: false,
+        }),
     ]
 }
 

@@ -101,18 +101,27 @@ fn boundary(sum: f64) -> Option<[(f64, f64); 2]> {
 fn words(texts: &ValvePlaneTexts, ends: Option<[(f64, f64); 2]>) -> impl Iterator<Item = Layer<'static>> {
     let of_line = ends.map(|[upper, _]| {
         // Beside the line on the side that has the room.
-        let (offset, anchor) = if upper.0 < 0.5 { ((22.0, 11.0), Anchor::Left) } else { ((-6.0, 11.0), Anchor::Right) };
+        let (offset, anchor) = if upper.0 < 0.5 { ((39.0, 28.0), Anchor::Left) } else { ((14.0, 28.0), Anchor::Right) };
         word(upper, offset, anchor, texts.boundary)
     });
     let of_sides = [
-        word((1.0, 1.0), (-6.0, 28.0), Anchor::Right, texts.minimum_phase),
+        word((1.0, 1.0), (-6.0, 11.0), Anchor::Right, texts.minimum_phase),
         word((0.0, 0.08), (6.0, 0.0), Anchor::Left, texts.right_half_plane),
     ];
     of_line.into_iter().chain(of_sides)
 }
 
 fn word(at: (f64, f64), offset: (f64, f64), anchor: Anchor, text: &str) -> Layer<'static> {
-    Layer::Label(Label { at, offset, anchor, text: text.into(), role: Role::Neutral, bold: false, on_ground: false })
+    Layer::Label(Label {
+        at,
+        offset,
+        anchor,
+        text: text.into(),
+        role: Role::Neutral,
+        bold: false,
+        on_ground: false,
+        may_turn: false,
+    })
 }
 
 fn mark(at: (f64, f64), shape: Shape) -> Layer<'static> {

@@ -1,7 +1,9 @@
 use std::f64::consts::PI;
 
 use nalgebra::Complex;
-use quadtank_figure::{Axis, Chart, Layer, Palette, Pen, Rect, Rgb, Role, Sheet, Size, layout, responses, table};
+use quadtank_figure::{
+    Anchor, Axis, Chart, Label, Layer, Palette, Pen, Rect, Rgb, Role, Sheet, Size, layout, responses, table,
+};
 
 use crate::fixture::{
     Run, SIZE, STYLE, johansson_s_plane, plane, plane_with, response_charts, response_spec, right_most_zero, s_plane,
@@ -115,6 +117,38 @@ fn the_line_of_the_valve_plane_is_where_the_gain_is_singular() {
         let drawn = record(&[plane_with(&right_most_zero, None, sum)], SIZE, &STYLE);
         assert!(!texts(&drawn).contains(&"the line"), "{sum}");
     }
+}
+
+#[test]
+fn a_word_that_an_edge_would_push_onto_its_point_stands_on_the_other_side() {
+    let word = |y: f64, may_turn: bool| {
+        let mut chart = Chart::new(Axis::new("", (0.0, 1.0)), Axis::new("", (0.0, 1.0)));
+        let offset = (-6.0, if y > 0.5 { -12.0 } else { 12.0 });
+        let (anchor, role, text) = (Anchor::Right, Role::Loop1, "a name".to_owned());
+        chart.layers.push(Layer::Label(Label {
+            at: (0.9, y),
+            offset,
+            anchor,
+            text,
+            role,
+            bold: true,
+            on_ground: false,
+            may_turn,
+        }));
+        let frame = layout(std::slice::from_ref(&chart), SIZE)[0];
+        let drawn = record(&[chart], SIZE, &STYLE);
+        let found = drawn.iter().find_map(|drawn| match drawn {
+            Drawn::Text { text, at } if text == "a name" => Some(at.1),
+            _ => None,
+        });
+        found.unwrap() - frame.y_px(y)
+    };
+    for (y, down) in [(0.995, 1.0), (0.005, -1.0)] {
+        let (turned, pushed) = (word(y, true), word(y, false));
+        assert!(down * turned > 4.0, "{y}: {turned}");
+        assert!((turned - pushed).abs() > 4.0, "{y}: {pushed}");
+    }
+    assert_eq!(word(0.7, true), word(0.7, false));
 }
 
 #[test]
