@@ -3,7 +3,6 @@
 use leptos::prelude::*;
 use quadtank::study::handover::{model_free_on, relay_session_on};
 use quadtank::study::quadruple_tank::Setup;
-use quadtank::study::relay_tuning::TuningPlant;
 use quadtank_scenario::model_free::ModelFreeScenario;
 use quadtank_scenario::tuning::TuningScenario;
 use quadtank_scenario::{BenchDocument, Scenario, ScenarioError};
@@ -59,13 +58,15 @@ pub fn to_rig(lab: Lab, setup: Setup) {
     hand_over::<QuadrupleTank>(lab, Scenario { pinned, ..Scenario::from(setup) });
 }
 
-/// Tunes a rig by relays; does nothing for one that relay sessions do not know.
+/// Tunes a rig by relays.
 pub fn to_relays(lab: Lab, rig: &Setup) {
-    let Some(session) = relay_session_on(rig) else { return };
-    let added_s = match session.plant {
-        TuningPlant::QuadrupleTank { dead_time_s, .. } if dead_time_s > 0.0 => Some(dead_time_s),
-        _ => None,
+    let session = match relay_session_on(rig) {
+        Ok(session) => session,
+        Err(error) => {
+            return lab.notice.set(Some(Notice::Refused(ScenarioError::Study { setup: Scenario::ROOT, error })));
+        }
     };
+    let added_s = session.plant.tank().map(|tank| tank.dead_time_s).filter(|&dead_time_s| dead_time_s > 0.0);
     hand_over::<RelayTuning>(lab, TuningScenario::from(session));
     if let Some(dead_time_s) = added_s {
         lab.notice.set(Some(Notice::DeadTimeAdded(dead_time_s)));

@@ -241,6 +241,39 @@ test('gains and rigs travel from bench to bench', async ({ lab, page }) => {
   expect(page.url()).toContain('bench=quadruple-tank');
 });
 
+test('a rig of one\'s own is tuned by relays and comes back with its gains', async ({ lab, page }) => {
+  await lab.open('lang=en');
+  await lab.page.locator('[data-testid=operating-point-fold] > summary').click();
+  await lab.id('rig-numbers').locator('summary').click();
+  await lab.type('rig-area1', '40');
+  await lab.id('to-relays').click();
+  await lab.settle();
+  expect(page.url()).toContain('bench=relay-tuning');
+  await expect(lab.id('plant').locator('option:checked')).toHaveText('Own rig');
+  expect(await lab.text('test-verdict')).toContain('Unimodal');
+  // Its period is not that of the rig with 28 cm², and the nonlinear plant is there as for a published rig.
+  const verdict = await lab.text('test-verdict');
+  await lab.id('rig-nonlinear').click();
+  await lab.settle();
+  expect(await lab.text('plant-remark')).toContain('Own rig');
+  await lab.id('rig-linear').click();
+  await lab.settle();
+  expect(await lab.text('test-verdict')).toBe(verdict);
+  await lab.axe();
+  await lab.id('action-pi').click();
+  await lab.settle();
+  await lab.id('mend-placement').click();
+  await lab.settle();
+  await lab.id('to-rig').click();
+  await lab.settle();
+  expect(page.url()).toContain('bench=quadruple-tank');
+  expect(await lab.text('stability')).toContain('Closed loop stable');
+  await lab.page.locator('[data-testid=operating-point-fold] > summary').click();
+  await lab.id('rig-numbers').locator('summary').click();
+  expect(await lab.value('rig-area1')).toBe(40);
+  await lab.clean();
+});
+
 test('the experiment is exported as a script in three languages', async ({ lab, page }) => {
   await lab.open('lang=en&preset=johansson-2000-minimum-phase');
   for (const [extension, sign] of [['py', 'GAMMA = np.array([0.7, 0.6])'], ['m', 'p.gamma = [0.7, 0.6];'], ['jl', 'const GAMMA = [0.7, 0.6]']]) {

@@ -54,7 +54,7 @@ pub fn plant(plant: &PlantSpec, at: &str) -> Checked {
     }
 }
 
-fn rig(rig: &QuadrupleTank, at: &str) -> Checked {
+pub fn rig(rig: &QuadrupleTank, at: &str) -> Checked {
     each(&rig.tanks, &format!("{at}.tanks"), tank)?;
     each(&rig.pumps, &format!("{at}.pumps"), pump)?;
     sensor(&rig.sensor, &format!("{at}.sensor"))

@@ -11,7 +11,7 @@ use crate::controls::{ParamControl, ParamNumber, ParamRow};
 use crate::texts::{say, terms, tr};
 use crate::widgets::{Card, Scale, Segmented, Sentence, Text, Tick};
 use quadtank::control::{AntiWindup, LoopMode, Pairing, PiSettings};
-use quadtank::study::quadruple_tank::{PlantSpec, Setup, detuned};
+use quadtank::study::quadruple_tank::{Setup, detuned};
 use quadtank_scenario::{Limits, limits};
 
 /// Tt/Ti when anti-windup is switched on (Cocota 2009, ch. 4).
@@ -157,7 +157,7 @@ pub fn ControllerCard() -> impl IntoView {
                 <HandOver
                     id="to-relays"
                     name=say!(lab, handover.relays)
-                    is_possible=session.throttled_part(|s| matches!(s.plant, PlantSpec::Preset(_)))
+                    is_possible=true
                     act=Callback::new(move |()| handover::to_relays(lab, &session.document.with_untracked(|s| s.setup.clone())))
                 />
                 <HandOver

@@ -7,7 +7,7 @@ use super::pictures::short_name;
 use super::session::{Session, use_session};
 use crate::session::Lock;
 use crate::texts::tr;
-use quadtank::study::relay_tuning::{Mend, Tested, TuningPlant, mend_pairing};
+use quadtank::study::relay_tuning::{Mend, Tested, mend_pairing};
 
 /// A change that is offered.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,8 +48,7 @@ pub fn of_test(session: Session) -> Vec<Offer> {
     if !chatters {
         return Vec::new();
     }
-    let is_linear =
-        session.throttled.setup.with(|s| !matches!(s.plant, TuningPlant::QuadrupleTank { nonlinear: true, .. }));
+    let is_linear = session.throttled.setup.with(|s| s.plant.tank().is_none_or(|tank| !tank.nonlinear));
     let hysteresis = Offer {
         id: "mend-hysteresis",
         text: tr!(session.lab, mend.hysteresis),

@@ -8,7 +8,7 @@ use crate::texts::tr;
 use crate::widgets::Picture;
 use quadtank::linear::Loci;
 use quadtank::sim::LoopTrace;
-use quadtank::study::relay_tuning::{Designed, Tested, TuningPlant, rule_targets};
+use quadtank::study::relay_tuning::{Designed, Tested, rule_targets};
 use quadtank::tuning::{GainLimit, TuningRule};
 use quadtank_figure::{CurveChart, LociChart, LoopsChart, LoopsRecord, Pen};
 use quadtank_scenario::tuning::{curve_to_csv, loci_to_csv, record_to_csv, response_to_csv};
@@ -94,10 +94,7 @@ fn loops(
 ) {
     let lab = session.lab;
     // Records follow from the setup, and come anew with all of it that matters here.
-    let (unit, in_volts) = session
-        .charts
-        .setup
-        .with_untracked(|s| (time_unit(&s.plant), matches!(s.plant, TuningPlant::QuadrupleTank { .. })));
+    let (unit, in_volts) = session.charts.setup.with_untracked(|s| (time_unit(&s.plant), s.plant.tank().is_some()));
     let volts = if in_volts { " (V)" } else { "" };
     let time = tr!(lab, relay.axis_time, unit = unit);
     let (output, input) = (tr!(lab, relay.axis_output), tr!(lab, relay.axis_input));

@@ -15,7 +15,7 @@ use quadtank::control::Pairing;
 use quadtank::literature::PresetId;
 use quadtank::literature::campestrini::PublishedCase;
 use quadtank::literature::campestrini::PublishedPlant;
-use quadtank::study::relay_tuning::{TuningPlant, TuningSetup};
+use quadtank::study::relay_tuning::{TunedTankMut, TuningPlant, TuningSetup};
 use quadtank_scenario::tuning::{TuningWarning, warnings};
 
 const VALVE: ParamControl<TuningSetup> = ParamControl {
@@ -43,7 +43,7 @@ const BEHIND: ParamControl<TuningSetup> = ParamControl {
 pub fn PlantCard() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
-    let no_rig = session.throttled_part(|s| !matches!(s.plant, TuningPlant::QuadrupleTank { .. }));
+    let no_rig = session.throttled_part(|s| s.plant.tank().is_none());
     view! {
         <Card
             name="plant"
@@ -120,52 +120,41 @@ fn MotionSwitch() -> impl IntoView {
 
 /// Pairing of a rig, and whether it runs nonlinear.
 fn rig(setup: &TuningSetup) -> Option<(Pairing, bool)> {
-    match setup.plant {
-        TuningPlant::QuadrupleTank { pairing, nonlinear, .. } => Some((pairing, nonlinear)),
-        _ => None,
-    }
+    setup.plant.tank().map(|tank| (tank.pairing, tank.nonlinear))
 }
 
 fn valves(setup: &TuningSetup) -> [f64; 2] {
-    match setup.plant {
-        TuningPlant::QuadrupleTank { preset, valves, .. } => valves.unwrap_or_else(|| preset.preset().plant.valves),
-        _ => [0.0; 2],
-    }
+    setup.plant.tank().map_or([0.0; 2], |tank| tank.rig.valves)
 }
 
 fn set_valve(setup: &mut TuningSetup, valve: usize, gamma: f64) {
     let mut both = valves(setup);
     both[valve] = gamma;
-    if let TuningPlant::QuadrupleTank { valves, .. } = &mut setup.plant {
-        *valves = Some(both);
-    }
+    setup.plant.set_valves(both);
 }
 
 /// Dead time and lag behind a rig (s).
 fn behind(setup: &TuningSetup) -> [f64; 2] {
-    match setup.plant {
-        TuningPlant::QuadrupleTank { dead_time_s, lag_s, .. } => [dead_time_s, lag_s],
-        _ => [0.0; 2],
-    }
+    setup.plant.tank().map_or([0.0; 2], |tank| [tank.dead_time_s, tank.lag_s])
 }
 
 /// The nonlinear rig has neither dead time nor lag, so asking for one asks for the linear model.
 fn set_behind(setup: &mut TuningSetup, which: usize, time_s: f64) {
-    if let TuningPlant::QuadrupleTank { dead_time_s, lag_s, nonlinear, .. } = &mut setup.plant {
-        *if which == 0 { dead_time_s } else { lag_s } = time_s;
-        *nonlinear = *nonlinear && time_s == 0.0;
+    if let Some(tank) = setup.plant.tank_mut() {
+        *if which == 0 { tank.dead_time_s } else { tank.lag_s } = time_s;
+        *tank.nonlinear = *tank.nonlinear && time_s == 0.0;
     }
 }
 
 fn set_pairing(setup: &mut TuningSetup, chosen: Pairing) {
-    if let TuningPlant::QuadrupleTank { pairing, .. } = &mut setup.plant {
-        *pairing = chosen;
+    if let Some(tank) = setup.plant.tank_mut() {
+        *tank.pairing = chosen;
     }
 }
 
 /// The nonlinear rig has neither dead time nor lag; the linear one gets those back that are `kept`.
 fn set_nonlinear(setup: &mut TuningSetup, chosen: bool, kept: Option<[f64; 2]>) {
-    if let TuningPlant::QuadrupleTank { dead_time_s, lag_s, nonlinear, .. } = &mut setup.plant {
+    if let Some(TunedTankMut { dead_time_s, lag_s, nonlinear, .. }) = setup.plant.tank_mut() {
         *nonlinear = chosen;
         if *nonlinear {
             (*dead_time_s, *lag_s) = (0.0, 0.0);
@@ -183,12 +172,12 @@ enum KnownPlant {
 }
 
 impl KnownPlant {
-    /// The plant of a document; nothing for one with elements of its own.
+    /// The plant of a document; nothing for a rig or elements of its own.
     fn of(plant: &TuningPlant) -> Option<Self> {
         match *plant {
             TuningPlant::Published(plant) => Some(Self::Published(plant)),
             TuningPlant::QuadrupleTank { preset, .. } => Some(Self::Rig(preset)),
-            TuningPlant::Elements(_) => None,
+            TuningPlant::Parameters { .. } | TuningPlant::Elements(_) => None,
         }
     }
 
@@ -217,13 +206,19 @@ impl KnownPlant {
     }
 }
 
+/// What a plant is called that nobody published.
+fn name_of_own(session: Session) -> String {
+    let is_rig = session.document.with(|s| s.tuning.plant.tank().is_some());
+    if is_rig { tr!(session.lab, preset.own) } else { tr!(session.lab, relay.own_plant) }
+}
+
 #[component]
 fn PlantSelect() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
     let chosen = Signal::derive(move || session.document.with(|s| KnownPlant::of(&s.tuning.plant)));
     let choices = Signal::derive(move || {
-        let own = chosen.get().is_none().then(|| Choice::new(None, "", tr!(lab, relay.own_plant)));
+        let own = chosen.get().is_none().then(|| Choice::new(None, "", name_of_own(session)));
         KnownPlant::all().map(|plant| plant.choice(lab)).chain(own).collect::<Vec<_>>()
     });
     let choose = move |plant: Option<KnownPlant>| {
@@ -289,7 +284,7 @@ fn remark(session: Session) -> String {
         TuningPlant::Published(PublishedPlant::WoodBerry) => tr!(lab, relay.remark_wood_berry),
         TuningPlant::Published(PublishedPlant::ProcessTwo) => tr!(lab, relay.remark_process_two),
         TuningPlant::QuadrupleTank { preset, .. } => preset.preset().source.to_owned(),
-        TuningPlant::Elements(_) => tr!(lab, relay.own_plant),
+        TuningPlant::Parameters { .. } | TuningPlant::Elements(_) => name_of_own(session),
     });
     let mut text = tr!(lab, relay.plant_remark, source = source, rga = rga);
     if gain.is_some_and(|gain| gain < 0.0) {

@@ -133,7 +133,7 @@ fn case_of(setup: &TuningSetup) -> Option<PublishedCase> {
 pub fn time_unit(plant: &TuningPlant) -> &'static str {
     match plant {
         TuningPlant::Published(PublishedPlant::WoodBerry) => "min",
-        TuningPlant::Published(PublishedPlant::ProcessTwo) | TuningPlant::QuadrupleTank { .. } => "s",
         TuningPlant::Elements(_) => "",
+        _ => "s",
     }
 }

@@ -1,7 +1,7 @@
 use crate::limits::{self, Limits};
 use crate::{ScenarioError, validate};
 
-use quadtank::study::relay_tuning::{Element, ResponseSpec, TestSpec, TuningPlant, TuningSetup};
+use quadtank::study::relay_tuning::{Element, ResponseSpec, TestSpec, TunedTank, TuningPlant, TuningSetup};
 
 type Checked = Result<(), ScenarioError>;
 
@@ -14,18 +14,34 @@ pub fn setup(setup: &TuningSetup, at: &str) -> Checked {
 }
 
 fn plant(plant: &TuningPlant, at: &str) -> Checked {
+    if let Some(tank) = plant.tank() {
+        no_delay(&tank, &format!("{at}.{}", name_of_tank(plant)))?;
+    }
     match plant {
-        // The nonlinear plant has neither dead time nor lag.
-        TuningPlant::QuadrupleTank { dead_time_s, lag_s, nonlinear: true, .. } => {
-            let none = Limits::new(0.0, 0.0);
-            none.check(&format!("{at}.quadruple_tank.dead_time_s"), *dead_time_s)?;
-            none.check(&format!("{at}.quadruple_tank.lag_s"), *lag_s)
-        }
         TuningPlant::Elements(rows) => {
             validate::each(rows, &format!("{at}.elements"), |row, at| validate::each(row, at, element))
         }
+        TuningPlant::Parameters { rig, .. } => validate::rig(rig, &format!("{at}.parameters.rig")),
         TuningPlant::Published(_) | TuningPlant::QuadrupleTank { .. } => Ok(()),
     }
+}
+
+/// How documents call a plant with a quadruple tank.
+pub fn name_of_tank(plant: &TuningPlant) -> &'static str {
+    if matches!(plant, TuningPlant::Parameters { .. }) { "parameters" } else { "quadruple_tank" }
+}
+
+/// The nonlinear plant has neither dead time nor lag, and no hose.
+fn no_delay(tank: &TunedTank, at: &str) -> Checked {
+    if !tank.nonlinear {
+        return Ok(());
+    }
+    let none = Limits::new(0.0, 0.0);
+    none.check(&format!("{at}.dead_time_s"), tank.dead_time_s)?;
+    none.check(&format!("{at}.lag_s"), tank.lag_s)?;
+    validate::each(&tank.rig.pumps, &format!("{at}.rig.pumps"), |pump, at| {
+        none.check(&format!("{at}.delay_s"), pump.delay_s)
+    })
 }
 
 fn element(element: &Element, at: &str) -> Checked {

@@ -83,7 +83,11 @@ fn settings_without_effect(setup: &TuningSetup) -> Vec<TuningWarning> {
     let is_single = kind == TestKind::Single;
     // Index of the loop without a relay.
     let idle = |index: usize| is_single && test.number != index + 1;
-    let nonlinear = matches!(setup.plant, TuningPlant::QuadrupleTank { nonlinear: true, .. });
+    let nonlinear = setup.plant.tank().is_some_and(|tank| tank.nonlinear);
+    let of_motion = match setup.plant {
+        TuningPlant::Parameters { .. } => "tuning.plant.parameters.nonlinear",
+        _ => "tuning.plant.quadruple_tank.nonlinear",
+    };
     let is_column = setup.plant == TuningPlant::Published(PublishedPlant::WoodBerry);
     let dynamic = !matches!(setup.design.decoupler, DecouplerSpec::None | DecouplerSpec::Static);
     no_effect([
@@ -97,12 +101,12 @@ fn settings_without_effect(setup: &TuningSetup) -> Vec<TuningWarning> {
         (kind != TestKind::Sequential && test.passes != 1, "tuning.test.passes", "in a sequential test"),
         (
             nonlinear && kind != TestKind::Simultaneous,
-            "tuning.plant.quadruple_tank.nonlinear",
+            of_motion,
             "in a simultaneous test and in the response; other tests run on the linear model",
         ),
         (
             nonlinear && dynamic,
-            "tuning.plant.quadruple_tank.nonlinear",
+            of_motion,
             "without a dynamic decoupler, with which the response is that of the linear model",
         ),
         (

@@ -1,5 +1,6 @@
 //! Documents in which, together, every field and every choice occurs.
 
+use quadtank::plant::QuadrupleTank;
 use quadtank_scenario::document_from_json;
 use serde_json::{Value, json};
 
@@ -93,6 +94,35 @@ fn with_other_forms() -> Value {
     document
 }
 
+/// Sessions on a rig of one's own: a sequential test on its linear model, and both relays on the nonlinear one.
+pub fn on_own_rig() -> [Value; 2] {
+    let own: Value = serde_json::from_str(include_str!("../data/everything-acts.json")).unwrap();
+    let mut linear = on_a_rig();
+    linear["tuning"]["plant"] = json!({ "parameters": {
+        "rig": own["setup"]["plant"]["parameters"]["rig"], "pump_voltage": [5.0, 5.5], "pairing": "diagonal",
+        "dead_time_s": 4.0, "lag_s": 2.0, "nonlinear": false,
+    } });
+    let mut nonlinear = linear.clone();
+    nonlinear["tuning"]["test"]["kind"] = json!("simultaneous");
+    nonlinear["tuning"]["test"]["passes"] = json!(1);
+    nonlinear["tuning"]["design"]["critical"] = json!({ "point": { "gains": [30.0, 20.0], "period": 25.0 } });
+    // Strong enough for walls and limits.
+    nonlinear["tuning"]["test"]["amplitudes"] = json!([9.5, 9.8]);
+    let plant = &mut nonlinear["tuning"]["plant"]["parameters"];
+    for (name, value) in [("dead_time_s", json!(0.0)), ("lag_s", json!(0.0)), ("nonlinear", json!(true))] {
+        plant[name] = value;
+    }
+    for pump in 0..2 {
+        plant["rig"]["pumps"][pump]["delay_s"] = json!(0.0);
+    }
+    let rig: QuadrupleTank = serde_json::from_value(plant["rig"].clone()).unwrap();
+    plant["pump_voltage"] = json!([9.0, 9.5]);
+    for (tank, level) in rig.free_equilibrium([9.0, 9.5]).levels.into_iter().enumerate() {
+        plant["rig"]["tanks"][tank]["height"] = json!(f64::max(1.01 * level, 0.0101));
+    }
+    [linear, nonlinear]
+}
+
 /// Sessions of version 2.
 pub fn sessions() -> [Value; 5] {
     [on_a_rig(), on_elements(), on_the_column(), with_given_controllers(), with_other_forms()]
@@ -120,6 +150,7 @@ pub fn all() -> Vec<Value> {
     let documents: Vec<Value> = texts
         .map(|text| serde_json::from_str(text).unwrap())
         .chain(sessions())
+        .chain(on_own_rig())
         .chain([by_hand(), from_a_state()])
         .collect();
     for document in &documents {

@@ -11,7 +11,7 @@ use quadtank_scenario::tuning::warnings;
 use quadtank_scenario::{Document, document_from_json, level_loop};
 use serde_json::{Value, json};
 
-use super::examples::{by_hand, leaves, pointer, sessions};
+use super::examples::{by_hand, leaves, on_own_rig, pointer, sessions};
 
 /// What is meant to change no answer, by the beginning or the end of its path, and why.
 const EXCEPTIONS: [(&str, &str); 6] = [
@@ -282,6 +282,19 @@ fn in_relay_tuning_sessions() {
         let test = test.to_string();
         assert_eq!(ignored(&[session]), expected, "{test}");
     }
+}
+
+/// What a session has no use for stays with its rig, which goes back to the home bench with the gains: what its controllers are ahead of
+/// (they act on voltages of pumps), and what limits a measured signal.
+const IDLE_ON_OWN_RIG: [&str; 3] = [
+    "tuning.plant.parameters.rig.power_gain",
+    "tuning.plant.parameters.rig.sensor.range",
+    "tuning.plant.parameters.rig.sensor.resolution",
+];
+
+#[test]
+fn in_relay_tuning_sessions_on_a_rig_of_ones_own() {
+    assert_eq!(ignored(&on_own_rig()), IDLE_ON_OWN_RIG);
 }
 
 /// What a document shows beside its run, and earlier runs beside it, change no answer.

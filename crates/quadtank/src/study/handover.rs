@@ -3,26 +3,55 @@
 
 use crate::control::{ModelFree, Pairing, ParallelPid, smallest_model_gain};
 use crate::linear::LinearError;
-use crate::plant::ValveSchedule;
+use crate::literature::{DisplayUnit, PresetId};
+use crate::plant::{QuadrupleTank, ValveSchedule};
 
 use super::StudyError;
 use super::model_free::{ModelFreeSetup, StartSpec};
-use super::quadruple_tank::{self, PlantSpec, setup_of};
-use super::relay_tuning::{Designed, TuningPlant, TuningSetup};
+use super::quadruple_tank::{self, OperatingPointSpec, PlantSpec, setup_of};
+use super::relay_tuning::{Designed, TunedTank, TuningPlant, TuningSetup};
 
-/// The rig of a relay session under its PI controllers, in the published experiment of the rig. The gains of a
+/// Steps of the references of a rig of one's own, as a share of the levels.
+const STEP_SHARE: f64 = 0.05;
+
+/// A rig of one's own in the experiment of Johansson's (2000), with steps of 5 % of its levels and times by its slowest tank.
+fn own_setup(tank: &TunedTank) -> quadruple_tank::Setup {
+    let mut setup = setup_of(PresetId::JohanssonMinimumPhase);
+    let slowest = |rig: &QuadrupleTank, pump_voltage: [f64; 2]| {
+        let times = rig.time_constants_s(&rig.free_equilibrium(pump_voltage));
+        times.into_iter().flatten().fold(0.0, f64::max)
+    };
+    let published = PresetId::JohanssonMinimumPhase.preset();
+    let scale = slowest(&tank.rig, tank.pump_voltage) / slowest(&published.plant, published.pump_voltage);
+    // Round times, such as 270 s.
+    let scale = if scale > 0.0 { (10.0 * scale).ceil() / 10.0 } else { 1.0 };
+    let levels = tank.rig.free_equilibrium(tank.pump_voltage).levels;
+    for step in &mut setup.experiment.set_point_steps {
+        (step.time_s, step.size) = (step.time_s * scale, STEP_SHARE * levels[step.level]);
+    }
+    setup.experiment.duration_s *= scale;
+    setup.controller.sampling_time_s *= scale;
+    setup.plant = PlantSpec::Parameters { rig: tank.rig, display_unit: DisplayUnit::Cm };
+    setup.operating_point = OperatingPointSpec::PumpVoltage(tank.pump_voltage);
+    setup
+}
+
+/// The rig of a relay session under its PI controllers, in the published experiment of the rig, or in one like it. The gains of a
 /// session are those from the measured level to the pump, the controllers of the rig act before its power module: K = kp/gain,
 /// Ti = kp/ki.
 ///
 /// `None` for another plant, for controllers with derivative action, and for one without integral action of the same sign.
 pub fn rig_under(setup: &TuningSetup, designed: &Designed) -> Option<quadruple_tank::Setup> {
-    let TuningPlant::QuadrupleTank { preset, valves, pairing, .. } = setup.plant else { return None };
-    let mut rig = setup_of(preset);
-    rig.valves = valves.unwrap_or(rig.valves);
+    let tank = setup.plant.tank()?;
+    let mut rig = match setup.plant {
+        TuningPlant::QuadrupleTank { preset, .. } => setup_of(preset),
+        _ => own_setup(&tank),
+    };
+    rig.valves = tank.rig.valves;
     let root = designed.chosen_root();
     rig.controller.pairing = match root.pairing {
-        Pairing::Diagonal => pairing,
-        Pairing::Swapped => pairing.other(),
+        Pairing::Diagonal => tank.pairing,
+        Pairing::Swapped => tank.pairing.other(),
     };
     let power_gain = rig.plant().power_gain;
     for (settings, pid) in rig.controller.loops.iter_mut().zip(&root.controllers) {
@@ -36,15 +65,21 @@ pub fn rig_under(setup: &TuningSetup, designed: &Designed) -> Option<quadruple_t
     Some(rig)
 }
 
-/// A relay session on a rig with the valves and the pairing that it has; `None` for a rig of one's own, which relay sessions do
-/// not know.
-pub fn relay_session_on(rig: &quadruple_tank::Setup) -> Option<TuningSetup> {
-    let PlantSpec::Preset(id) = rig.plant else { return None };
-    let mut plant = TuningPlant::rig(id);
-    if let TuningPlant::QuadrupleTank { valves, pairing, .. } = &mut plant {
-        (*valves, *pairing) = (Some(rig.valves), rig.controller.pairing);
+/// A relay session on a rig with the valves and the pairing that it has, at its published voltages, or at those of the setup for one
+/// of one's own.
+///
+/// # Errors
+/// [`StudyError`] as [`quadruple_tank::Setup::operating_point`], for a rig of one's own.
+pub fn relay_session_on(rig: &quadruple_tank::Setup) -> Result<TuningSetup, StudyError> {
+    let mut plant = match rig.plant {
+        PlantSpec::Preset(id) => TuningPlant::rig(id),
+        PlantSpec::Parameters { .. } => TuningPlant::own_rig(rig.plant(), rig.operating_point()?.pump_voltage),
+    };
+    plant.set_valves(rig.valves);
+    if let Some(tank) = plant.tank_mut() {
+        *tank.pairing = rig.controller.pairing;
     }
-    Some(TuningSetup::on(plant))
+    Ok(TuningSetup::on(plant))
 }
 
 /// α̂ of a law that is made here, as a multiple of the smallest one that is stable: about that of the published case a.
@@ -110,6 +145,68 @@ mod tests {
             let back = relay_session_on(&rig).unwrap();
             assert!(matches!(back.plant, TuningPlant::QuadrupleTank { preset, valves: Some(valves), .. }
                 if preset == id && valves == rig.valves));
+        }
+    }
+
+    /// A rig of one's own, in another place than its original was published in.
+    fn own_rig(id: PresetId) -> quadruple_tank::Setup {
+        let mut setup = setup_of(id);
+        setup.plant = PlantSpec::Parameters { rig: setup.plant(), display_unit: setup.plant.display_unit() };
+        setup.operating_point = OperatingPointSpec::PumpVoltage(id.preset().pump_voltage.map(|v| 0.9 * v));
+        setup.valves = setup.valves.map(|gamma| 0.95 * gamma);
+        setup.controller.pairing = TuningPlant::rig(id).tank().unwrap().pairing;
+        setup
+    }
+
+    #[test]
+    fn a_rig_of_ones_own_goes_to_the_relays_and_back() {
+        for id in PresetId::ALL {
+            let own = own_rig(id);
+            let mut session = relay_session_on(&own).unwrap();
+            let TuningPlant::Parameters { ref rig, pump_voltage, .. } = session.plant else {
+                panic!("a rig of one's own")
+            };
+            assert_eq!((**rig, OperatingPointSpec::PumpVoltage(pump_voltage)), (own.plant(), own.operating_point));
+            session.design.action = Action::Pi;
+            Mend::TargetOfRule(TuningRule::TyreusLuybenPi).apply(&mut session);
+            let design = PlantStudy::of(&session.plant).unwrap().design(&session).unwrap();
+            let design = design.unwrap_or_else(|| panic!("{id:?} has a design"));
+            let back = rig_under(&session, &design).unwrap();
+            assert_eq!((back.plant(), back.operating_point), (own.plant(), own.operating_point), "{id:?}");
+            assert_eq!(analyse(&back).unwrap().closed_loop.stability, Stability::Stable, "{id:?}");
+            let levels = own.operating_point().unwrap().levels;
+            for step in &back.experiment.set_point_steps {
+                assert!((step.size - STEP_SHARE * levels[step.level]).abs() < 1e-12, "{id:?}");
+                assert!(step.time_s < back.experiment.duration_s, "{id:?}");
+            }
+            assert!(quadruple_tank::run(&back).is_ok(), "{id:?}");
+        }
+    }
+
+    #[test]
+    fn relays_see_the_same_rig_whoever_describes_it() {
+        for id in [PresetId::JohanssonMinimumPhase, PresetId::CocotaNonMinimumPhase, PresetId::Seville] {
+            let published = TuningPlant::rig(id);
+            let mut own = TuningPlant::own_rig(id.preset().plant, id.preset().pump_voltage);
+            assert_eq!(own.transfer_matrix().unwrap(), published.transfer_matrix().unwrap(), "{id:?}");
+            assert!(own.has_same_time_unit(&published));
+            let mut sessions = [published, own.clone()].map(TuningSetup::on);
+            for session in &mut sessions {
+                let tank = session.plant.tank_mut().unwrap();
+                (*tank.dead_time_s, *tank.nonlinear) = (0.0, true);
+            }
+            let [published, nonlinear] = sessions.map(|session| PlantStudy::of(&session.plant).unwrap().test(&session));
+            assert_eq!(published, nonlinear, "{id:?}");
+            // Hoses are dead times of the elements.
+            let TuningPlant::Parameters { rig, .. } = &mut own else { panic!("a rig of one's own") };
+            for (pump, delay_s) in rig.pumps.iter_mut().zip([3.0, 4.0]) {
+                pump.delay_s = delay_s;
+            }
+            let pairing = own.tank().unwrap().pairing;
+            let dead_times = own.transfer_matrix().unwrap().0.map(|row| row.map(|element| element.dead_time()));
+            let by_loop = [8.0, 9.0].map(|time: f64| time);
+            let expected = if pairing == Pairing::Diagonal { by_loop } else { [by_loop[1], by_loop[0]] };
+            assert_eq!(dead_times, [expected; 2], "{id:?}");
         }
     }
 

@@ -311,13 +311,21 @@ impl Draw {
             1 => {
                 let nonlinear = self.one_in(2);
                 let time = |draw: &mut Self| if nonlinear { 0.0 } else { draw.number(Limits::new(0.0, 1e6)) };
-                TuningPlant::QuadrupleTank {
-                    preset: self.choose(&PresetId::ALL),
-                    valves: self.one_in(2).then(|| self.pair(limits::VALVE)),
-                    pairing: self.choose(&[Pairing::Diagonal, Pairing::Swapped]),
-                    dead_time_s: time(self),
-                    lag_s: time(self),
-                    nonlinear,
+                let pairing = self.choose(&[Pairing::Diagonal, Pairing::Swapped]);
+                let (dead_time_s, lag_s) = (time(self), time(self));
+                match self.plant() {
+                    PlantSpec::Preset(preset) => {
+                        let valves = self.one_in(2).then(|| self.pair(limits::VALVE));
+                        TuningPlant::QuadrupleTank { preset, valves, pairing, dead_time_s, lag_s, nonlinear }
+                    }
+                    PlantSpec::Parameters { mut rig, .. } => {
+                        if nonlinear {
+                            rig.pumps = rig.pumps.map(|pump| Pump { delay_s: 0.0, ..pump });
+                        }
+                        let pump_voltage = rig.pumps.map(|pump| f64::midpoint(pump.voltage_min, pump.voltage_max));
+                        let rig = Box::new(rig);
+                        TuningPlant::Parameters { rig, pump_voltage, pairing, dead_time_s, lag_s, nonlinear }
+                    }
                 }
             }
             _ => TuningPlant::Elements([[self.element(), self.element()], [self.element(), self.element()]]),

@@ -34,14 +34,18 @@ impl Mend {
                 }
             }
             Self::Hysteresis(half_widths) => setup.test.hysteresis = half_widths,
-            Self::OtherPairing => match &mut setup.plant {
-                TuningPlant::QuadrupleTank { pairing, .. } => *pairing = pairing.other(),
-                TuningPlant::Elements(rows) => rows.iter_mut().for_each(|row| row.swap(0, 1)),
-                TuningPlant::Published(_) => {}
-            },
+            Self::OtherPairing => {
+                if let TuningPlant::Elements(rows) = &mut setup.plant {
+                    for row in rows {
+                        row.swap(0, 1);
+                    }
+                } else if let Some(tank) = setup.plant.tank_mut() {
+                    *tank.pairing = tank.pairing.other();
+                }
+            }
             Self::DeadTime(time_s) => {
-                if let TuningPlant::QuadrupleTank { dead_time_s, nonlinear, .. } = &mut setup.plant {
-                    (*dead_time_s, *nonlinear) = (time_s, false);
+                if let Some(tank) = setup.plant.tank_mut() {
+                    (*tank.dead_time_s, *tank.nonlinear) = (time_s, false);
                 }
             }
         }
@@ -51,8 +55,9 @@ impl Mend {
 impl TuningSetup {
     /// The dead time that a rig without one lacks.
     pub fn missing_dead_time(&self) -> Option<Mend> {
-        let TuningPlant::QuadrupleTank { dead_time_s, .. } = self.plant else { return None };
-        (dead_time_s == 0.0).then_some(Mend::DeadTime(DEAD_TIME_S))
+        let tank = self.plant.tank()?;
+        let has_none = tank.dead_time_s == 0.0 && tank.rig.pumps.iter().any(|pump| pump.delay_s == 0.0);
+        has_none.then_some(Mend::DeadTime(DEAD_TIME_S))
     }
 }
 
@@ -152,9 +157,7 @@ mod tests {
         let mut setup = TuningSetup::on(TuningPlant::rig(PresetId::JohanssonMinimumPhase));
         let is_chattering = |setup: &TuningSetup| study(setup).test(setup).unwrap().chatters();
         assert!(!is_chattering(&setup) && setup.missing_dead_time().is_none());
-        if let TuningPlant::QuadrupleTank { dead_time_s, .. } = &mut setup.plant {
-            *dead_time_s = 0.0;
-        }
+        *setup.plant.tank_mut().unwrap().dead_time_s = 0.0;
         assert!(is_chattering(&setup));
         for mend in [study(&setup).mend_chattering(&setup), setup.missing_dead_time()] {
             let mut mended = setup.clone();

@@ -27,7 +27,7 @@ pub use details::{LoopPeaks, PlacedLoci, RecoveredResponse};
 pub use element::{Element, ElementError};
 pub use given_pid::{FormError, GivenPid, PidForm};
 pub use mend::{Mend, mend_pairing};
-pub use plant::TuningPlant;
+pub use plant::{TunedTank, TunedTankMut, TuningPlant};
 pub use plant_study::{FoundPoint, PlantStudy, Tested, Tuning, tune};
 pub use printed::{PrintedFigure, printed_figures, rule_targets};
 pub use results::{DesignOutcome, RelayTuningStudy, Results};

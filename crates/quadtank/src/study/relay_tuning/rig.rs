@@ -28,13 +28,7 @@ impl Rig {
 
 /// The rig of a session that runs on the nonlinear plant.
 pub(super) fn nonlinear(plant: &TuningPlant) -> Option<Rig> {
-    match plant {
-        TuningPlant::QuadrupleTank { preset, valves, pairing, nonlinear: true, .. } => {
-            let rig = preset.preset();
-            let plant = rig.plant.with_valves(valves.unwrap_or(rig.plant.valves));
-            let op = plant.free_equilibrium(rig.pump_voltage);
-            Some(Rig { plant, op, pairing: *pairing })
-        }
-        _ => None,
-    }
+    let tank = plant.tank().filter(|tank| tank.nonlinear)?;
+    let op = tank.rig.free_equilibrium(tank.pump_voltage);
+    Some(Rig { plant: tank.rig, op, pairing: tank.pairing })
 }

@@ -4,6 +4,7 @@ use crate::control::{IsaPid, Pairing};
 use crate::literature::PresetId;
 use crate::literature::campestrini::{PublishedCase, PublishedPlacement, PublishedPlant};
 use crate::literature::wood_berry::PublishedControllers;
+use crate::plant::QuadrupleTank;
 use crate::tuning::{GainLimit, TuningRule, importance_direction};
 
 use super::{
@@ -53,6 +54,15 @@ impl TuningPlant {
         let [one, two] = preset.preset().plant.valves;
         let pairing = if one + two > 1.0 { Pairing::Diagonal } else { Pairing::Swapped };
         Self::QuadrupleTank { preset, valves: None, pairing, dead_time_s: DEAD_TIME_S, lag_s: 0.0, nonlinear: false }
+    }
+
+    /// A rig of one's own, at rest at these voltages (V), with the pairing that its valves suggest. Hoses are dead time enough.
+    pub fn own_rig(rig: QuadrupleTank, pump_voltage: [f64; 2]) -> Self {
+        let [one, two] = rig.incremental_fractions(pump_voltage);
+        let pairing = if one + two > 1.0 { Pairing::Diagonal } else { Pairing::Swapped };
+        let has_hoses = rig.pumps.iter().all(|pump| pump.delay_s > 0.0);
+        let dead_time_s = if has_hoses { 0.0 } else { DEAD_TIME_S };
+        Self::Parameters { rig: Box::new(rig), pump_voltage, pairing, dead_time_s, lag_s: 0.0, nonlinear: false }
     }
 }
 
