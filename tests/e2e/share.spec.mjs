@@ -271,6 +271,13 @@ test('a rig of one\'s own is tuned by relays and comes back with its gains', asy
   await expect(lab.id('preset').locator('option:checked')).toHaveText('Own rig');
   if (!(await lab.id('rig-area1').isVisible())) await lab.id('rig-numbers').locator('summary').click();
   expect(await lab.value('rig-area1')).toBe(40);
+  // The nonlinear plant of that bench has no hoses, and says so.
+  await lab.type('rig-delay1', '4');
+  await lab.id('to-relays').click();
+  await lab.settle();
+  await lab.id('rig-nonlinear').click();
+  await expect(lab.id('notice')).toContainText('delay_s');
+  await expect(lab.id('rig-linear')).toHaveAttribute('aria-pressed', 'true');
   await lab.clean();
 });
 

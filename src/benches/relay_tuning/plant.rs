@@ -8,7 +8,7 @@ use super::printed::{PrintedFigures, name_of_case};
 use super::session::{Session, load, use_session};
 use crate::benches::quadruple_tank::name_of;
 use crate::controls::{ParamControl, ParamRow, Switch};
-use crate::lab::Lab;
+use crate::lab::{Lab, Notice};
 use crate::texts::{say, tr};
 use crate::widgets::{Card, Choice, Scale, Segmented, Select};
 use quadtank::control::Pairing;
@@ -16,6 +16,7 @@ use quadtank::literature::PresetId;
 use quadtank::literature::campestrini::PublishedCase;
 use quadtank::literature::campestrini::PublishedPlant;
 use quadtank::study::relay_tuning::{TunedTankMut, TuningPlant, TuningSetup};
+use quadtank_scenario::BenchDocument;
 use quadtank_scenario::tuning::{TuningWarning, warnings};
 
 const VALVE: ParamControl<TuningSetup> = ParamControl {
@@ -102,7 +103,14 @@ fn MotionSwitch() -> impl IntoView {
         if nonlinear && now != [0.0; 2] {
             kept.set_value(Some(now));
         }
-        session.edit(|s| set_nonlinear(s, nonlinear, kept.get_value().filter(|_| !nonlinear)));
+        let change = |s: &mut TuningSetup| set_nonlinear(s, nonlinear, kept.get_value().filter(|_| !nonlinear));
+        let mut tried = session.document.get_untracked();
+        change(&mut tried.tuning);
+        // The nonlinear plant has no hoses, and a rig of one's own may have some.
+        match tried.validate() {
+            Ok(()) => session.edit(change),
+            Err(error) => lab.notice.set(Some(Notice::Refused(error))),
+        }
     };
     view! {
         <Segmented

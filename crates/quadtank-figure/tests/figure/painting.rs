@@ -109,9 +109,11 @@ fn the_line_of_the_valve_plane_is_where_the_gain_is_singular() {
             Drawn::Text { text, at } if text == "the line" => Some(*at),
             _ => None,
         });
-        let (left, _) = name.unwrap();
-        // Eight letters of about half their size.
-        assert!(frame.plot.left < left && left + 8.0 * 7.0 < frame.plot.right(), "{sum}: {left}");
+        let (x, _) = name.unwrap();
+        // Eight letters of about half their size, which end there where the line ends far to the right.
+        let length = 8.0 * 7.0;
+        let (left, right) = if sum < 1.5 { (x, x + length) } else { (x - length, x) };
+        assert!(frame.plot.left < left && right < frame.plot.right(), "{sum}: {left} to {right}");
     }
     for sum in [-0.2, 2.5] {
         let drawn = record(&[plane_with(&right_most_zero, None, sum)], SIZE, &STYLE);
