@@ -106,7 +106,7 @@ fn content(lab: Lab, notice: Notice) -> AnyView {
         }
         .into_any(),
         Notice::Continue(link) => view! {
-            <div>{tr!(lab, app.last)} {name_of_bench(lab, &link)}</div>
+            <div>{tr!(lab, app.last)} " " {name_of_bench(lab, &link)}</div>
             <button type="button" class="button small" data-testid="continue" on:click=move |_| go_on(lab, &link)>
                 {tr!(lab, app.go_on)}
             </button>

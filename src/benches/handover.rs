@@ -52,10 +52,14 @@ fn hand_over<B: Bench>(lab: Lab, mut document: B::Document) {
     }
 }
 
-/// Tries controllers on the rig, beside what is pinned there.
+/// Tries controllers on the rig, beside what is pinned there. A rig of the user's own that is still there keeps its name and its unit.
 pub fn to_rig(lab: Lab, setup: Setup) {
-    let pinned = lab.session::<QuadrupleTank>().document.with_untracked(|document| document.pinned.clone());
-    hand_over::<QuadrupleTank>(lab, Scenario { pinned, ..Scenario::from(setup) });
+    let there = lab.session::<QuadrupleTank>().document.get_untracked();
+    let mut scenario = Scenario { pinned: there.pinned, ..Scenario::from(setup) };
+    if scenario.setup.is_same_rig(&there.setup) {
+        (scenario.setup.plant, scenario.rig_name) = (there.setup.plant, there.rig_name);
+    }
+    hand_over::<QuadrupleTank>(lab, scenario);
 }
 
 /// Tunes a rig by relays.

@@ -92,7 +92,7 @@ test('the last experiment is offered at the next visit', async ({ lab, page }) =
   await expect.poll(() => page.url()).toContain('#lab=');
   await page.goto('about:blank');
   await lab.open('lang=en');
-  await expect(lab.id('notice')).toContainText('still here');
+  await expect(lab.id('notice')).toContainText(/still here\. \(/);
   expect(await lab.value('gamma2-number')).toBe(0.6);
   await lab.id('continue').click();
   await lab.settle();

@@ -246,6 +246,7 @@ test('a rig of one\'s own is tuned by relays and comes back with its gains', asy
   await lab.page.locator('[data-testid=operating-point-fold] > summary').click();
   await lab.id('rig-numbers').locator('summary').click();
   await lab.type('rig-area1', '40');
+  await lab.type('rig-name', 'Bench 7');
   await lab.id('to-relays').click();
   await lab.settle();
   expect(page.url()).toContain('bench=relay-tuning');
@@ -268,7 +269,7 @@ test('a rig of one\'s own is tuned by relays and comes back with its gains', asy
   await lab.settle();
   expect(page.url()).toContain('bench=quadruple-tank');
   expect(await lab.text('stability')).toContain('Closed loop stable');
-  await expect(lab.id('preset').locator('option:checked')).toHaveText('Own rig');
+  await expect(lab.id('preset').locator('option:checked')).toHaveText('Bench 7');
   if (!(await lab.id('rig-area1').isVisible())) await lab.id('rig-numbers').locator('summary').click();
   expect(await lab.value('rig-area1')).toBe(40);
   // The nonlinear plant of that bench has no hoses, and says so.

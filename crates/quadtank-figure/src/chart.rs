@@ -318,9 +318,10 @@ pub struct Label {
     pub bold: bool,
     /// Whether it stands on a piece of the background, so that no curve strikes it through.
     pub on_ground: bool,
-    /// Whether it may stand on the other side of its point, above instead of below or the other way round, where an edge of the plot
-    /// would push it onto the point.
-    pub may_turn: bool,
+    /// The y value of a second point, whose label is on the opposite side. With it the label may change sides, above its point instead of
+    /// below or the other way round, where an edge of the plot would push it onto its point and the two points leave room for
+    /// both labels between them; `None` for a label that stays on its side.
+    pub opposite: Option<f64>,
 }
 
 /// Words beside points. Each stands where it covers the least of the words before it, of their points, and of other points.

@@ -39,7 +39,7 @@ pub fn flags<'a>(flags: &[Flag], foot: f64, (from, to): (f64, f64)) -> impl Iter
             role: flag.role,
             bold: false,
             on_ground: true,
-            may_turn: false,
+            opposite: None,
         })
     });
     lines.into_iter().chain(words)

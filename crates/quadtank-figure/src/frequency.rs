@@ -150,7 +150,7 @@ fn beside(at: (f64, f64), offset: (f64, f64), anchor: Anchor, text: &str, role: 
         role,
         bold: true,
         on_ground: false,
-        may_turn: false,
+        opposite: None,
     })
 }
 

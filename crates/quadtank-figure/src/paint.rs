@@ -234,8 +234,13 @@ impl Brush<'_> {
         }
         // Not `clamp`, which panics where the plot is lower than a line.
         let inside = |at: f64| at.min(plot.bottom() - half).max(plot.top + half);
-        let sides = [y + label.offset.1, y - label.offset.1];
-        let y = sides.into_iter().find(|&at| inside(at) == at).filter(|_| label.may_turn).unwrap_or(inside(sides[0]));
+        let own_side = y + label.offset.1;
+        let other_side = y - label.offset.1;
+        let has_room = label.opposite.is_some_and(|opposite| {
+            let distance = (self.inside((label.at.0, opposite)).1 - y).abs();
+            distance >= 2.0 * label.offset.1.abs() + LINE && inside(other_side) == other_side
+        });
+        let y = if inside(own_side) != own_side && has_room { other_side } else { inside(own_side) };
         if label.on_ground {
             self.ground([(x - behind - 1.0, y - half), (x + ahead + 1.0, y + half)]);
         }

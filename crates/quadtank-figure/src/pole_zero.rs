@@ -131,7 +131,7 @@ fn numbers(spec: &PoleZero, (low, high): (f64, f64)) -> Vec<Layer<'static>> {
             role: Role::Neutral,
             bold: true,
             on_ground: false,
-            may_turn: false,
+            opposite: None,
         })
     };
     spec.zeros.iter().filter(|zero| zero.re.is_finite() && zero.im.is_finite()).map(label).collect()

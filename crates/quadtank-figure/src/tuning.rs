@@ -97,7 +97,7 @@ fn ray(importance: f64, name: &str, (right, top): (f64, f64)) -> [Layer<'static>
             role: Role::Muted,
             bold: false,
             on_ground: false,
-            may_turn: false,
+            opposite: None,
         }),
     ]
 }

@@ -120,7 +120,7 @@ fn word(at: (f64, f64), offset: (f64, f64), anchor: Anchor, text: &str) -> Layer
         role: Role::Neutral,
         bold: false,
         on_ground: false,
-        may_turn: false,
+        opposite: None,
     })
 }
 

@@ -63,7 +63,7 @@ fn valve_plane_with(session: Session, whole: bool, sides: impl Fn() -> [String; 
     Picture::new(build, csv)
 }
 
-/// What the line is called on which the right-most zero is at the origin.
+/// Name of the line in the valve plane on which the right-most zero is at the origin, by the sum γ1 + γ2 there.
 pub fn name_of_boundary(lab: Lab, singular_sum: f64) -> String {
     let sum = if singular_sum == 1.0 { "1".to_owned() } else { lab.number_style().fixed(singular_sum, 2) };
     format!("γ₁ + γ₂ = {sum}")

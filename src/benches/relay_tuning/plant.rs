@@ -214,7 +214,7 @@ impl KnownPlant {
     }
 }
 
-/// What a plant is called that nobody published.
+/// Name of a plant that is not in the list of published ones: a rig of the user's own, or elements typed as formulas.
 fn name_of_own(session: Session) -> String {
     let is_rig = session.document.with(|s| s.tuning.plant.tank().is_some());
     if is_rig { tr!(session.lab, preset.own) } else { tr!(session.lab, relay.own_plant) }

@@ -122,35 +122,40 @@ fn the_line_of_the_valve_plane_is_where_the_gain_is_singular() {
 }
 
 #[test]
-fn a_word_that_an_edge_would_push_onto_its_point_stands_on_the_other_side() {
-    let word = |y: f64, may_turn: bool| {
+fn a_label_that_an_edge_would_push_onto_its_point_changes_sides_where_there_is_room() {
+    // Heights (px) of the labels of two points at the ends of curves, and of the points.
+    let heights = |y: [f64; 2], may_change: bool| {
         let mut chart = Chart::new(Axis::new("", (0.0, 1.0)), Axis::new("", (0.0, 1.0)));
-        let offset = (-6.0, if y > 0.5 { -12.0 } else { 12.0 });
-        let (anchor, role, text) = (Anchor::Right, Role::Loop1, "a name".to_owned());
-        chart.layers.push(Layer::Label(Label {
-            at: (0.9, y),
-            offset,
-            anchor,
-            text,
-            role,
-            bold: true,
-            on_ground: false,
-            may_turn,
-        }));
+        for index in 0..2 {
+            let label = Label {
+                at: (0.9, y[index]),
+                offset: (-6.0, if y[index] > y[1 - index] { -12.0 } else { 12.0 }),
+                anchor: Anchor::Right,
+                text: format!("label {index}"),
+                role: Role::Loop1,
+                bold: true,
+                on_ground: false,
+                opposite: may_change.then_some(y[1 - index]),
+            };
+            chart.layers.push(Layer::Label(label));
+        }
         let frame = layout(std::slice::from_ref(&chart), SIZE)[0];
         let drawn = record(&[chart], SIZE, &STYLE);
-        let found = drawn.iter().find_map(|drawn| match drawn {
-            Drawn::Text { text, at } if text == "a name" => Some(at.1),
-            _ => None,
-        });
-        found.unwrap() - frame.y_px(y)
+        let height = |index: usize| {
+            drawn.iter().find_map(|drawn| match drawn {
+                Drawn::Text { text, at } if *text == format!("label {index}") => Some(at.1),
+                _ => None,
+            })
+        };
+        ([height(0).unwrap(), height(1).unwrap()], y.map(|y| frame.y_px(y)))
     };
-    for (y, down) in [(0.995, 1.0), (0.005, -1.0)] {
-        let (turned, pushed) = (word(y, true), word(y, false));
-        assert!(down * turned > 4.0, "{y}: {turned}");
-        assert!((turned - pushed).abs() > 4.0, "{y}: {pushed}");
+    let (labels, points) = heights([0.995, 0.005], true);
+    assert!(labels[0] > points[0] + 10.0 && labels[1] < points[1] - 10.0, "{labels:?} {points:?}");
+    // Points that are close leave no room between them: labels keep their sides, and do not lie on each other.
+    for y in [[0.995, 0.97], [0.03, 0.005]] {
+        assert_eq!(heights(y, true), heights(y, false));
     }
-    assert_eq!(word(0.7, true), word(0.7, false));
+    assert_eq!(heights([0.7, 0.3], true), heights([0.7, 0.3], false));
 }
 
 #[test]

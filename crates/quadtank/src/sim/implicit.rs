@@ -29,10 +29,11 @@ const EMBEDDED_DIFFERENCE: [f64; STAGES] = [3.0 / 16.0, 27.0 / 32.0, -25.0 / 32.
 /// Where in the step each stage is: the sums of the rows of the tableau.
 pub(super) const NODES: [f64; STAGES] = [1.0 / 4.0, 3.0 / 4.0, 11.0 / 20.0, 1.0 / 2.0, 1.0];
 
-/// A tank that falls to less than this share of its level in one step all but empties, and the share of what is left that may be wrong
-/// then (0.24 of 10 µm in a step of 8.03 s from 2.3 mm, which a test has).
-const ALL_BUT_EMPTY: f64 = 1.0 / 16.0;
-const DOUBT: f64 = 0.25;
+/// A tank nearly empties in a step that leaves less than this share of its level.
+const NEARLY_EMPTY: f64 = 1.0 / 16.0;
+/// Error of the level after such a step, as a share of it. Measured: 0.24, for a step of 8.03 s from 2.3 mm to 10 µm (see the tests of
+/// `integrate.rs`).
+const NEARLY_EMPTY_ERROR: f64 = 0.25;
 
 /// A correction of √h this small, as a fraction, leaves an error below rounding.
 const NEWTON_TOLERANCE: f64 = 1e-8;
@@ -138,14 +139,14 @@ impl ImplicitStep {
         // a level.
         let damping = 1.0 - self.passed / slope;
         let estimate = 4.0 * (damping * difference / (self.four_areas * self.four_areas)).abs();
-        Stages { root_level, error: larger(estimate, self.doubt(root_level[STAGES - 1])) }
+        Stages { root_level, error: larger(estimate, self.nearly_empty_error(root_level[STAGES - 1])) }
     }
 
-    /// Error (m) to be reckoned with whatever the estimate. That is a difference, which is 0 by chance for some steps; of a tank that all
-    /// but empties in one step it can then miss a quarter of what is left.
-    fn doubt(&self, root_at_end: f64) -> f64 {
+    /// Least error (m) to assume of a step in which the tank nearly empties, 0 of any other step. The estimate by the embedded method is a
+    /// difference that passes through 0 at some lengths of step, where it says nothing of the error.
+    fn nearly_empty_error(&self, root_at_end: f64) -> f64 {
         let left = root_at_end * root_at_end;
-        if left < ALL_BUT_EMPTY * self.level { DOUBT * left } else { 0.0 }
+        if left < NEARLY_EMPTY * self.level { NEARLY_EMPTY_ERROR * left } else { 0.0 }
     }
 
     /// From the solution on the tangent, where the left-hand side rises by `slope` per √h, to that on V, which is

@@ -305,8 +305,8 @@ mod tests {
         }
     }
 
-    /// With a trace of inflow it is not emptied by Torricelli's law but by steps, and one that ends where the tank is stiff has to know
-    /// its error.
+    /// Without inflow a tank empties by Torricelli's law; with any, however little, it is integrated in steps. A step that ends with the
+    /// tank nearly empty must not pass with a wrong estimate of its error.
     #[test]
     fn a_tank_with_a_trace_of_inflow_empties_as_one_without() {
         let mut plant = PresetId::JohanssonMinimumPhase.preset().plant;

@@ -148,7 +148,7 @@ mod tests {
         }
     }
 
-    /// A rig of one's own, in another place than its original was published in.
+    /// A published rig written as one of the user's own, with other voltages and valves than the published ones.
     fn own_rig(id: PresetId) -> quadruple_tank::Setup {
         let mut setup = setup_of(id);
         setup.plant = PlantSpec::Parameters { rig: setup.plant(), display_unit: setup.plant.display_unit() };

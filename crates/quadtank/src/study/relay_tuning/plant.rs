@@ -33,7 +33,7 @@ pub enum TuningPlant {
         #[serde(default)]
         nonlinear: bool,
     },
-    /// The same of a rig of one's own.
+    /// The linear model of a rig that the document describes, at given pump voltages, from voltages to measured levels, s.
     Parameters {
         /// The rig, with its valves.
         rig: Box<QuadrupleTank>,
@@ -98,7 +98,7 @@ impl TunedTank {
     }
 }
 
-/// What a plant is, however it is described.
+/// The kinds of plant: a tank is either a published rig or one that the document describes.
 enum Kind<'a> {
     Published(PublishedPlant),
     Tank(Box<TunedTank>),
@@ -130,7 +130,7 @@ impl TuningPlant {
         }
     }
 
-    /// The same to be changed.
+    /// The settings of the quadruple tank that is tuned, to be changed; `None` for another plant.
     pub fn tank_mut(&mut self) -> Option<TunedTankMut<'_>> {
         match self {
             Self::QuadrupleTank { pairing, dead_time_s, lag_s, nonlinear, .. }

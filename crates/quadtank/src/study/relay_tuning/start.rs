@@ -56,7 +56,8 @@ impl TuningPlant {
         Self::QuadrupleTank { preset, valves: None, pairing, dead_time_s: DEAD_TIME_S, lag_s: 0.0, nonlinear: false }
     }
 
-    /// A rig of one's own, at rest at these voltages (V), with the pairing that its valves suggest. Hoses are dead time enough.
+    /// A rig of one's own, at rest at these voltages (V), with the pairing that its valves suggest. It begins with a dead time of
+    /// 5 s, or with that of its hoses where both pumps have one.
     pub fn own_rig(rig: QuadrupleTank, pump_voltage: [f64; 2]) -> Self {
         let [one, two] = rig.incremental_fractions(pump_voltage);
         let pairing = if one + two > 1.0 { Pairing::Diagonal } else { Pairing::Swapped };
