@@ -47,7 +47,7 @@ fn download(name: &str, blob: &Blob) {
         anchor.set_download(name);
         anchor.click();
     }
-    // The browser has taken its copy by the time of the next task.
+    // Revoked too early, the address would be gone before the browser has taken its copy.
     gloo_timers::callback::Timeout::new(1000, move || {
         let _ = Url::revoke_object_url(&url);
     })

@@ -4,12 +4,12 @@
 use gloo_timers::callback::Timeout;
 use leptos::ev;
 use leptos::prelude::*;
-use leptos::wasm_bindgen::JsCast;
 use quadtank_scenario::document_from_link;
 
+use super::events::is_at;
 use super::lab::{Lab, Notice};
 use super::share::{self, show_address};
-use super::storage::LAST;
+use super::storage::{self, LAST};
 
 /// How long a document has to stay as it is until it is kept (ms): many changes in a row are one step, and browsers allow an address
 /// to be replaced only so often (Safari: 100 times in 30 s).
@@ -23,13 +23,11 @@ pub fn keep(lab: Lab) {
     let is_due = StoredValue::new(false);
     let settled = move || if lab.is_dragging.get_untracked() { is_due.set_value(true) } else { settle(lab) };
     let start_timer = move || timer.set_value(Some(Timeout::new(SETTLED_MS, settled)));
-    let mut known = None;
-    Effect::new(move || {
-        let bench = lab.bench.get();
-        (bench.track)(lab);
+    Effect::new(move |is_known: Option<()>| {
+        (lab.bench.get().track)(lab);
         lab.depth.track();
-        // The document that a bench begins with is known, also when the bench is shown for the first time.
-        if known.replace(bench.id) == Some(bench.id) {
+        // What the page begins with stands in its address.
+        if is_known.is_some() {
             start_timer();
         }
     });
@@ -69,17 +67,19 @@ fn settle(lab: Lab) {
     }
     let bench = lab.bench.get_untracked();
     (bench.record)(lab);
-    let is_kept = show_address(&share::kept_reference(lab, bench));
-    if lab.flags.with_value(|flags| flags.embed) {
-        // The pages of a course show many embedded benches; the last one of them is not what its reader looks for next time.
-        if !is_kept && !lab.told_not_kept.get_value() {
-            lab.told_not_kept.set_value(true);
-            lab.notice.set(Some(Notice::NotKept));
-        }
-    } else if (bench.is_changed)(lab)
+    let is_in_address = show_address(&share::kept_reference(lab, bench));
+    // The pages of a course show many embedded benches; the last one of them is not what its reader looks for next time.
+    let is_embedded = lab.flags.with_value(|flags| flags.embed);
+    if !is_embedded
+        && (bench.is_changed)(lab)
         && let Ok(link) = (bench.link)(lab)
     {
         LAST.write(&link);
+    }
+    let is_kept = is_in_address || (!is_embedded && storage::is_allowed());
+    if !is_kept && !lab.told_not_kept.get_value() {
+        lab.told_not_kept.set_value(true);
+        lab.notice.set(Some(Notice::NotKept { is_embedded }));
     }
 }
 
@@ -130,6 +130,5 @@ fn undo_by_key(lab: Lab, event: &ev::KeyboardEvent) {
 }
 
 fn is_text(event: &ev::KeyboardEvent) -> bool {
-    let element = event.target().and_then(|target| target.dyn_into::<web_sys::Element>().ok());
-    element.is_some_and(|e| e.matches("textarea, input:not([type=range], [type=checkbox])").unwrap_or(false))
+    is_at(event, "textarea, input:not([type=range], [type=checkbox])")
 }

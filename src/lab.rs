@@ -37,6 +37,8 @@ pub enum Notice {
     NotUnderstood(Vec<String>),
     /// The link is on the clipboard.
     Copied,
+    /// The link is on the clipboard, but leads to a file of this computer.
+    CopiedFileLink,
     /// The clipboard is out of reach: here is the link.
     CopyByHand(String),
     /// A table is on the clipboard.
@@ -57,8 +59,8 @@ pub enum Notice {
     DeadTimeAdded(f64),
     /// The valves of a published rig were taken over; its tuning is an action of its own.
     ValvesOf(PresetId),
-    /// The browser keeps nothing of this page: it is in a sandbox.
-    NotKept,
+    /// The browser keeps nothing of this page: it is in a sandbox. An embedded page can hand its experiment to the whole laboratory.
+    NotKept { is_embedded: bool },
 }
 
 /// The state of the laboratory, which lives as long as the page. A handle of one pointer: views hold many of them, and what

@@ -10,6 +10,7 @@ mod controls;
 mod depth;
 mod download;
 mod errors;
+mod events;
 mod format;
 mod frames;
 mod ghosts;

@@ -1,7 +1,6 @@
 //! The one place where screen readers hear what a change of the experiment has brought.
 
 use std::collections::HashMap;
-use std::mem;
 
 use gloo_timers::callback::Timeout;
 use leptos::prelude::*;
@@ -22,20 +21,20 @@ const RESULTS: &str = "[data-result]";
 pub fn LiveRegion() -> impl IntoView {
     let lab = use_lab();
     let told = RwSignal::new(String::new());
-    let known = StoredValue::new(HashMap::new());
+    // What was shown last, and in which language.
+    let known = StoredValue::new((lab.language.get_untracked(), HashMap::new()));
     let timer = StoredValue::new_local(None::<Timeout>);
-    let mut language = lab.language.get_untracked();
     Effect::new(move || {
         lab.track_texts();
-        let now = lab.language.get_untracked();
-        let is_translated = mem::replace(&mut language, now) != now;
-        if is_translated {
+        let language = lab.language.get_untracked();
+        if known.with_value(|(of, _)| *of != language) {
             told.set(String::new());
         }
         let rested = move || {
             let results = shown_results();
-            let news = if is_translated { String::new() } else { known.with_value(|known| changed(&results, known)) };
-            known.set_value(results.into_iter().collect());
+            let news =
+                known.with_value(|(of, known)| if *of == language { changed(&results, known) } else { String::new() });
+            known.set_value((language, results.into_iter().collect()));
             told.set(news);
         };
         timer.set_value(Some(Timeout::new(RESTED_MS, rested)));

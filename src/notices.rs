@@ -28,6 +28,7 @@ pub fn Notices() -> impl IntoView {
             lab.notice.get(),
             Some(
                 Notice::Copied
+                    | Notice::CopiedFileLink
                     | Notice::TableCopied
                     | Notice::Loaded(_)
                     | Notice::SceneAdded(_)
@@ -41,7 +42,7 @@ pub fn Notices() -> impl IntoView {
     view! {
         <div role="status" aria-live="polite" class="notices">
             {move || lab.notice.get().map(|notice| {
-                let is_bad = matches!(notice, Notice::Refused(_) | Notice::NoLesson(_) | Notice::NotRead | Notice::NotUnderstood(_) | Notice::NotKept | Notice::TableNotCopied);
+                let is_bad = matches!(notice, Notice::Refused(_) | Notice::NoLesson(_) | Notice::NotRead | Notice::NotUnderstood(_) | Notice::NotKept { .. } | Notice::TableNotCopied);
                 let class = if is_bad { "notice" } else { "notice good" };
                 view! {
                     <div class=class data-testid="notice">
@@ -96,6 +97,7 @@ fn content(lab: Lab, notice: Notice) -> AnyView {
         Notice::NotRead => view! { <div>{tr!(lab, refused.not_read)}</div> }.into_any(),
         Notice::NotUnderstood(names) => view! { <div>{tr!(lab, app.not_understood, names = names.join(", "))}</div> }.into_any(),
         Notice::Copied => view! { <div>{tr!(lab, app.copied)}</div> }.into_any(),
+        Notice::CopiedFileLink => view! { <div>{tr!(lab, app.copied_file_link)}</div> }.into_any(),
         Notice::TableCopied => view! { <div>{tr!(lab, chart.copied)}</div> }.into_any(),
         Notice::TableNotCopied => view! { <div>{tr!(lab, chart.not_copied)}</div> }.into_any(),
         Notice::CopyByHand(link) => view! {
@@ -139,7 +141,8 @@ fn content(lab: Lab, notice: Notice) -> AnyView {
             let time = lab.number_style().fixed(dead_time_s, 0);
             view! { <div>{tr!(lab, handover.dead_time, time = time)}</div> }.into_any()
         }
-        Notice::NotKept => view! { <div>{tr!(lab, app.not_kept)}</div> }.into_any(),
+        Notice::NotKept { is_embedded: true } => view! { <div>{tr!(lab, app.frame_not_kept)}</div> }.into_any(),
+        Notice::NotKept { is_embedded: false } => view! { <div>{tr!(lab, app.not_kept)}</div> }.into_any(),
     }
 }
 
@@ -149,10 +152,8 @@ fn name_of_bench(lab: Lab, link: &str) -> Option<String> {
     scenes::bench_of(lab, &document).map(|bench| format!("({})", (bench.title)(lab)))
 }
 
-/// Goes on with the experiment of a link, also in the address.
 fn go_on(lab: Lab, link: &str) {
     lab.open(document_from_link(link));
-    share::show_address(&share::kept_reference(lab, lab.bench.get_untracked()));
 }
 
 fn undo_load(lab: Lab) {

@@ -76,7 +76,7 @@ pub fn bare_reference(lab: Lab) -> Result<String, ScenarioError> {
 pub fn kept_reference(lab: Lab, bench: &BenchEntry) -> String {
     let link = (bench.is_changed)(lab).then(|| (bench.link)(lab).ok()).flatten();
     let mut pairs = vec![("bench", bench.id)];
-    if link.is_some() || search().contains("view=") {
+    if link.is_some() || asked(lab).view.is_some() {
         pairs.extend(shown(lab, bench));
     }
     let query = query_with(&bench_flags(), &pairs);
@@ -135,7 +135,11 @@ pub fn share(lab: Lab) {
 /// Puts an address on the clipboard; where there is none, shows it.
 pub fn hand_over(lab: Lab, address: String) {
     copy(&address.clone(), move |copied| {
-        lab.notice.set(Some(if copied { Notice::Copied } else { Notice::CopyByHand(address) }));
+        lab.notice.set(Some(match copied {
+            false => Notice::CopyByHand(address),
+            true if address.starts_with("file:") => Notice::CopiedFileLink,
+            true => Notice::Copied,
+        }));
     });
 }
 
@@ -157,6 +161,11 @@ pub fn go_on_to(lab: Lab, reference: &str) {
     if lab.side.get_untracked().is_none() && lab.stage.with_untracked(Option::is_none) {
         show_address(&kept_reference(lab, lab.bench.get_untracked()));
     }
+    add_address(reference);
+}
+
+/// Goes on to another address. A sandboxed page may not touch its address, and goes on without.
+fn add_address(reference: &str) {
     if let Ok(history) = window().history() {
         let _ = history.push_state_with_url(&leptos::wasm_bindgen::JsValue::NULL, "", Some(reference));
     }
@@ -206,9 +215,17 @@ pub fn save(lab: Lab) {
     }
 }
 
-/// Opens an experiment or scenes from a file. One that is too long is refused by its size.
+/// Opens an experiment or scenes from a file. One that is too long is refused by its size. One of another bench is a step of the
+/// browser's history, so that Back comes back to this one.
 pub fn open_file(lab: Lab, file: &web_sys::File) {
-    read_file(lab, file, DOCUMENT_LIMIT, move |bytes| open(lab, opened_from_bytes(&bytes)));
+    read_file(lab, file, DOCUMENT_LIMIT, move |bytes| {
+        let left = lab.bench.get_untracked();
+        open(lab, opened_from_bytes(&bytes));
+        let shown = lab.bench.get_untracked();
+        if shown != left {
+            add_address(&kept_reference(lab, shown));
+        }
+    });
 }
 
 /// Reads a file of at most `limit` bytes, and hands them to `then`.

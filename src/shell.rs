@@ -6,6 +6,7 @@ use leptos::wasm_bindgen::JsCast;
 
 use super::benches::{BENCHES, BenchEntry};
 use super::depth::Depth;
+use super::events::is_at;
 use super::glossary::Glossary;
 use super::handout::Handout;
 use super::header::{Header, LessonHeader};
@@ -64,8 +65,7 @@ pub fn Laboratory(
     let on_press = window_event_listener(ev::pointerdown, |event| close_menus(event.target()));
     // What a menu offers is done, and the menu not needed any more.
     let on_click = window_event_listener(ev::click, |event| {
-        let target = event.target().and_then(|target| target.dyn_into::<web_sys::Element>().ok());
-        if target.is_some_and(|target| target.matches(".menu > div > :is(button, a), .menu > nav *").unwrap_or(false)) {
+        if is_at(&event, ".menu > div > :is(button, a), .menu > nav *") {
             close_menus(None);
         }
         // By the next frame a menu that was pressed is open.
@@ -82,9 +82,7 @@ pub fn Laboratory(
         }
         "f" | "F" if is_plain(&event) => lab.present(!untrack(|| lab.is_presenting())),
         // Wireless presenters send Page Up and Page Down. Sliders and handles have a use for them of their own.
-        key @ ("PageDown" | "PageUp")
-            if is_plain(&event) && !is_slider(&event) && lab.scene.get_untracked().is_some() =>
-        {
+        key @ ("PageDown" | "PageUp") if is_plain(&event) && !is_slider(&event) && scenes::is_in_sight(lab) => {
             event.prevent_default();
             scenes::step(lab, key == "PageDown");
         }
@@ -185,17 +183,13 @@ fn KeptBench(bench: &'static BenchEntry) -> impl IntoView {
 
 /// Whether a key is pressed alone, and not into a field.
 fn is_plain(event: &ev::KeyboardEvent) -> bool {
-    let is_field = || {
-        let element = event.target().and_then(|target| target.dyn_into::<web_sys::Element>().ok());
-        element.is_some_and(|e| e.matches("input:not([type=range]), select, textarea").unwrap_or(false))
-    };
-    !(event.ctrl_key() || event.meta_key() || event.alt_key() || is_field())
+    let has_modifier = event.ctrl_key() || event.meta_key() || event.alt_key();
+    !has_modifier && !is_at(event, "input:not([type=range]), select, textarea")
 }
 
 /// Whether a key is pressed on a slider or a handle.
 fn is_slider(event: &ev::KeyboardEvent) -> bool {
-    let element = event.target().and_then(|target| target.dyn_into::<web_sys::Element>().ok());
-    element.is_some_and(|e| e.matches("input[type=range], [role=slider]").unwrap_or(false))
+    is_at(event, "input[type=range], [role=slider]")
 }
 
 /// Closes the menus that are open, but for the one that was pressed.

@@ -18,11 +18,16 @@ pub const CSV: Preference = Preference("quadtank-csv");
 /// The link of the last experiment.
 pub const LAST: Preference = Preference("quadtank-last");
 
-/// The scenes of a lecture, as their link.
+/// The scenes of a lecture, as their file; editions until 2026-11 wrote their link.
 pub const SCENES: Preference = Preference("quadtank-scenes");
 
 /// Whether the progress in lessons may be kept: `yes` or `no`.
 pub const LESSONS_KEPT: Preference = Preference("quadtank-lessons-kept");
+
+/// Whether the browser lets this page remember anything.
+pub fn is_allowed() -> bool {
+    matches!(window().local_storage(), Ok(Some(_)))
+}
 
 impl Preference {
     /// What was remembered, if anything.
@@ -30,10 +35,9 @@ impl Preference {
         window().local_storage().ok()??.get_item(self.0).ok()?
     }
 
-    /// Remembers; silently does nothing where the browser does not allow it.
-    pub fn write(self, value: &str) {
-        if let Ok(Some(storage)) = window().local_storage() {
-            let _ = storage.set_item(self.0, value);
-        }
+    /// Remembers, and says whether the browser allowed it and had room.
+    pub fn write(self, value: &str) -> bool {
+        let storage = window().local_storage().ok().flatten();
+        storage.is_some_and(|storage| storage.set_item(self.0, value).is_ok())
     }
 }

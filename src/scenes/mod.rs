@@ -8,7 +8,7 @@ pub use bar::SceneBar;
 pub use page::ScenesPage;
 
 use leptos::prelude::*;
-use quadtank_scenario::{Document, Scenes};
+use quadtank_scenario::{Document, Opened, Scenes, opened_from_bytes};
 
 use super::benches::BenchEntry;
 use super::lab::{Lab, Notice};
@@ -16,14 +16,18 @@ use super::storage::SCENES;
 
 /// The scenes that the browser remembers. What it remembers of another edition and cannot be read any more is not offered.
 pub fn remembered() -> Scenes {
-    SCENES.read().and_then(|link| Scenes::from_link(&link).ok()).unwrap_or_default()
+    let Some(text) = SCENES.read() else { return Scenes::default() };
+    match opened_from_bytes(text.as_bytes()) {
+        Ok(Opened::Scenes(scenes)) => scenes,
+        _ => Scenes::from_link(&text).unwrap_or_default(),
+    }
 }
 
 /// Adds what is shown as the last scene.
 pub fn add_shown(lab: Lab) {
     let document = (lab.bench.get_untracked().document)(lab);
+    lab.notice.set(Some(Notice::SceneAdded(lab.scenes.with_untracked(|scenes| scenes.documents.len() + 1))));
     change(lab, |documents| documents.push(document));
-    lab.notice.set(Some(Notice::SceneAdded(lab.scenes.with_untracked(|scenes| scenes.documents.len()))));
 }
 
 /// Whether there can be one more.
@@ -38,9 +42,9 @@ fn change(lab: Lab, change: impl FnOnce(&mut Vec<Document>)) {
 }
 
 fn remember(lab: Lab) {
-    // What has no link is in the list and in files all the same.
-    if let Ok(link) = lab.scenes.with_untracked(Scenes::to_link) {
-        SCENES.write(&link);
+    match lab.scenes.with_untracked(Scenes::to_json) {
+        Ok(text) => _ = SCENES.write(&text),
+        Err(error) => lab.notice.set(Some(Notice::Refused(error))),
     }
 }
 
@@ -67,6 +71,12 @@ fn show(lab: Lab, index: usize) {
     lab.scene.set(Some(index));
     lab.side.set(None);
     lab.open(Ok(document));
+}
+
+/// Whether a scene is on the screen, and not a page or a lesson in its place.
+pub fn is_in_sight(lab: Lab) -> bool {
+    let is_covered = lab.side.get_untracked().is_some() || lab.stage.with_untracked(Option::is_some);
+    lab.scene.get_untracked().is_some() && !is_covered
 }
 
 /// Shows the scene after the present one, or the one before.

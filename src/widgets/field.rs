@@ -142,7 +142,12 @@ pub fn NumberField(
     };
     let on_key = move |event: KeyboardEvent| {
         if event.key() == "Escape" {
-            return draft.set(None);
+            if draft.with_untracked(Option::is_some) {
+                // It is the draft that is given up, not what the page shows.
+                event.stop_propagation();
+                draft.set(None);
+            }
+            return;
         }
         let Some(steps) = steps_of(&event.key()) else { return };
         event.prevent_default();

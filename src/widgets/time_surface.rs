@@ -107,7 +107,11 @@ impl TimeAxis {
             "+" | "=" => self.zoom(ZOOM),
             "-" => self.zoom(1.0 / ZOOM),
             "0" => self.on_show.run(None),
-            "Escape" => self.set_cursor(None),
+            "Escape" if self.cursor.get_untracked().is_some() => {
+                // It is the cursor that goes, not what the page shows.
+                event.stop_propagation();
+                self.set_cursor(None);
+            }
             _ => return,
         }
         event.prevent_default();

@@ -2,8 +2,8 @@ use quadtank::literature::{DisplayUnit, PresetId};
 use quadtank::study::StudyError;
 use quadtank::study::quadruple_tank::{FrequencyCurves, PlantSpec, Setup, ValveMap, analyse, run};
 use quadtank_figure::{
-    self, ClosedLoopGains, FrequencyCharts, FrequencyTexts, PoleZero, PoleZeroTexts, ResponseTexts, Responses,
-    RunColumns, Size, Style, ValvePlane, ValvePlaneTexts, to_svg,
+    self, ClosedLoopGains, FrequencyCharts, FrequencyTexts, JudgedStep, PoleZero, PoleZeroTexts, ResponseTexts,
+    Responses, RunColumns, Size, Style, ValvePlane, ValvePlaneTexts, to_svg,
 };
 
 use crate::HomePicture;
@@ -27,6 +27,7 @@ fn responses(setup: &Setup, style: &Style) -> Result<String, StudyError> {
         DisplayUnit::M => ("level (m)", 1.0),
     };
     let [pump_1, pump_2] = plant.pumps;
+    let steps = JudgedStep::all(&run.steps, |share| format!("overshoot {:.0} %", 100.0 * share));
     let charts = quadtank_figure::responses(&Responses {
         recorded: None,
         nonlinear: RunColumns::of(&run.nonlinear),
@@ -34,6 +35,7 @@ fn responses(setup: &Setup, style: &Style) -> Result<String, StudyError> {
         linear: Some(RunColumns::of(&run.linear)),
         pinned: Vec::new(),
         flags: &[],
+        steps: &steps,
         level_scale,
         walls: [plant.tanks[0].height, plant.tanks[1].height],
         voltage_limits: (pump_1.voltage_min.min(pump_2.voltage_min), pump_1.voltage_max.max(pump_2.voltage_max)),

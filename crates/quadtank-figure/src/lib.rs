@@ -23,6 +23,7 @@ mod field;
 mod flag;
 mod frame;
 mod frequency;
+mod judged;
 mod legend;
 mod level_loop;
 mod levels;
@@ -54,6 +55,7 @@ pub use chart::{
 pub use flag::Flag;
 pub use frame::{Frame, Rect, Size, layout};
 pub use frequency::{ClosedLoopGains, FrequencyCharts, FrequencyTexts, over_frequency};
+pub use judged::JudgedStep;
 pub use level_loop::{
     CostCell, CostMapChart, LevelLoopCharts, LevelLoopTexts, LevelRunColumns, NamedPoint, StaticCurve, StepTestCharts,
     StepTestTexts, TradeOffChart, cost_map, level_loop, static_curve, step_test, trade_off,

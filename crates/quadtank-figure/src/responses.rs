@@ -4,6 +4,7 @@ use quadtank::sim::Trajectory;
 
 use super::ends::{Ends, names};
 use super::flag::{Flag, flags};
+use super::judged::JudgedStep;
 use super::range::{extent, range};
 use super::{Axis, Chart, Course, Entry, Layer, Pen, Role, Sample, Series};
 
@@ -53,6 +54,8 @@ pub struct Responses<'a> {
     pub window_s: Option<(f64, f64)>,
     /// What happened when.
     pub flags: &'a [Flag],
+    /// The steps whose answers have figures.
+    pub steps: &'a [JudgedStep],
     /// Words.
     pub texts: ResponseTexts<'a>,
 }
@@ -113,7 +116,7 @@ fn level_layers<'a>(spec: &Responses<'a>) -> Vec<Layer<'a>> {
         let role = Role::of_loop(index);
         Layer::Line(Series { name, role, pen, course, x: x.into(), y: y.into(), y_scale: spec.level_scale })
     };
-    let mut layers = Vec::new();
+    let mut layers: Vec<_> = spec.steps.iter().map(|step| step.band(spec.level_scale)).collect();
     for (run, pen, which) in runs(spec) {
         if pen == Pen::Solid {
             for (index, reference) in spec.references.into_iter().enumerate() {
@@ -128,6 +131,7 @@ fn level_layers<'a>(spec: &Responses<'a>) -> Vec<Layer<'a>> {
     }
     let RunColumns { time_s, levels, .. } = spec.nonlinear;
     let (scale, window) = (spec.level_scale, spec.window_s);
+    layers.extend(spec.steps.iter().filter_map(|step| step.word(&spec.nonlinear, scale)));
     layers.extend(names(&Ends { x: time_s, y: levels, scale, names: spec.texts.levels, window }));
     layers
 }

@@ -91,6 +91,22 @@ pub struct Scenario {
 impl Scenario {
     /// How many pinned runs a scenario holds.
     pub const MAX_PINNED: usize = 8;
+
+    /// The part of the run that the time axis shows (s), if it is not all of it: what was zoomed into, as far as the run goes.
+    ///
+    /// ```
+    /// let mut scenario = quadtank_scenario::Scenario::default();
+    /// scenario.setup.experiment.duration_s = 500.0;
+    /// scenario.view.zoom_s = Some([400.0, 600.0]);
+    /// assert_eq!(scenario.shown_time_s(), Some((400.0, 500.0)));
+    /// scenario.view.zoom_s = Some([600.0, 700.0]);
+    /// assert_eq!(scenario.shown_time_s(), None);
+    /// ```
+    pub fn shown_time_s(&self) -> Option<(f64, f64)> {
+        let end_s = self.setup.experiment.duration_s;
+        let [from, to] = self.view.zoom_s?;
+        (from < end_s).then(|| (from, to.min(end_s)))
+    }
 }
 
 impl BenchDocument for Scenario {

@@ -11,11 +11,11 @@ use quadtank::linear::Complex;
 use quadtank::sim::{EventKind, Settling};
 use quadtank::study::quadruple_tank::{Run, ValveMap};
 use quadtank_figure::{
-    self, Chart, ClosedLoopGains, Flag, FrequencyCharts, FrequencyTexts, Levels, PoleZero, PoleZeroTexts, Residuals,
-    ResponseTexts, Responses, Role, RunColumns, ValvePlane, ValvePlaneTexts,
+    self, Chart, ClosedLoopGains, Flag, FrequencyCharts, FrequencyTexts, JudgedStep, Levels, PoleZero, PoleZeroTexts,
+    Residuals, ResponseTexts, Responses, Role, RunColumns, ValvePlane, ValvePlaneTexts,
 };
 use quadtank_record::Record;
-use quadtank_scenario::{frequency_to_csv, roots_to_csv, run_to_csv, valve_map_to_csv};
+use quadtank_scenario::{Scenario, frequency_to_csv, roots_to_csv, run_to_csv, valve_map_to_csv};
 
 use leptos::prelude::*;
 
@@ -195,6 +195,11 @@ fn flags(lab: Lab, run: &Run) -> Vec<Flag> {
     settled.chain(events).collect()
 }
 
+/// An overshoot as a share of its step, in words.
+fn overshoot(lab: Lab, share: f64) -> String {
+    tr!(lab, chart.flag_overshoot, percent = lab.number_style().significant(100.0 * share, 2))
+}
+
 /// What the simulation leaves of the levels of the record that is open.
 pub fn residuals(session: Session) -> Picture {
     let lab = session.lab;
@@ -219,7 +224,7 @@ pub fn residuals(session: Session) -> Picture {
 /// Levels and pump voltages.
 pub fn responses(session: Session) -> Picture {
     let lab = session.lab;
-    let window = Memo::new(move |_| session.document.with(|s| s.view.zoom_s.map(<(f64, f64)>::from)));
+    let window = Memo::new(move |_| session.document.with(Scenario::shown_time_s));
     let hide_linear = Memo::new(move |_| session.document.with(|s| s.view.hide_linear));
     let csv = move || session.charts.run.with(|run| run.as_ref().as_ref().map(run_to_csv).unwrap_or_default());
     let build = move |visit: &mut dyn FnMut(&mut [Chart])| {
@@ -248,6 +253,7 @@ pub fn responses(session: Session) -> Picture {
             linear: (!hide_linear.get()).then(|| RunColumns::of(&run.linear)),
             pinned: pinned.collect(),
             flags: &flags(lab, run),
+            steps: &JudgedStep::all(&run.steps, |share| overshoot(lab, share)),
             level_scale: per_metre(unit),
             walls: [plant.tanks[0].height, plant.tanks[1].height],
             voltage_limits: (pump_1.voltage_min.min(pump_2.voltage_min), pump_1.voltage_max.max(pump_2.voltage_max)),

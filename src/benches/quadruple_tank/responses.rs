@@ -116,8 +116,7 @@ fn Toolbar(axis: TimeAxis) -> impl IntoView {
 
 /// The time of the run; zooming goes about the first step in sight.
 fn time_axis(session: Session) -> TimeAxis {
-    let window =
-        move || session.document.with(|s| s.view.zoom_s.map_or((0.0, s.setup.experiment.duration_s), Into::into));
+    let window = move || session.document.with(|s| s.shown_time_s().unwrap_or((0.0, s.setup.experiment.duration_s)));
     let first_step = move || {
         let (from, to) = window();
         session.document.with(|s| {

@@ -94,7 +94,8 @@ fn FormulaField(row: usize, column: usize) -> impl IntoView {
                 disabled=lab.locks(locks::PLANT)
                 on:input=on_input
                 on:keydown=move |event| {
-                    if event.key() == "Escape" {
+                    if event.key() == "Escape" && draft.with_untracked(Option::is_some) {
+                        event.stop_propagation();
                         draft.set(None);
                     }
                 }

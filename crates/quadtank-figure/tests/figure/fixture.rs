@@ -66,6 +66,7 @@ pub fn response_spec<'a>(run: &'a Run, linear: Option<&'a Run>, pinned: Option<&
         voltage_limits: (0.0, 10.0),
         window_s: None,
         flags: &[],
+        steps: &[],
         texts: ResponseTexts {
             time: "time (s)",
             level: "level (cm)",

@@ -140,6 +140,7 @@ proptest! {
             linear: Some(run),
             pinned: vec![(usual.columns(), "pinned")],
             flags: &[],
+            steps: &[],
             level_scale: scale,
             walls: [wall, 0.2],
             voltage_limits: (limit, 10.0),
