@@ -241,6 +241,15 @@ for (const [width, height, views] of [[1024, 768, ['full']], [390, 844, ['explor
   });
 }
 
+test('with the mouse a field for a number is 32 px high', async ({ lab, page }) => {
+  for (const query of [...BENCHES.map((bench) => `bench=${bench}&view=full`), 'view=lab']) {
+    await lab.open(query);
+    const heights = await page.locator('main input.number:visible').evaluateAll((fields) => fields.map((field) => field.getBoundingClientRect().height));
+    expect(heights.length, query).toBeGreaterThan(3);
+    expect(Math.min(...heights), query).toBeGreaterThanOrEqual(32);
+  }
+});
+
 test.describe('by touch', () => {
   test.use({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
 
