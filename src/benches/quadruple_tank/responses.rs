@@ -21,7 +21,7 @@ use crate::widgets::{
 };
 use quadtank::control::LoopMode;
 use quadtank::sim::{EventKind, LoopMetrics, NoResponse, Settling};
-use quadtank::study::quadruple_tank::Run;
+use quadtank::study::quadruple_tank::{Run, shown_until_s};
 use quadtank::study::{StudyError, StudyErrorKind};
 use quadtank_figure::Frame;
 use quadtank_scenario::Scenario;
@@ -110,8 +110,27 @@ fn Toolbar(axis: TimeAxis) -> impl IntoView {
                 {say!(lab, responses.hide_linear)}
             </button>
             <ZoomButtons axis ids=["zoom-in", "zoom-out", "zoom-reset"] />
+            <button
+                type="button"
+                class="button small"
+                data-testid="zoom-fit"
+                title=say!(lab, responses.fit_name)
+                on:click=move |_| fit(session, axis)
+            >
+                {say!(lab, responses.fit)}
+            </button>
         </div>
     }
+}
+
+/// Shows the run until all that steps has settled.
+fn fit(session: Session, axis: TimeAxis) {
+    let until_s = session.charts.run.with_untracked(|run| {
+        let experiment = session.document.with_untracked(|s| s.setup.experiment.clone());
+        run.as_ref().as_ref().ok().map(|run| shown_until_s(&experiment, run))
+    });
+    let (_, end_s) = axis.whole.get_untracked();
+    axis.on_show.run(until_s.filter(|until_s| *until_s < end_s).map(|until_s| (0.0, until_s)));
 }
 
 /// The time of the run; zooming goes about the first step in sight.

@@ -1,9 +1,9 @@
 use crate::control::LoopMode;
 use crate::linear::{Stability, TransmissionZero};
 use crate::literature::PresetId;
-use crate::sim::{SetPointStep, Settling};
+use crate::sim::{Experiment, SetPointStep, Settling};
 
-use super::{OperatingPointSpec, Setup, analyse, run, setup_of};
+use super::{OperatingPointSpec, Run, Setup, analyse, run, setup_of};
 
 /// When the first experiment steps (s).
 const FIRST_STEP_AT_S: f64 = 20.0;
@@ -49,6 +49,25 @@ pub fn fitted_duration_s(setup: &Setup) -> f64 {
         tried.experiment.duration_s *= 2.0;
     }
     setup.experiment.duration_s
+}
+
+/// Until when a chart has to show a run (s), so that each level that stepped is seen at rest for as long as it took to settle, after the last
+/// step and after the last load. The end of the run where a level does not settle, where none steps, or where pumps or inflows follow
+/// a sequence.
+pub fn shown_until_s(experiment: &Experiment, run: &Run) -> f64 {
+    let end_s = experiment.duration_s;
+    let answers = run.steps.iter().filter(|step| step.time_s < end_s);
+    let rests = answers.map(|step| match step.figures.settling_2_percent {
+        Some(Settling::After { time_s }) => (step.time_s, 2.0 * time_s),
+        Some(Settling::Never) | None => (step.time_s, f64::INFINITY),
+    });
+    let has_sequence = !(experiment.pump_voltage_steps.is_empty() && experiment.inflow_steps.is_empty());
+    let Some((last_step_s, longest_s)) = rests.reduce(|one, other| (one.0.max(other.0), one.1.max(other.1))) else {
+        return end_s;
+    };
+    let loads = experiment.load_steps.iter().map(|load| load.time_s);
+    let last_s = loads.filter(|time_s| *time_s < end_s).fold(last_step_s, f64::max);
+    if has_sequence { end_s } else { (last_s + longest_s).min(end_s) }
 }
 
 /// The same setup with detuned controllers: the gains of both loops reduced and their integral times increased by
@@ -109,7 +128,7 @@ pub fn direction_steps(zero: &TransmissionZero, direction: Direction, size: f64)
 mod tests {
     use super::*;
     use crate::control::Pairing;
-    use crate::sim::LoopMetrics;
+    use crate::sim::{Load, LoadStep, LoopMetrics};
 
     fn settling(setup: &Setup) -> Option<Settling> {
         run(setup).unwrap().metrics[0].settling_2_percent
@@ -134,6 +153,20 @@ mod tests {
         let Some(Settling::After { time_s }) = settling(&slow) else { panic!("{:?}", settling(&slow)) };
         assert!(2.0 * time_s + 20.0 <= slow.experiment.duration_s);
         assert!(slow.experiment.duration_s / 2.0 < 2.0 * time_s + 20.0, "half as long would do");
+    }
+
+    #[test]
+    fn a_chart_ends_when_the_last_step_and_the_last_load_have_been_seen_to_settle() {
+        let mut setup = setup_of(PresetId::JohanssonMinimumPhase);
+        let shown = |setup: &Setup| shown_until_s(&setup.experiment, &run(setup).unwrap());
+        let last_step_s = setup.experiment.set_point_steps.iter().map(|step| step.time_s).fold(0.0, f64::max);
+        let Some(Settling::After { time_s }) = run(&setup).unwrap().metrics[1].settling_2_percent else { panic!() };
+        let until_s = shown(&setup);
+        assert!((last_step_s + 2.0 * time_s..setup.experiment.duration_s).contains(&until_s), "{until_s}");
+        setup.experiment.load_steps = vec![LoadStep { time_s: 2000.0, load: Load::Leak { tank: 0, area: 1e-6 } }];
+        assert!((shown(&setup) - until_s - (2000.0 - last_step_s)).abs() < 1e-9);
+        setup.experiment.set_point_steps.clear();
+        assert_eq!(shown(&setup), setup.experiment.duration_s);
     }
 
     #[test]

@@ -16,7 +16,9 @@ mod valve_map;
 mod zero_situation;
 
 pub use analysis::{Analysis, analyse};
-pub use first_steps::{Direction, detuned, direction_steps, first_experiment, fitted_duration_s, held_operating_point};
+pub use first_steps::{
+    Direction, detuned, direction_steps, first_experiment, fitted_duration_s, held_operating_point, shown_until_s,
+};
 pub use frequency_curves::{ClosedCurves, FrequencyCurves};
 pub use guaranteed_margins::GuaranteedMargins;
 pub use mends::{Mend, mend_loop, mend_rest, mend_run};
