@@ -3,6 +3,7 @@
 use leptos::prelude::*;
 
 use super::flags::panels;
+use super::mends::MendButton;
 use super::pictures;
 use super::sentences::{self, in_cm};
 use super::session::{Session, set_cursor, shown, use_session};
@@ -50,9 +51,12 @@ pub fn CourseCard(
     };
     view! {
         <Card name="course" panel=panels::RESPONSES title terms=TERMS beside>
-            <Verdict id="free-verdict" warm=Signal::derive(move || !found.get().0)>
-                {move || marked(&found.get().1)}
-            </Verdict>
+            <div class="mended">
+                <Verdict id="free-verdict" warm=Signal::derive(move || !found.get().0)>
+                    {move || marked(&found.get().1)}
+                </Verdict>
+                <MendButton is_lost=Signal::derive(move || !found.get().0) />
+            </div>
             <div class="chart">
                 <ChartCanvas
                     picture

@@ -6,6 +6,7 @@ mod experiment;
 mod explore;
 mod flags;
 mod law;
+mod mends;
 mod moment;
 mod pictures;
 mod plane;

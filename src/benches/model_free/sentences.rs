@@ -82,7 +82,7 @@ pub fn of_run(session: Session) -> (bool, String) {
             tr!(lab, free.is_unsettled, one = cm(one), two = cm(two)) + &cause(by)
         }
     };
-    (matches!(verdict, ModelFreeVerdict::Settled(_) | ModelFreeVerdict::Rippling { apart: None, .. }), text)
+    (verdict.is_good(), text)
 }
 
 /// What the PI loops are that a run is compared with; nothing where it is not.

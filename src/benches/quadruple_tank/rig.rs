@@ -119,10 +119,11 @@ fn tank(lab: Lab, index: usize, tank: &Tank, level: f64, unit: DisplayUnit) -> i
     } else {
         String::new()
     };
+    let wall = if alarm.is_empty() { "wall" } else { "wall alarmed" };
     let colour = if index == 0 || index == 3 { "water1" } else { "water2" };
     view! {
         <path class=colour d=format!("M{left} {surface} V{bottom} H{foot} L{brim} {surface} Z") stroke-width="0" />
-        <path class="wall" d=format!("M{left} {top} V{bottom} H{foot} L{right} {top}") />
+        <path class=wall d=format!("M{left} {top} V{bottom} H{foot} L{right} {top}") />
         <path class="scale" d=scale(tank.height, unit, (right, top)) />
         <text class="name" x=middle y=top + 12.0 text-anchor="middle">{tr!(lab, process.tank, number = index + 1)}</text>
         <text class="value" x=number_at y=bottom - above_bottom text-anchor="middle" data-testid=format!("rig-level-{}", index + 1)>

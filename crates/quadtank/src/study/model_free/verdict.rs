@@ -73,6 +73,11 @@ pub enum ModelFreeVerdict {
 }
 
 impl ModelFreeVerdict {
+    /// Whether the levels follow and nothing predicts that they cease to.
+    pub fn is_good(&self) -> bool {
+        matches!(self, Self::Settled(_) | Self::Rippling { apart: None, .. })
+    }
+
     /// The verdict on a run with what theory says of its setup.
     pub fn of(setup: &ModelFreeSetup, answer: &ModelFreeAnswer, analysis: &ModelFreeAnalysis) -> Self {
         let run = &answer.run.trajectory;
