@@ -113,6 +113,23 @@ test('the offer to go on names the bench of another experiment, and its address'
   expect(page.url()).toContain('bench=level-loop');
 });
 
+test('a file of another bench is a step of the history, and a reload brings it back', async ({ lab, page }) => {
+  await lab.open('bench=relay-tuning&lang=en');
+  await page.locator('[data-testid=file-menu] > summary').click();
+  const [download] = await Promise.all([page.waitForEvent('download'), lab.id('save').click()]);
+  const file = await download.path();
+  await lab.open('lang=en&view=full');
+  await lab.type('gamma1-number', '0.55');
+  await expect.poll(() => page.url()).toContain('#lab=');
+  await lab.id('open-input').setInputFiles(file);
+  await expect.poll(() => page.url()).toContain('bench=relay-tuning');
+  await page.reload();
+  await expect(page.locator('main#bench.relay')).toBeVisible();
+  await page.goBack();
+  await expect(page.locator('main#bench:not(.relay)')).toBeVisible();
+  await expect.poll(() => lab.value('gamma1-number')).toBeCloseTo(0.55, 12);
+});
+
 test('a sandboxed frame says that it keeps nothing', async ({ page, lab }) => {
   const site = await serve({ open: true });
   const frame = `<iframe title="lab" sandbox="allow-scripts" width="1200" height="800" src="${site.origin}/?embed=1&lang=en"></iframe>`;
@@ -124,6 +141,20 @@ test('a sandboxed frame says that it keeps nothing', async ({ page, lab }) => {
   const isKept = (await page.frames()[1].evaluate(() => location.hash)) !== '';
   // Chromium lets a sandboxed page replace the fragment of its address; where it does not, the frame says so.
   if (!isKept) await expect(inside.getByTestId('notice')).toContainText('cannot keep');
+  expect(lab.complaints).toEqual([]);
+  site.close();
+  course.close();
+});
+
+test('a whole page in a sandbox says that it keeps nothing', async ({ page, lab }) => {
+  const site = await serve({ open: true });
+  const text = await (await fetch(`${site.origin}/quadtank.html`)).text();
+  const course = await serve({ pages: { '/course': '<title>c</title><iframe title="lab" sandbox="allow-scripts" width="1200" height="800"></iframe>' }, base: '/none/' });
+  await page.goto(`${course.origin}/course`);
+  await page.evaluate((html) => { document.querySelector('iframe').srcdoc = html; }, text);
+  const inside = page.frameLocator('iframe');
+  await inside.getByTestId('gamma1').fill('0.3');
+  await expect(inside.getByTestId('notice')).toContainText('This page cannot keep your changes');
   expect(lab.complaints).toEqual([]);
   site.close();
   course.close();

@@ -57,6 +57,16 @@ test('case a is reproduced: from empty tanks, and its course at the times that a
   await lab.clean();
 });
 
+test('a run that is lost ends with a button that mends it', async ({ lab }) => {
+  await lab.open(BENCH);
+  await expect(lab.id('mend-free')).toHaveCount(0);
+  await press(lab, 'free-b', 'free-long');
+  expect(await lab.text('free-verdict')).toContain('is lost');
+  await press(lab, 'mend-free');
+  expect(await lab.text('free-verdict')).toContain('All settles');
+  await expect(lab.id('mend-free')).toHaveCount(0);
+});
+
 test('the loss that case b hides is found by keyboard alone', async ({ lab, page }) => {
   await lab.open(BENCH);
   await tabTo(page, 'free-b');

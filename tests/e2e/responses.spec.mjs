@@ -57,6 +57,22 @@ test('dragging across the chart zooms into that stretch', async ({ lab, page }) 
   expect(await lab.picture('responses')).toEqual(whole);
 });
 
+test('the time axis ends some settling times after the last step', async ({ lab }) => {
+  await lab.open('lang=en');
+  const whole = await lab.picture('responses');
+  await lab.id('zoom-fit').click();
+  await lab.settle();
+  expect((await lab.picture('responses')).hash).not.toBe(whole.hash);
+  // A shorter run has a stretch of its own.
+  await lab.type('duration-number', '1400');
+  await lab.settle();
+  expect((await lab.picture('responses')).ink).toBeGreaterThan(0);
+  await lab.id('zoom-reset').click();
+  await lab.type('duration-number', '3000');
+  await lab.settle();
+  expect(await lab.picture('responses')).toEqual(whole);
+});
+
 test('a set-point is dragged in the picture: up and down for its size, sideways for its time', async ({ lab, page }) => {
   await lab.open();
   const before = await lab.picture('responses');
