@@ -3,7 +3,7 @@ use thiserror::Error;
 
 use super::InflowDisturbance;
 use crate::control::{AntiWindup, ParallelPid, PiSettings};
-use crate::plant::level::LevelError;
+use crate::plant::level::{LevelError, Transmitter};
 
 /// In which unit set-point steps are entered.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -174,6 +174,14 @@ impl LevelExperiment {
             return Err(self.empty_log());
         }
         Ok(())
+    }
+
+    /// Size (m) of a step of the set-point, whatever unit it is entered in.
+    pub fn step_in_metres(&self, step: &SignalStep, transmitter: &Transmitter) -> f64 {
+        match self.set_point_scale {
+            SetPointScale::Level => step.size,
+            SetPointScale::Signal => step.size / transmitter.gain(),
+        }
     }
 
     /// The error for a run with fewer than two rows.

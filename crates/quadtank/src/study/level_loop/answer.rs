@@ -71,7 +71,9 @@ pub fn run_level_loop(setup: &LevelLoopSetup) -> Result<LevelLoopAnswer, LevelLo
         .ok()
         .map(|reference| BothIndices::of(&[reference.level, reference.outflow], &[figures.level, figures.outflow]));
     let step = match experiment.set_point_steps.as_slice() {
-        [step] if step.time_s <= 0.0 => LevelStepResponse::of(&log, log.reference[0] / gain - experiment.level),
+        [step] if step.time_s <= 0.0 => {
+            LevelStepResponse::of(&log, experiment.step_in_metres(step, &plant.transmitter))
+        }
         _ => None,
     };
     let quality = LoopQuality::of(simulation.gains(), &setup.controller);
@@ -92,4 +94,37 @@ fn reference_figures(setup: &LevelLoopSetup) -> Result<LevelFigures, LevelRunErr
     let experiment = &setup.experiment;
     let log = LevelSimulation::new(&model, experiment)?.run(&controller)?;
     LevelFigures::of(&log, model.transmitter.gain()).ok_or_else(|| experiment.empty_log())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::literature::LevelPresetId;
+    use crate::literature::andreis::PublishedDisturbance;
+    use crate::sim::level::{InflowDisturbance, SetPointScale, SignalStep};
+    use crate::study::level_loop::published_setup;
+
+    /// The loop of Andreis (2017), whose transmitter sends 4 to 20 mA, without a disturbance, with a step of 5 cm.
+    fn stepped(gain: f64, integral_time_s: f64, scale: SetPointScale) -> LevelLoopAnswer {
+        let mut setup = published_setup(LevelPresetId::Andreis, PublishedDisturbance::SineL);
+        let size = match scale {
+            SetPointScale::Level => 0.05,
+            SetPointScale::Signal => 0.05 * setup.plant().transmitter.gain(),
+        };
+        setup.controller = LevelController::pi(gain, integral_time_s);
+        setup.experiment.disturbance = InflowDisturbance::NONE;
+        setup.experiment.set_point_steps = vec![SignalStep { time_s: 0.0, size }];
+        setup.experiment.set_point_scale = scale;
+        run_level_loop(&setup).unwrap()
+    }
+
+    #[test]
+    fn the_offset_of_a_step_does_not_depend_on_the_zero_of_the_transmitter() {
+        for scale in [SetPointScale::Level, SetPointScale::Signal] {
+            let answer = stepped(10.0, 250.0, scale);
+            let missing = 1.05 - answer.log.level.last().unwrap();
+            let offset = answer.step.unwrap().offset;
+            assert!((offset - missing / 0.05).abs() < 1e-9 && offset.abs() < 0.01, "{offset}");
+        }
+    }
 }

@@ -3,7 +3,7 @@ use serde::Serialize;
 use crate::assess::LoopQuality;
 use crate::linear::LoopStability;
 use crate::plant::level::{LevelError, LevelPlant};
-use crate::sim::level::{InflowSignal, LevelController, LevelFigures, LevelLog, SetPointScale};
+use crate::sim::level::{InflowSignal, LevelController, LevelFigures, LevelLog};
 
 use super::{LevelLoopSetup, Objective};
 
@@ -119,12 +119,8 @@ fn set_point_out_of_reach(setup: &LevelLoopSetup, plant: &LevelPlant) -> Option<
     if experiment.set_point_steps.is_empty() || matches!(setup.controller, LevelController::Manual { .. }) {
         return None;
     }
-    let scale = match experiment.set_point_scale {
-        SetPointScale::Level => 1.0,
-        SetPointScale::Signal => plant.transmitter.gain().recip(),
-    };
     let steps = experiment.set_point_steps.iter().filter(|step| step.time_s <= experiment.duration_s);
-    let level = steps.fold(experiment.level, |level, step| level + scale * step.size);
+    let level = steps.fold(experiment.level, |level, step| level + experiment.step_in_metres(step, &plant.transmitter));
     let lasting = match experiment.disturbance.signal {
         InflowSignal::Step { size } if experiment.disturbance.until_s >= experiment.duration_s => size,
         _ => 0.0,
