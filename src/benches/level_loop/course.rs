@@ -60,7 +60,7 @@ pub fn CourseCard() -> impl IntoView {
                 <details class="more">
                     <summary data-testid="level-figures-fold">{say!(lab, responses.figures)}</summary>
                     <Figures name="level-figures" caption=say!(lab, level.figures)>{move || figures(session)}</Figures>
-                    <p class="remark">{move || step_text(session)}</p>
+                    <p class="remark">{move || marked(&sentences::of_step(session))}</p>
                 </details>
                 <p class="remark" data-testid="level-pinned-note">{move || without_run(session)}</p>
                 <DataTable picture=for_table id="level-table" />
@@ -173,22 +173,4 @@ fn without_run(session: Session) -> String {
     let pinned = session.throttled.pinned.get();
     let missing = pinned.iter().enumerate().filter(|(_, pinned)| pinned.result.is_err());
     missing.map(|(place, _)| tr!(lab, responses.pinned_none, run = place + 1)).collect::<Vec<_>>().join(" ")
-}
-
-/// The answer to the step of the set-point, where there is one.
-fn step_text(session: Session) -> String {
-    let lab = session.lab;
-    let style = lab.number_style();
-    let text = session.throttled.with_answer(|answer| {
-        let step = answer.step?;
-        Some(tr!(
-            lab,
-            level.step_answer,
-            offset = style.fixed(100.0 * step.offset, 1),
-            overshoot = style.fixed(100.0 * step.overshoot, 1),
-            rise = style.significant(step.rise_time_s, 3),
-            settling = style.significant(step.settling_time_s, 3)
-        ))
-    });
-    text.flatten().unwrap_or_default()
 }

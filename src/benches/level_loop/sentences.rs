@@ -3,7 +3,7 @@
 use leptos::prelude::*;
 use quadtank::assess::{IndexVerdict, LoopQuality};
 use quadtank::linear::LoopStability;
-use quadtank::sim::level::LevelController;
+use quadtank::sim::level::{LevelController, NoStepAnswer};
 use quadtank::study::level_loop::{Finding, LevelLoopAnswer, Objective};
 use quadtank::tuning::{Regulation, RegulationReason};
 
@@ -143,6 +143,42 @@ pub fn of_quality(session: Session) -> (bool, String) {
         if quality.is_fragile() { (false, format!("{text} {}", tr!(lab, level.fragile))) } else { (true, text) }
     };
     session.throttled.with_answer(of).unwrap_or_default()
+}
+
+/// The answer to the step of the set-point, or why there is none; nothing without such a step.
+pub fn of_step(session: Session) -> String {
+    let lab = session.lab;
+    let style = lab.number_style();
+    let of = |answer: &LevelLoopAnswer| {
+        let step = match answer.step? {
+            Ok(step) => step,
+            Err(reason) => return Some(tr!(lab, level.step_none, reason = of_no_step(lab, reason))),
+        };
+        let offset = style.fixed(100.0 * step.offset, 1);
+        let (Some(overshoot), Some(rise_s), Some(settling_s)) =
+            (step.overshoot, step.rise_time_s, step.settling_time_s)
+        else {
+            return Some(tr!(lab, level.step_moves, offset = offset));
+        };
+        Some(tr!(
+            lab,
+            level.step_answer,
+            offset = offset,
+            overshoot = style.fixed(100.0 * overshoot, 1),
+            rise = style.significant(rise_s, 3),
+            settling = style.significant(settling_s, 3)
+        ))
+    };
+    session.throttled.with_answer(of).flatten().unwrap_or_default()
+}
+
+fn of_no_step(lab: Lab, reason: NoStepAnswer) -> String {
+    match reason {
+        NoStepAnswer::ByHand => tr!(lab, level.step_by_hand),
+        NoStepAnswer::UnstableLoop => tr!(lab, level.unstable),
+        NoStepAnswer::MarginalLoop => tr!(lab, level.marginal),
+        NoStepAnswer::DoesNotMove => tr!(lab, level.step_still),
+    }
 }
 
 /// What kind of process a test shows, with the reason; nothing for a test without a step back.

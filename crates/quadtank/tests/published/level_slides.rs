@@ -61,10 +61,10 @@ fn four_settings() {
         let figures = LevelFigures::of(&log, plant.transmitter.gain()).unwrap();
         let found = [
             answer.change / STEP,
-            answer.overshoot,
-            answer.peak_time_s / MINUTE,
-            answer.settling_time_s / MINUTE,
-            answer.rise_time_s / MINUTE,
+            answer.overshoot.unwrap(),
+            answer.peak_time_s.unwrap() / MINUTE,
+            answer.settling_time_s.unwrap() / MINUTE,
+            answer.rise_time_s.unwrap() / MINUTE,
             figures.iae / STEP / MINUTE,
             figures.ise / (STEP * STEP) / MINUTE,
             figures.itae / STEP / (MINUTE * MINUTE),

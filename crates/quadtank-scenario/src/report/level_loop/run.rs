@@ -1,5 +1,5 @@
 use quadtank::assess::{BothIndices, HarrisError, HarrisIndex, IndexError, IndexVerdict, ValveTravel, VarianceIndex};
-use quadtank::sim::level::{LevelFigures, LevelRunError, LevelStepResponse};
+use quadtank::sim::level::{LevelFigures, LevelRunError, LevelStepResponse, NoStepAnswer};
 use quadtank::study::level_loop::{Finding, LevelLoopAnswer, LevelLoopSetup, Objective};
 use serde::Serialize;
 
@@ -13,8 +13,8 @@ use crate::report::Answer;
 pub struct LevelLoopReport {
     /// Figures of level, outflow and output over all of the log.
     pub figures: LevelFigures,
-    /// The answer to a step of the set-point; null where that does not step once, at the start, or the level does not move.
-    pub step: Option<LevelStepResponse>,
+    /// The answer to a step of the set-point, or why there is none; null where that does not step once, at the start.
+    pub step: Option<Answer<LevelStepResponse, NoStepAnswer>>,
     /// How the valve moves.
     pub travel: ValveTravel,
     /// The linear loop with the controller; null for an output by hand.
@@ -90,7 +90,7 @@ impl LevelLoopReport {
         let quality = found.quality.transpose();
         Self {
             figures: found.figures,
-            step: found.step,
+            step: found.step.map(|step| Answer::of(&step, |answer| *answer)),
             travel: found.travel,
             closed_loop: quality.map(|quality| Answer::of(&quality, ClosedLoopReport::from)),
             reference: Answer::of(&found.reference, |figures| *figures),

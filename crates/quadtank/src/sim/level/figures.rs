@@ -1,6 +1,8 @@
 use serde::Serialize;
+use thiserror::Error;
 
 use super::{LevelLog, SampleStatistics};
+use crate::sim::experiment::MIN_STEP;
 
 /// Figures of a run over all of its log.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -43,7 +45,28 @@ impl LevelFigures {
     }
 }
 
+/// Why a loop does not answer a step of its set-point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(tag = "error", rename_all = "kebab-case")]
+pub enum NoStepAnswer {
+    /// The output is set by hand, so the set-point acts on nothing.
+    #[error("an output by hand does not follow the set-point")]
+    ByHand,
+    /// The linear loop is unstable: what only limits hold has no final level.
+    #[error("the linear loop is unstable")]
+    UnstableLoop,
+    /// The linear loop is on the border of stability: an oscillation does not decay.
+    #[error("the linear loop is on the border of stability")]
+    MarginalLoop,
+    /// At the end the level is where it was, within 1 nm.
+    #[error("the level does not move")]
+    DoesNotMove,
+}
+
 /// Response of a level to one step of its set-point at the start of a run.
+///
+/// Overshoot and times are measured against the level at the end, so a level that has not come to rest there has none.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct LevelStepResponse {
@@ -51,26 +74,28 @@ pub struct LevelStepResponse {
     pub change: f64,
     /// Share of the step that is missing at the end.
     pub offset: f64,
-    /// By how much the largest deviation exceeds the final one, as a share of that; 0 if it does not.
-    pub overshoot: f64,
-    /// When the largest deviation is reached (s).
-    pub peak_time_s: f64,
-    /// From 10 to 90 % of the final deviation (s).
-    pub rise_time_s: f64,
-    /// From when on the level stays within 2 % of its final deviation (s); the end for one that never does.
-    pub settling_time_s: f64,
+    /// By how much the largest deviation exceeds the final one, as a share of that; 0 if it does not, `None` without rest.
+    pub overshoot: Option<f64>,
+    /// When the largest deviation is reached (s); `None` without rest.
+    pub peak_time_s: Option<f64>,
+    /// From 10 to 90 % of the final deviation (s); `None` without rest.
+    pub rise_time_s: Option<f64>,
+    /// From when on the level stays within 2 % of its final deviation (s); `None` without rest.
+    pub settling_time_s: Option<f64>,
 }
 
 /// Share of the final deviation within which a level has settled.
 const BAND: f64 = 0.02;
+/// How long a level has to have been there at the end, as a share of the run.
+const AT_REST_FOR: f64 = 0.1;
 
 impl LevelStepResponse {
-    /// The answer to a step (m) at the start, measured against the level at the end; `None` for a level that does not move, or of
-    /// fewer than two rows.
+    /// The answer to a step (m) at the start, measured against the level at the end; `None` for a level that does not move by more
+    /// than 1 nm, a step that does not, and of fewer than two rows.
     pub fn of(log: &LevelLog, step: f64) -> Option<Self> {
         let (first, last) = (*log.level.first()?, *log.level.last()?);
         let change = last - first;
-        if change == 0.0 || step == 0.0 {
+        if change.abs() <= MIN_STEP || step.abs() <= MIN_STEP {
             return None;
         }
         let share = |row: usize| (log.level[row] - first) / change;
@@ -82,13 +107,16 @@ impl LevelStepResponse {
             Some(from + (to - from) * (target - before) / (after - before))
         };
         let outside = (0..log.len()).rposition(|row| (share(row) - 1.0).abs() > BAND);
+        let settling_s = outside.map_or(0.0, |row| log.time_s[(row + 1).min(log.len() - 1)]);
+        let rests = settling_s <= (1.0 - AT_REST_FOR) * log.time_s[log.len() - 1];
+        let at_rest = |figure: f64| rests.then_some(figure);
         Some(Self {
             change,
             offset: 1.0 - change / step,
-            overshoot: (share(peak) - 1.0).max(0.0),
-            peak_time_s: log.time_s[peak],
-            rise_time_s: crossing(0.9)? - crossing(0.1)?,
-            settling_time_s: outside.map_or(0.0, |row| log.time_s[(row + 1).min(log.len() - 1)]),
+            overshoot: at_rest((share(peak) - 1.0).max(0.0)),
+            peak_time_s: at_rest(log.time_s[peak]),
+            rise_time_s: at_rest(crossing(0.9)? - crossing(0.1)?),
+            settling_time_s: at_rest(settling_s),
         })
     }
 }
@@ -125,10 +153,25 @@ mod tests {
     #[test]
     fn the_answer_to_a_step_counts_from_the_level_at_the_end() {
         let answer = LevelStepResponse::of(&log(&[0.0, 1.0, 2.2, 1.6, 2.0, 2.0], &[0.0; 6]), 2.5).unwrap();
-        assert_relative_eq!(answer.overshoot, 0.1, max_relative = 1e-14);
+        assert_relative_eq!(answer.overshoot.unwrap(), 0.1, max_relative = 1e-14);
         assert_relative_eq!(answer.offset, 0.2, max_relative = 1e-14);
-        assert_relative_eq!(answer.rise_time_s, (1.0 + 0.8 / 1.2) - 0.2, max_relative = 1e-14);
-        assert_eq!((answer.peak_time_s, answer.settling_time_s), (2.0, 4.0));
-        assert_eq!(LevelStepResponse::of(&log(&[1.0, 1.0], &[0.0; 2]), 1.0), None);
+        assert_relative_eq!(answer.rise_time_s.unwrap(), (1.0 + 0.8 / 1.2) - 0.2, max_relative = 1e-14);
+        assert_eq!((answer.peak_time_s, answer.settling_time_s), (Some(2.0), Some(4.0)));
+    }
+
+    #[test]
+    fn rounding_of_a_level_is_no_answer() {
+        for end in [1.0, 1.0 + f64::EPSILON, 1.0 - 4.0 * f64::EPSILON] {
+            assert_eq!(LevelStepResponse::of(&log(&[1.0, 1.5, end], &[0.0; 3]), 1.0), None);
+        }
+    }
+
+    #[test]
+    fn a_level_that_moves_at_the_end_has_an_offset_and_no_times() {
+        let swinging: Vec<f64> = (0..40).map(|row| if row % 2 == 0 { 0.0 } else { 2.0 }).collect();
+        let answer = LevelStepResponse::of(&log(&swinging, &[0.0; 40]), 2.5).unwrap();
+        assert_relative_eq!(answer.offset, 0.2, max_relative = 1e-14);
+        let figures = [answer.overshoot, answer.peak_time_s, answer.rise_time_s, answer.settling_time_s];
+        assert_eq!(figures, [None; 4]);
     }
 }

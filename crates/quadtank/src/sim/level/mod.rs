@@ -14,9 +14,9 @@ mod statistics;
 
 pub use disturbance::{InflowDisturbance, InflowSignal};
 pub use experiment::{LevelController, LevelExperiment, LevelRunError, SetPointScale, SignalStep};
-pub use figures::{LevelFigures, LevelStepResponse};
+pub use figures::{LevelFigures, LevelStepResponse, NoStepAnswer};
 pub use heated::{HeatedRun, heated_run};
 pub use log::LevelLog;
 pub use park_miller::ParkMillerNormal;
 pub use run::{LevelSimulation, MAX_LEVEL_STEPS};
-pub use statistics::SampleStatistics;
+pub use statistics::{SampleStatistics, is_rounding};

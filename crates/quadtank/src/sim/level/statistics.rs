@@ -1,5 +1,13 @@
 use serde::Serialize;
 
+/// A change below this share of a value is rounding of it.
+const ROUNDING: f64 = 1e-12;
+
+/// Whether a change of a value is no more than rounding of it.
+pub fn is_rounding(change: f64, value: f64) -> bool {
+    change.abs() <= ROUNDING * value.abs()
+}
+
 /// Statistics of a column of samples.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -41,7 +49,7 @@ impl SampleStatistics {
 
     /// Whether nothing moves: a deviation that is rounding of the mean.
     pub fn is_still(&self) -> bool {
-        self.standard_deviation() <= 1e-12 * self.mean.abs()
+        is_rounding(self.standard_deviation(), self.mean)
     }
 
     /// Standard deviation.

@@ -3,8 +3,12 @@ use thiserror::Error;
 use crate::assess::{
     BothIndices, HarrisError, HarrisIndex, IndexError, LoopQuality, ValveTravel, VarianceIndex, harris_index,
 };
-use crate::linear::LinearError;
-use crate::sim::level::{LevelController, LevelFigures, LevelLog, LevelRunError, LevelSimulation, LevelStepResponse};
+use crate::linear::{LinearError, LoopStability};
+use crate::plant::level::LevelPlant;
+use crate::sim::level::{
+    LevelController, LevelExperiment, LevelFigures, LevelLog, LevelRunError, LevelSimulation, LevelStepResponse,
+    NoStepAnswer,
+};
 
 use super::{Finding, LevelLoopSetup, Objective, findings};
 
@@ -15,8 +19,8 @@ pub struct LevelLoopAnswer {
     pub log: LevelLog,
     /// Figures of it.
     pub figures: LevelFigures,
-    /// The answer to the set-point; `None` where that does not step once, at the start.
-    pub step: Option<LevelStepResponse>,
+    /// The answer to the set-point, or why there is none; `None` where that does not step once, at the start.
+    pub step: Option<Result<LevelStepResponse, NoStepAnswer>>,
     /// How the valve moves.
     pub travel: ValveTravel,
     /// Stability and margins of the linear loop; `None` for an output by hand.
@@ -70,17 +74,38 @@ pub fn run_level_loop(setup: &LevelLoopSetup) -> Result<LevelLoopAnswer, LevelLo
         .as_ref()
         .ok()
         .map(|reference| BothIndices::of(&[reference.level, reference.outflow], &[figures.level, figures.outflow]));
-    let step = match experiment.set_point_steps.as_slice() {
-        [step] if step.time_s <= 0.0 => {
-            LevelStepResponse::of(&log, experiment.step_in_metres(step, &plant.transmitter))
-        }
-        _ => None,
-    };
     let quality = LoopQuality::of(simulation.gains(), &setup.controller);
+    let step = step_at_start(experiment, &plant).map(|step| step_answer(&log, step, &quality));
     let harris = harris_index(&log.level, setup.harris.dead_time_rows, setup.harris.order);
     let findings = findings::of(setup, &plant, &log, &figures, quality.as_ref().ok().and_then(Option::as_ref));
     let travel = ValveTravel::of(&log.travel);
     Ok(LevelLoopAnswer { log, figures, step, travel, quality, reference, indices, harris, findings })
+}
+
+/// Size (m) of the step of the set-point where there is one alone, at the start.
+fn step_at_start(experiment: &LevelExperiment, plant: &LevelPlant) -> Option<f64> {
+    match experiment.set_point_steps.as_slice() {
+        [step] if step.time_s <= 0.0 && step.size != 0.0 => Some(experiment.step_in_metres(step, &plant.transmitter)),
+        _ => None,
+    }
+}
+
+/// The answer to a step (m) of the set-point of a loop. Stability that is not computed is no reason to keep it back.
+fn step_answer(
+    log: &LevelLog,
+    step: f64,
+    quality: &Result<Option<LoopQuality>, LinearError>,
+) -> Result<LevelStepResponse, NoStepAnswer> {
+    match quality.as_ref().map(|quality| quality.map(|quality| quality.stability)) {
+        Ok(None) => Err(NoStepAnswer::ByHand),
+        Ok(Some(LoopStability::Unstable { .. } | LoopStability::AlgebraicLoop { .. })) => {
+            Err(NoStepAnswer::UnstableLoop)
+        }
+        Ok(Some(LoopStability::Marginal { .. })) => Err(NoStepAnswer::MarginalLoop),
+        Ok(Some(LoopStability::Stable | LoopStability::NotComputed { .. })) | Err(_) => {
+            LevelStepResponse::of(log, step).ok_or(NoStepAnswer::DoesNotMove)
+        }
+    }
 }
 
 /// The reference tuning on the model, which starts at its own bias (Andreis 2017, §5.1).
@@ -123,8 +148,26 @@ mod tests {
         for scale in [SetPointScale::Level, SetPointScale::Signal] {
             let answer = stepped(10.0, 250.0, scale);
             let missing = 1.05 - answer.log.level.last().unwrap();
-            let offset = answer.step.unwrap().offset;
+            let offset = answer.step.unwrap().unwrap().offset;
             assert!((offset - missing / 0.05).abs() < 1e-9 && offset.abs() < 0.01, "{offset}");
         }
+    }
+    #[test]
+    fn a_loop_that_does_not_come_to_rest_has_no_times() {
+        let unstable = stepped(100.0, 588.0, SetPointScale::Level);
+        assert!(unstable.quality.unwrap().unwrap().sensitivity_peak().is_none());
+        assert_eq!(unstable.step, Some(Err(NoStepAnswer::UnstableLoop)));
+        // Without a gain the level moves by rounding alone, which once had an overshoot.
+        assert_eq!(stepped(0.0, 588.0, SetPointScale::Level).step, Some(Err(NoStepAnswer::DoesNotMove)));
+        let settled = stepped(10.0, 250.0, SetPointScale::Level).step.unwrap().unwrap();
+        assert!(settled.settling_time_s.is_some_and(|time| time < 270.0), "{settled:?}");
+    }
+
+    #[test]
+    fn an_output_by_hand_does_not_answer_the_set_point() {
+        let mut setup = published_setup(LevelPresetId::Andreis, PublishedDisturbance::SineL);
+        setup.controller = LevelController::off();
+        setup.experiment.set_point_steps = vec![SignalStep { time_s: 0.0, size: 0.05 }];
+        assert_eq!(run_level_loop(&setup).unwrap().step, Some(Err(NoStepAnswer::ByHand)));
     }
 }

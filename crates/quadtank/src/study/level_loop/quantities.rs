@@ -85,13 +85,7 @@ fn figures(results: &Results) -> Option<LevelFigures> {
 }
 
 fn step(results: &Results) -> Option<LevelStepResponse> {
-    ran(results)?.step
-}
-
-/// When the level has settled; its figure is the end of the run for one that never does.
-fn settling(results: &Results) -> Option<f64> {
-    let end = *ran(results)?.log.time_s.last()?;
-    Some(step(results)?.settling_time_s).filter(|&time| time < end)
+    ran(results)?.step?.ok()
 }
 
 fn is_stable(results: &Results) -> Option<f64> {
@@ -198,10 +192,10 @@ pub const QUANTITIES: &[Quantity<Results>] = &[
     q("run.empty_time", "s", "How long the tank is empty.", |r| Some(ran(r)?.log.empty_s)),
     q("run.leaves_band", "yes/no", "Whether the level leaves the band of averaging control; no for tight control.", |r| found(r, |finding| matches!(finding, Finding::LeavesBand { .. }))),
     q("run.fails", "yes/no", "Whether anything that is found about the run is a failure of the loop.", |r| found(r, Finding::is_failure)),
-    q("run.rise_time", "s", "From 10 to 90 % of the final move, for one step of the set-point at the start.", |r| Some(step(r)?.rise_time_s)),
-    q("run.settling_time", "s", "From when on the level stays within 2 % of its final move, for one step of the set-point at the start; none where it never does.", settling),
-    q("run.overshoot", "1", "By how much the largest move exceeds the final one, as a share of it, for one step of the set-point at the start.", |r| Some(step(r)?.overshoot)),
-    q("run.offset", "1", "Share of the step of the set-point that is missing at the end.", |r| Some(step(r)?.offset)),
+    q("run.rise_time", "s", "From 10 to 90 % of the final move, for one step of the set-point at the start; none of a level that does not come to rest.", |r| step(r)?.rise_time_s),
+    q("run.settling_time", "s", "From when on the level stays within 2 % of its final move, for one step of the set-point at the start; none of a level that does not come to rest.", |r| step(r)?.settling_time_s),
+    q("run.overshoot", "1", "By how much the largest move exceeds the final one, as a share of it, for one step of the set-point at the start; none of a level that does not come to rest.", |r| step(r)?.overshoot),
+    q("run.offset", "1", "Share of the step of the set-point that is missing at the end; none of an unstable loop.", |r| Some(step(r)?.offset)),
 ];
 
 #[cfg(test)]
