@@ -3,6 +3,7 @@ use serde::Serialize;
 use thiserror::Error;
 
 use super::{IndexError, VarianceIndex};
+use crate::sim::level::is_rounding;
 
 /// The index of Harris (1989) from routine data: the variance that no feedback can remove, because it is made within the dead time,
 /// over the variance there is (Andreis 2017, Eq. 29).
@@ -89,7 +90,7 @@ pub fn harris_index(samples: &[f64], dead_time: usize, order: usize) -> Result<H
     let deviations: Vec<f64> = samples.iter().map(|y| y - mean).collect();
     let actual = deviations.iter().map(|y| y * y).sum::<f64>() / (count - 1) as f64;
     // Nothing moves; rounding of the mean is no movement.
-    VarianceIndex::new(0.0, if actual <= (1e-14 * mean).powi(2) { 0.0 } else { actual })?;
+    VarianceIndex::new(0.0, if is_rounding(actual.sqrt(), mean) { 0.0 } else { actual })?;
     let rows = count - order;
     let past = DMatrix::from_fn(rows, order, |row, i| deviations[order + row - 1 - i]);
     let present = DVector::from_column_slice(&deviations[order..]);

@@ -2,6 +2,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::ProcessModel;
+use crate::sim::level::is_rounding;
 
 /// The record of a step test: one signal over time, and the step of the input that it answers to.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -111,7 +112,7 @@ impl StepRecord<'_> {
         let before = self.signal[first];
         let end = self.signal[first + rows - 1];
         let change = end - before;
-        if change == 0.0 || !change.is_finite() {
+        if is_rounding(change, before) || !change.is_finite() {
             return Err(ReactionError::NoResponse { change });
         }
         if method == ReactionMethod::Ramp {
@@ -230,6 +231,10 @@ mod tests {
         let time: Vec<f64> = (0..40).map(f64::from).collect();
         let still = StepRecord { time_s: &time, signal: &flat, step_time_s: 0.0, step: 1.0 };
         assert_eq!(still.fit(method), Err(ReactionError::NoResponse { change: 0.0 }));
+        // A signal that drifts by rounding does not answer either.
+        let drifting: Vec<f64> = (0..40).map(|k| 12.0 + 2e-15 * f64::from(k)).collect();
+        let drift = StepRecord { signal: &drifting, ..still };
+        assert!(matches!(drift.fit(method), Err(ReactionError::NoResponse { .. })));
         let empty = StepRecord { time_s: &[], signal: &[], step_time_s: 0.0, step: 1.0 };
         assert_eq!(empty.fit(method), Err(ReactionError::EmptyRecord { rows: 0 }));
     }

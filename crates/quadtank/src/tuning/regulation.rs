@@ -2,6 +2,7 @@ use serde::Serialize;
 use thiserror::Error;
 
 use super::reaction_curve::SETTLED;
+use crate::sim::level::is_rounding;
 
 /// Whether a process is self-regulating or integrating, with the reason (Rice and Cooper 2015; Andreis 2017, §2.1).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -93,7 +94,7 @@ pub fn open_loop_regulation(start: f64, between: &[f64], after: &[f64]) -> Resul
     }
     let (plateau, end) = (between[between.len() - 1], after[after.len() - 1]);
     let largest = between.iter().chain(after).map(|y| (y - start).abs()).fold(0.0, f64::max);
-    if largest == 0.0 {
+    if is_rounding(largest, start) {
         return Ok(Regulation::Undecided(RegulationReason::DoesNotMove));
     }
     let (up, back) = (late_move(between) / largest, late_move(after) / largest);
@@ -132,7 +133,7 @@ pub fn proportional_regulation(stretches: &[SetPointStretch]) -> Result<Regulati
     }
     let set_points = || stretches.iter().map(|stretch| stretch.set_point);
     let span = set_points().fold(f64::NEG_INFINITY, f64::max) - set_points().fold(f64::INFINITY, f64::min);
-    if span == 0.0 {
+    if is_rounding(span, stretches[0].set_point) {
         return Ok(Regulation::Undecided(RegulationReason::DoesNotMove));
     }
     let late = stretches.iter().map(|stretch| (late_move(stretch.signal) / span).abs()).fold(0.0, f64::max);
