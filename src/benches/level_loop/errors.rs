@@ -24,6 +24,9 @@ pub fn of_run(lab: Lab, error: &LevelRunError) -> String {
         LevelRunError::NotFinite { time_s } => {
             tr!(lab, level_error.not_finite, time = style.significant(*time_s, 3))
         }
+        LevelRunError::TooMuchWork { field: "period_s" | "sample_time_s", .. } => {
+            tr!(lab, level_error.disturbance_too_quick)
+        }
         LevelRunError::TooMuchWork { .. } => tr!(lab, level_error.too_much_work),
     }
 }

@@ -129,7 +129,7 @@ fn level_loops_at_their_limits_are_refused_by_all_their_work() {
         panic!("a document within its limits")
     };
     let fault = run_level_loop(&scenario.level_loop).map(|answer| answer.log.steps).unwrap_err();
-    let LevelRunError::TooMuchWork { steps, max } = fault.fault else { panic!("{fault}") };
+    let LevelRunError::TooMuchWork { steps, max, .. } = fault.fault else { panic!("{fault}") };
     assert!(steps > MAX_LEVEL_STEPS && steps < MAX_LEVEL_STEPS + 10.0 && max == MAX_LEVEL_STEPS, "{fault}");
 }
 

@@ -58,9 +58,24 @@ pub struct InflowDisturbance {
     pub until_s: f64,
 }
 
+/// Steps of integration in a period of a sine, at least.
+const STEPS_PER_PERIOD: f64 = 16.0;
+
 impl InflowDisturbance {
     /// No disturbance.
     pub const NONE: Self = Self { signal: InflowSignal::None, from_s: 0.0, until_s: 0.0 };
+
+    /// The longest step (s) that shows the signal, with the name of the time that bounds it: a share of the period of a sine, and
+    /// the time for which a value is held. `None` for a signal that does not change.
+    pub(super) fn longest_step(&self) -> Option<(&'static str, f64)> {
+        let [(_, size), (name, time_s)] = self.numbers();
+        match self.signal {
+            InflowSignal::None | InflowSignal::Step { .. } => None,
+            _ if size == 0.0 => None,
+            InflowSignal::Sine { .. } => Some((name, time_s / STEPS_PER_PERIOD)),
+            InflowSignal::SimulinkNormal { .. } | InflowSignal::Normal { .. } => Some((name, time_s)),
+        }
+    }
 
     /// Deviations of the inflow over steps of equal length (s): at the beginning, in the middle and at the end of each. A jump counts
     /// for a step if it comes before its middle, so both of its ends are on one side.

@@ -134,8 +134,10 @@ pub enum LevelRunError {
         time_s: f64,
     },
     /// More integration steps than any run is given.
-    #[error("the run would take {steps} steps of integration, more than {max}")]
+    #[error("{field}: the run would take {steps} steps of integration, more than {max}")]
     TooMuchWork {
+        /// What takes them: a number of the experiment, or the controller.
+        field: &'static str,
         /// Steps that it would take.
         #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
         steps: f64,

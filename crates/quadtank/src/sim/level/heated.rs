@@ -41,7 +41,7 @@ pub fn heated_run(
     }
     let steps = (duration_s / step_s * (1.0 + 1e-12)).floor();
     if steps > MAX_STEPS {
-        return Err(LevelRunError::TooMuchWork { steps, max: MAX_STEPS });
+        return Err(LevelRunError::TooMuchWork { field: "step_s", steps, max: MAX_STEPS });
     }
     let mut run = HeatedRun { time_s: vec![0.0], level: vec![level], temperature: vec![temperature] };
     let mut state = [level, temperature];

@@ -12,7 +12,7 @@ pub const MAX_LEVEL_STEPS: f64 = 1.2e5;
 const LAG_SHARE: f64 = 0.7;
 /// Longest step as a share of the quickest motion of the closed loop.
 const LOOP_SHARE: f64 = 0.2;
-/// Longest step (s) as a share of the run.
+/// Longest step (s) as a share of the run. What changes more quickly within it is the disturbance, which bounds it too.
 const LONGEST_SHARE: f64 = 2e-3;
 
 /// A plant and an experiment, prepared for runs with any number of controllers.
@@ -53,6 +53,21 @@ pub struct LevelSimulation {
     reference_steps: Vec<SignalStep>,
 }
 
+/// Whole steps of at most a length (s) in a row of the log (s). A rounding error is no reason for one more.
+fn steps_per_row(row_s: f64, longest_s: f64) -> f64 {
+    (row_s / longest_s * (1.0 - 1e-9)).max(1.0).ceil()
+}
+
+/// Refuses a run of more steps than any is given, for the sake of a number of the experiment or the controller.
+fn within_bound(field: &'static str, steps: f64) -> Result<(), LevelRunError> {
+    // NaN as well.
+    if steps <= MAX_LEVEL_STEPS {
+        Ok(())
+    } else {
+        Err(LevelRunError::TooMuchWork { field, steps, max: MAX_LEVEL_STEPS })
+    }
+}
+
 /// The smallest whole number from a positive one on, 1 at least.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the cast saturates")]
 fn whole(number: f64) -> usize {
@@ -81,16 +96,12 @@ impl LevelSimulation {
         let longest = LONGEST_SHARE * experiment.duration_s;
         let quickest = kernel.quickest_lag();
         let longest = if quickest > 0.0 { longest.min(LAG_SHARE / quickest) } else { longest };
-        // A rounding error is no reason for one more step or row less.
-        let per_row = (factor * log_step_s / longest * (1.0 - 1e-9)).max(1.0).ceil();
         let rows = (experiment.duration_s / log_step_s * (1.0 + 1e-12)).floor();
-        let steps = rows * per_row;
-        if steps.is_nan() || steps > MAX_LEVEL_STEPS {
-            return Err(LevelRunError::TooMuchWork { steps, max: MAX_LEVEL_STEPS });
-        }
-        let held = experiment.duration_s / experiment.disturbance.numbers()[1].1;
-        if held > MAX_LEVEL_STEPS {
-            return Err(LevelRunError::TooMuchWork { steps: held, max: MAX_LEVEL_STEPS });
+        let mut per_row = steps_per_row(factor * log_step_s, longest);
+        within_bound("duration_s", rows * per_row)?;
+        if let Some((field, longest)) = experiment.disturbance.longest_step() {
+            per_row = per_row.max(steps_per_row(factor * log_step_s, longest));
+            within_bound(field, rows * per_row)?;
         }
         let (rows, steps_per_row) = (whole(rows), whole(per_row));
         let step_s = log_step_s / steps_per_row as f64;
@@ -159,9 +170,7 @@ impl LevelSimulation {
             running.log_row(log, row);
             for step in row * self.steps_per_row..(row + 1) * self.steps_per_row {
                 running.advance(step, log);
-                if log.steps as f64 > MAX_LEVEL_STEPS {
-                    return Err(LevelRunError::TooMuchWork { steps: log.steps as f64, max: MAX_LEVEL_STEPS });
-                }
+                within_bound("duration_s", log.steps as f64)?;
             }
         }
         running.log_row(log, self.rows);
@@ -190,9 +199,7 @@ impl LevelSimulation {
         let quickest = law.filter_rate + law.tracking_rate + gain.powf(f64::from(count).recip());
         let pieces = (quickest * self.step_s / LOOP_SHARE * (1.0 - 1e-9)).max(1.0).ceil();
         let steps = pieces * self.inflows.len() as f64;
-        if steps.is_nan() || steps > MAX_LEVEL_STEPS {
-            return Err(LevelRunError::TooMuchWork { steps, max: MAX_LEVEL_STEPS });
-        }
+        within_bound("controller", steps)?;
         Ok(whole(pieces))
     }
 }
@@ -341,6 +348,7 @@ mod tests {
 
     use super::*;
     use crate::literature::andreis::{self, PublishedDisturbance};
+    use crate::sim::level::{InflowDisturbance, InflowSignal};
 
     /// The longest step gives the variances of steps twenty times shorter.
     #[test]
@@ -362,5 +370,39 @@ mod tests {
                 }
             }
         }
+    }
+    fn disturbed(signal: InflowSignal) -> Result<LevelSimulation, LevelRunError> {
+        let experiment = LevelExperiment {
+            disturbance: InflowDisturbance { signal, from_s: 0.0, until_s: 300.0 },
+            ..PublishedDisturbance::SineL.experiment()
+        };
+        LevelSimulation::new(&andreis::plant(), &experiment)
+    }
+
+    #[test]
+    fn a_quick_disturbance_is_followed() {
+        // With steps of 1/3 s this sine would be sampled where it is zero.
+        let sine = disturbed(InflowSignal::Sine { amplitude: 1e-3, period_s: 1.0 / 3.0 }).unwrap();
+        assert!(sine.step_s <= 1.0 / 48.0 * (1.0 + 1e-8), "{}", sine.step_s);
+        let highest = sine.inflows.as_flattened().iter().copied().fold(0.0, f64::max);
+        assert!(highest > 0.99e-3 + PublishedDisturbance::SineL.experiment().inflow, "{highest}");
+        let held = disturbed(InflowSignal::Normal { std: 1e-3, sample_time_s: 0.1, seed: 1 }).unwrap();
+        assert_relative_eq!(held.step_s, 0.1, max_relative = 1e-12);
+        let values: Vec<f64> = held.inflows[..10].iter().map(|inflow| inflow[0]).collect();
+        assert!(values.windows(2).all(|pair| pair[0] != pair[1]), "{values:?}");
+        // What does not act is not followed.
+        let silent = disturbed(InflowSignal::Sine { amplitude: 0.0, period_s: 1e-3 }).unwrap();
+        assert_relative_eq!(silent.step_s, 1.0 / 3.0);
+    }
+
+    #[test]
+    fn a_disturbance_that_is_too_quick_is_named() {
+        let field = |signal| match disturbed(signal) {
+            Err(LevelRunError::TooMuchWork { field, .. }) => Some(field),
+            _ => None,
+        };
+        assert_eq!(field(InflowSignal::Sine { amplitude: 1e-3, period_s: 1e-3 }), Some("period_s"));
+        let held = InflowSignal::SimulinkNormal { std: 1e-3, sample_time_s: 1e-3, seed: 0 };
+        assert_eq!(field(held), Some("sample_time_s"));
     }
 }

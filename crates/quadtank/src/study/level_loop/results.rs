@@ -108,7 +108,10 @@ fn run_pinned(setup: &LevelLoopSetup, count: usize) -> Result<LevelLoopAnswer, L
     let steps =
         LevelSimulation::new(&setup.plant(), &setup.experiment).map_or(0.0, |simulation| simulation.steps() as f64);
     if steps > max {
-        return Err(LevelLoopError { field: "pinned", fault: LevelRunError::TooMuchWork { steps, max } });
+        return Err(LevelLoopError {
+            field: "pinned",
+            fault: LevelRunError::TooMuchWork { field: "duration_s", steps, max },
+        });
     }
     run_level_loop(setup)
 }
