@@ -55,10 +55,23 @@ pub enum Evaluation {
     NoRun(LevelRunError),
 }
 
-/// Smallest cost of settings that violate a constraint; feasible costs are far below it (Deb 2000).
-pub const VIOLATION: f64 = 1e12;
+/// Smallest cost of settings that violate a constraint; feasible costs are below it (Deb 2000). It is beyond all costs of a
+/// document, and small enough for the squares of differences of it.
+pub const VIOLATION: f64 = 1e100;
 /// Largest relative violation that is distinguished.
 const WORST: f64 = 1e6;
+
+impl Evaluation {
+    /// The cost for a search: every feasible pair costs less than any that violates a constraint, and those cost more the larger the
+    /// violation (Deb 2000). Infinite for settings without a run.
+    pub fn cost(&self) -> f64 {
+        match *self {
+            Self::Cost(cost) => cost.min(VIOLATION.next_down()),
+            Self::Violates(share) => VIOLATION * (1.0 + share.min(WORST)),
+            Self::NoRun(_) => f64::INFINITY,
+        }
+    }
+}
 
 /// A level loop whose PI settings are sought.
 #[derive(Clone, Debug)]
@@ -86,14 +99,9 @@ impl LevelProblem {
         Ok(Self { simulation, transmitter_gain, cost, anti_windup, log: LevelLog::default() })
     }
 
-    /// Cost of a gain and an integral time (s) for a search: every feasible pair costs less than any that violates a
-    /// constraint, and those cost more the larger the violation (Deb 2000). Infinite for settings without a run.
+    /// Cost of a gain and an integral time (s) for a search, see [`Evaluation::cost`].
     pub fn cost(&mut self, settings: [f64; 2]) -> f64 {
-        match self.evaluate(settings) {
-            Evaluation::Cost(cost) => cost,
-            Evaluation::Violates(share) => VIOLATION * (1.0 + share.min(WORST)),
-            Evaluation::NoRun(_) => f64::INFINITY,
-        }
+        self.evaluate(settings).cost()
     }
 
     /// Evaluates a gain and an integral time (s).
@@ -144,4 +152,25 @@ impl LevelProblem {
 pub fn sensitivity_peak(simulation: &LevelSimulation, gain: f64, integral_time_s: f64) -> Option<f64> {
     let pid = IsaPid { gain, integral_time: integral_time_s, derivative_time: 0.0 };
     level_loop(simulation.gains(), &pid.into(), 0.0, 0.0).ok()?.sensitivity_peak()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::literature::andreis::{self, PublishedDisturbance};
+
+    #[test]
+    fn whatever_keeps_to_the_constraints_costs_less_than_what_does_not() {
+        let experiment = PublishedDisturbance::Random.experiment();
+        let plant = andreis::plant();
+        let problem = |cost| LevelProblem::new(&plant, &experiment, cost, AntiWindup::Off).unwrap();
+        let plain = LevelCost::plain(CostMeasure::LevelVariance);
+        let feasible = problem(LevelCost { move_penalty: 1e12, ..plain }).cost([50.0, 100.0]);
+        let narrow = Some([experiment.level, experiment.level + 1e-3]);
+        let infeasible = problem(LevelCost { level_band: narrow, ..plain }).cost([50.0, 100.0]);
+        assert!(feasible > 1e12 && feasible < infeasible, "{feasible:e} {infeasible:e}");
+        let worst = [Evaluation::Cost(f64::MAX), Evaluation::Cost(f64::INFINITY)].map(|feasible| feasible.cost());
+        assert!(worst.iter().all(|&cost| cost < Evaluation::Violates(0.0).cost()));
+        assert!(Evaluation::Violates(f64::INFINITY).cost() < f64::INFINITY);
+    }
 }
