@@ -4,6 +4,7 @@ use super::lab::Lab;
 use super::shown::{length_digits, to_shown, unit_name};
 use super::texts::tr;
 use quadtank::control::{EstimatorError, MAX_WINDOW_SAMPLES};
+use quadtank::linear::LinearError;
 use quadtank::literature::DisplayUnit;
 use quadtank::plant::PlantError;
 use quadtank::plant::level::LevelError;
@@ -78,7 +79,23 @@ pub fn of_study_error(lab: Lab, unit: DisplayUnit, error: &StudyError) -> String
         }
         StudyErrorKind::Plant(error) => of_plant_error(lab, unit, &error),
         StudyErrorKind::Law(fault) => of_law(lab, error.field, fault),
-        StudyErrorKind::Linear(error) => error.to_string(),
+        StudyErrorKind::Linear(error) => of_linear(lab, &error),
+    }
+}
+
+/// Why there is no answer about a linear model.
+pub fn of_linear(lab: Lab, error: &LinearError) -> String {
+    match *error {
+        LinearError::Dimension { .. } => tr!(lab, linear_error.dimension),
+        LinearError::NotSquare { inputs, outputs } => {
+            tr!(lab, linear_error.not_square, inputs = inputs, outputs = outputs)
+        }
+        LinearError::DegenerateRank { .. } => tr!(lab, linear_error.degenerate_rank),
+        LinearError::SingularGain { .. } => tr!(lab, linear_error.singular_gain),
+        LinearError::NoConvergence { .. } => tr!(lab, linear_error.no_convergence),
+        LinearError::OutOfRange { field, value } => {
+            tr!(lab, linear_error.out_of_range, field = field, value = lab.number_style().significant(value, 4))
+        }
     }
 }
 
@@ -96,7 +113,9 @@ fn of_law(lab: Lab, field: &str, error: EstimatorError) -> String {
             sampling = number(sampling_time_s),
             most = MAX_WINDOW_SAMPLES
         ),
-        EstimatorError::ModelGain { .. } => format!("{field}: {error}"),
+        EstimatorError::ModelGain { value } => {
+            tr!(lab, level_error.out_of_range, field = field, value = number(value))
+        }
     }
 }
 

@@ -3,9 +3,9 @@
 use quadtank::assess::{HarrisError, IndexError};
 use quadtank::sim::level::LevelRunError;
 use quadtank::study::level_loop::{LevelLoopError, StepTestError};
-use quadtank::tuning::{ReactionError, TuningError};
+use quadtank::tuning::{ReactionError, RegulationError, TuningError};
 
-use crate::errors::of_level_error;
+use crate::errors::{of_level_error, of_linear};
 use crate::lab::Lab;
 use crate::texts::tr;
 
@@ -60,6 +60,16 @@ pub fn of_reaction(lab: Lab, error: &ReactionError) -> String {
     }
 }
 
+/// Why a record does not tell what kind of process it is of.
+pub fn of_record(lab: Lab, error: RegulationError) -> String {
+    match error {
+        RegulationError::TooFewRows { .. } => tr!(lab, level.too_few_rows),
+        RegulationError::TooFewStretches { stretches } => {
+            tr!(lab, level_error.too_few_stretches, stretches = stretches)
+        }
+    }
+}
+
 /// Why a rule has no settings.
 pub fn of_rule(lab: Lab, error: TuningError) -> String {
     match error {
@@ -67,7 +77,11 @@ pub fn of_rule(lab: Lab, error: TuningError) -> String {
         TuningError::OutOfRange { field, value } => {
             tr!(lab, level_error.out_of_range, field = field, value = lab.number_style().significant(value, 4))
         }
-        other => other.to_string(),
+        TuningError::UnstablePlant { real_part } => {
+            tr!(lab, relay.error_unstable, real = lab.number_style().significant(real_part, 3))
+        }
+        TuningError::NoOwnGain { number, .. } => tr!(lab, relay.error_no_gain, number = number),
+        TuningError::Linear(error) => of_linear(lab, &error),
     }
 }
 
@@ -75,7 +89,9 @@ pub fn of_rule(lab: Lab, error: TuningError) -> String {
 pub fn of_index(lab: Lab, error: IndexError) -> String {
     match error {
         IndexError::ZeroVariance => tr!(lab, level_error.zero_variance),
-        IndexError::NoVariance { .. } => error.to_string(),
+        IndexError::NoVariance { value } => {
+            tr!(lab, level_error.no_variance, value = lab.number_style().significant(value, 3))
+        }
     }
 }
 
@@ -87,6 +103,14 @@ pub fn of_harris(lab: Lab, error: &HarrisError) -> String {
             tr!(lab, level_error.too_few_samples, samples = samples, order = order)
         }
         HarrisError::NotDetermined { order } => tr!(lab, level_error.not_determined, order = order),
-        HarrisError::OutOfRange { .. } | HarrisError::TooMuchWork { .. } => error.to_string(),
+        HarrisError::DeadTimeTooLong { dead_time, samples } => {
+            tr!(lab, level_error.dead_time_too_long, rows = dead_time, samples = samples)
+        }
+        HarrisError::TooMuchWork { samples, order } => {
+            tr!(lab, level_error.too_many_samples, samples = samples, order = order)
+        }
+        HarrisError::OutOfRange { field, value } => {
+            tr!(lab, level_error.out_of_range, field = field, value = value)
+        }
     }
 }

@@ -9,7 +9,7 @@ use quadtank::tuning::{Regulation, RegulationReason};
 
 use super::errors;
 use super::session::Session;
-use crate::errors::of_level_error;
+use crate::errors::{of_level_error, of_linear};
 use crate::lab::Lab;
 use crate::texts::tr;
 
@@ -126,15 +126,19 @@ pub fn of_quality(session: Session) -> (bool, String) {
     let style = lab.number_style();
     let of = |answer: &LevelLoopAnswer| {
         let quality = match &answer.quality {
-            Err(error) => return (false, error.to_string()),
+            Err(error) => return (false, of_linear(lab, error)),
             Ok(None) => return (true, tr!(lab, level.no_loop)),
             Ok(Some(quality)) => quality,
         };
-        if matches!(quality.stability, LoopStability::Unstable { .. }) {
-            return (false, tr!(lab, level.unstable));
+        match quality.stability {
+            LoopStability::Unstable { .. } | LoopStability::AlgebraicLoop { .. } => {
+                return (false, tr!(lab, level.unstable));
+            }
+            LoopStability::Marginal { .. } => return (false, tr!(lab, level.marginal)),
+            LoopStability::Stable | LoopStability::NotComputed { .. } => {}
         }
         let (Some(margins), Some(peak)) = (quality.margins, quality.sensitivity_peak()) else {
-            return (false, tr!(lab, level.marginal));
+            return (false, tr!(lab, level.not_computed));
         };
         let gain = margins.gain_up.map_or_else(|| "∞".to_owned(), |gain| style.fixed(gain, 2));
         let phase = margins.phase.map_or_else(|| "–".to_owned(), |phase| style.fixed(phase.to_degrees(), 0));

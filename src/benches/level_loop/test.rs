@@ -206,7 +206,7 @@ fn ProportionalTest() -> impl IntoView {
         let gain = setup.pi_tuning().map_or(USUAL_GAIN, |tuning| tuning.gain);
         let verdict = match run_proportional_test(&setup, gain) {
             Ok(Ok(regulation)) => sentences::of_regulation(lab, regulation),
-            Ok(Err(_)) => tr!(lab, level.too_few_rows),
+            Ok(Err(error)) => errors::of_record(lab, error),
             Err(error) => tr!(lab, level.no_test, reason = errors::of_run(lab, &error)),
         };
         tr!(lab, level.proportional_test, gain = lab.number_style().significant(gain, 3), verdict = verdict)
@@ -250,7 +250,7 @@ fn sentence(session: Session) -> (bool, String) {
     }
     match test.regulation {
         Some(Ok(regulation)) => parts.push(sentences::of_regulation(lab, regulation)),
-        Some(Err(_)) => parts.push(tr!(lab, level.too_few_rows)),
+        Some(Err(error)) => parts.push(errors::of_record(lab, error)),
         None => {}
     }
     (good, parts.join(" "))

@@ -41,6 +41,14 @@ pub enum HarrisError {
         /// Order of the model.
         order: usize,
     },
+    /// A dead time that is as long as the data: nothing in them shows feedback.
+    #[error("a dead time of {dead_time} samples is as long as the data, {samples} samples")]
+    DeadTimeTooLong {
+        /// The dead time in samples.
+        dead_time: usize,
+        /// How many samples there are.
+        samples: usize,
+    },
     /// More samples and coefficients than are fitted.
     #[error("{samples} samples are too many for a model of order {order}")]
     TooMuchWork {
@@ -80,8 +88,11 @@ pub fn harris_index(samples: &[f64], dead_time: usize, order: usize) -> Result<H
         }
     }
     let count = samples.len();
-    if count < order.saturating_mul(SAMPLES_PER_COEFFICIENT + 1) || dead_time >= count {
+    if count < order.saturating_mul(SAMPLES_PER_COEFFICIENT + 1) {
         return Err(HarrisError::TooFewSamples { samples: count, order });
+    }
+    if dead_time >= count {
+        return Err(HarrisError::DeadTimeTooLong { dead_time, samples: count });
     }
     if count.saturating_mul(order).saturating_mul(order) > MAX_WORK {
         return Err(HarrisError::TooMuchWork { samples: count, order });
@@ -175,6 +186,8 @@ mod tests {
         let constant = [0.3; 200];
         assert_eq!(harris_index(&constant, 2, 4), Err(HarrisError::Index(IndexError::ZeroVariance)));
         assert_eq!(harris_index(&[], 2, 4), Err(HarrisError::TooFewSamples { samples: 0, order: 4 }));
+        let late = Err(HarrisError::DeadTimeTooLong { dead_time: 200, samples: 200 });
+        assert_eq!(harris_index(&constant, 200, 4), late);
         assert_eq!(harris_index(&constant, 0, 4), Err(HarrisError::OutOfRange { field: "dead_time", value: 0 }));
         assert_eq!(harris_index(&constant, 2, 0), Err(HarrisError::OutOfRange { field: "order", value: 0 }));
         let long = vec![0.3; 200_000];

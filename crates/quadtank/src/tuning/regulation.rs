@@ -59,10 +59,20 @@ pub enum RegulationReason {
 /// Why a record cannot be read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[error("a stretch of the test has {rows} rows, which are too few")]
-pub struct RegulationError {
-    /// Rows of the shortest stretch.
-    pub rows: usize,
+#[serde(tag = "error", rename_all = "kebab-case")]
+pub enum RegulationError {
+    /// A stretch is too short.
+    #[error("a stretch of the test has {rows} rows, which are too few")]
+    TooFewRows {
+        /// Rows of the shortest stretch.
+        rows: usize,
+    },
+    /// The set-point does not change, or there is none.
+    #[error("a test with {stretches} set-points is none; it takes two")]
+    TooFewStretches {
+        /// How many there are.
+        stretches: usize,
+    },
 }
 
 /// Rows that a stretch needs.
@@ -86,11 +96,11 @@ fn late_move(signal: &[f64]) -> f64 {
 /// the steps; the first may be one row.
 ///
 /// # Errors
-/// [`RegulationError`] for a stretch with fewer than ten rows.
+/// [`RegulationError::TooFewRows`] for a stretch with fewer than ten rows.
 pub fn open_loop_regulation(start: f64, between: &[f64], after: &[f64]) -> Result<Regulation, RegulationError> {
     let rows = between.len().min(after.len());
     if rows < MIN_ROWS {
-        return Err(RegulationError { rows });
+        return Err(RegulationError::TooFewRows { rows });
     }
     let (plateau, end) = (between[between.len() - 1], after[after.len() - 1]);
     let largest = between.iter().chain(after).map(|y| (y - start).abs()).fold(0.0, f64::max);
@@ -127,9 +137,12 @@ pub struct SetPointStretch<'a> {
 /// # Errors
 /// [`RegulationError`] for fewer than two stretches or one with fewer than ten rows.
 pub fn proportional_regulation(stretches: &[SetPointStretch]) -> Result<Regulation, RegulationError> {
+    if stretches.len() < 2 {
+        return Err(RegulationError::TooFewStretches { stretches: stretches.len() });
+    }
     let rows = stretches.iter().map(|stretch| stretch.signal.len()).min().unwrap_or(0);
-    if rows < MIN_ROWS || stretches.len() < 2 {
-        return Err(RegulationError { rows });
+    if rows < MIN_ROWS {
+        return Err(RegulationError::TooFewRows { rows });
     }
     let set_points = || stretches.iter().map(|stretch| stretch.set_point);
     let span = set_points().fold(f64::NEG_INFINITY, f64::max) - set_points().fold(f64::INFINITY, f64::min);
