@@ -1,10 +1,11 @@
 //! Steps 3 and 4: what the loop is for, and how it is tuned for that.
 
 use leptos::prelude::*;
-use quadtank::control::{AntiWindup, LoopMode, PiSettings};
+use quadtank::control::AntiWindup;
 use quadtank::sim::level::LevelController;
-use quadtank::study::level_loop::{LevelLoopSetup, Objective};
+use quadtank::study::level_loop::{ControllerKind, LevelLoopSetup, Objective, PiTuning};
 use quadtank_scenario::Limits;
+use quadtank_scenario::level_loop::within_limits;
 
 use super::flags::{locks, panels};
 use super::process::CENTIMETRES;
@@ -23,7 +24,7 @@ const GAIN: ParamControl<LevelLoopSetup> = ParamControl {
         LevelController::Sampled { .. } => "controller.sampled.settings.gain",
         _ => "controller.pi.gain",
     },
-    read: |s, _| tuning(s).map_or(f64::NAN, |(gain, _)| gain),
+    read: |s, _| s.controller.pi_tuning().map_or(f64::NAN, |tuning| tuning.gain),
     write: |s, _, gain| set_tuning(s, |(_, time)| (gain, time)),
     within: |_, _| Limits::NONE,
     travel: Some(|_| (0.05, 200.0)),
@@ -39,7 +40,7 @@ const TIME: ParamControl<LevelLoopSetup> = ParamControl {
         LevelController::Sampled { .. } => "controller.sampled.settings.integral_time_s",
         _ => "controller.pi.integral_time_s",
     },
-    read: |s, _| tuning(s).map_or(f64::NAN, |(_, time)| time),
+    read: |s, _| s.controller.pi_tuning().map_or(f64::NAN, |tuning| tuning.integral_time_s),
     write: |s, _, time| set_tuning(s, |(gain, _)| (gain, time)),
     travel: Some(|_| (0.6, 6000.0)),
     shown_unit: Some(|_| ShownUnit::called("s")),
@@ -184,59 +185,14 @@ fn ObjectiveSwitch() -> impl IntoView {
     }
 }
 
-/// A kind of controller, by its name alone.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
-    Pi,
-    Sampled,
-    Pid,
-    Off,
+/// Gain and integral time with which a kind of controller begins where there was none before.
+const USUAL: PiTuning = PiTuning { gain: 2.0, integral_time_s: 120.0 };
+
+/// Changes the kind of the controller; what the present one does not say is `kept`.
+fn set_kind(setup: &mut LevelLoopSetup, kind: ControllerKind, kept: PiTuning) {
+    setup.set_controller_kind(kind, kept);
+    setup.controller = within_limits(setup.controller.clone());
 }
-
-impl Kind {
-    const fn of(setup: &LevelLoopSetup) -> Self {
-        match setup.controller {
-            LevelController::Pi { .. } => Self::Pi,
-            LevelController::Sampled { .. } => Self::Sampled,
-            LevelController::Pid { .. } => Self::Pid,
-            LevelController::Manual { .. } => Self::Off,
-        }
-    }
-}
-
-/// Gain and integral time (s) with which a kind of controller begins where there was none before.
-const USUAL: (f64, f64) = (2.0, 120.0);
-
-/// Changes the kind of the controller; its tuning stays as far as the new kind has it. One that had none gets what was `kept`.
-fn set_kind(setup: &mut LevelLoopSetup, kind: Kind, kept: (f64, f64)) {
-    let before = tuning(setup).or_else(|| {
-        let [gain, integral, _] = pid(setup);
-        (integral > 0.0).then(|| (gain, gain / integral))
-    });
-    let (gain, integral_time_s) = before.unwrap_or(kept);
-    let anti_windup = setup.anti_windup();
-    setup.controller = match kind {
-        Kind::Pi => LevelController::Pi { gain, integral_time_s, anti_windup },
-        Kind::Sampled => LevelController::Sampled {
-            settings: PiSettings {
-                gain,
-                integral_time_s,
-                set_point_weight: 1.0,
-                anti_windup,
-                mode: LoopMode::Automatic,
-            },
-            sampling_time_s: 1.0,
-        },
-        Kind::Pid => {
-            let integral = gain / integral_time_s;
-            LevelController::Pid { proportional: gain, integral, derivative: 0.0, filter_time_s: FILTER_S }
-        }
-        Kind::Off => LevelController::off(),
-    };
-}
-
-/// Time constant of the derivative filter (s): that of the lecture slides.
-const FILTER_S: f64 = quadtank::literature::level_slides::DERIVATIVE_FILTER_S;
 
 /// Which kind of controller there is. The tuning of the last PI controller is kept for the way back from none.
 #[component]
@@ -244,8 +200,8 @@ fn KindSwitch() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
     let kept = StoredValue::new(USUAL);
-    let choose = move |kind: Kind| {
-        if let Some(now) = session.document.with_untracked(|document| tuning(&document.level_loop)) {
+    let choose = move |kind: ControllerKind| {
+        if let Some(now) = session.document.with_untracked(|document| document.level_loop.controller.pi_tuning()) {
             kept.set_value(now);
         }
         session.edit(|s| set_kind(s, kind, kept.get_value()));
@@ -254,12 +210,12 @@ fn KindSwitch() -> impl IntoView {
         <Segmented
             label=say!(lab, level.controller)
             choices=vec![
-                (Kind::Pi, "kind-pi", say!(lab, level.kind_pi)),
-                (Kind::Sampled, "kind-sampled", say!(lab, level.kind_sampled)),
-                (Kind::Pid, "kind-pid", say!(lab, level.kind_pid)),
-                (Kind::Off, "kind-off", say!(lab, level.kind_off)),
+                (ControllerKind::Pi, "kind-pi", say!(lab, level.kind_pi)),
+                (ControllerKind::Sampled, "kind-sampled", say!(lab, level.kind_sampled)),
+                (ControllerKind::Pid, "kind-pid", say!(lab, level.kind_pid)),
+                (ControllerKind::Off, "kind-off", say!(lab, level.kind_off)),
             ]
-            value=lab.throttled(session.part(Kind::of))
+            value=lab.throttled(session.part(|s| ControllerKind::of(&s.controller)))
             on_choose=choose
             disabled=lab.locks(locks::GAINS)
         />
@@ -271,28 +227,28 @@ fn KindSwitch() -> impl IntoView {
 fn Dials() -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
-    let kind = session.part(Kind::of);
+    let kind = session.part(|s| ControllerKind::of(&s.controller));
     let dials = move || match kind.get() {
-        Kind::Pi => view! {
+        ControllerKind::Pi => view! {
             <ParamRow session control=&GAIN />
             <ParamRow session control=&TIME />
             <WindupTick />
         }
         .into_any(),
-        Kind::Sampled => view! {
+        ControllerKind::Sampled => view! {
             <ParamRow session control=&GAIN />
             <ParamRow session control=&TIME />
             <ParamRow session control=&SAMPLING />
             <WindupTick />
         }
         .into_any(),
-        Kind::Pid => view! {
+        ControllerKind::Pid => view! {
             <ParamRow session control=&PROPORTIONAL />
             <ParamRow session control=&INTEGRAL index=0 />
             <ParamRow session control=&DERIVATIVE index=1 />
         }
         .into_any(),
-        Kind::Off => view! { <p class="remark">{say!(lab, level.off_remark)}</p> }.into_any(),
+        ControllerKind::Off => view! { <p class="remark">{say!(lab, level.off_remark)}</p> }.into_any(),
     };
     view! { <div class="dials">{dials}</div> }
 }
@@ -317,15 +273,6 @@ fn WindupTick() -> impl IntoView {
             disabled=lab.locks(locks::GAINS)
             on_tick=set
         />
-    }
-}
-
-/// Gain and integral time (s) of a PI controller.
-fn tuning(setup: &LevelLoopSetup) -> Option<(f64, f64)> {
-    match &setup.controller {
-        LevelController::Pi { gain, integral_time_s, .. } => Some((*gain, *integral_time_s)),
-        LevelController::Sampled { settings, .. } => Some((settings.gain, settings.integral_time_s)),
-        LevelController::Manual { .. } | LevelController::Pid { .. } => None,
     }
 }
 

@@ -3,6 +3,7 @@
 mod answer;
 mod choices;
 mod contour;
+mod controller_kind;
 mod element;
 mod findings;
 mod heated;
@@ -21,6 +22,7 @@ pub use crate::tuning::PiTuning;
 pub use answer::{LevelLoopAnswer, LevelLoopError, run_level_loop};
 pub use choices::{OwnDisturbance, PublishedTuning};
 pub use contour::{ContourMap, ContourSettings};
+pub use controller_kind::ControllerKind;
 pub use element::{Element, ElementCurve};
 pub use findings::Finding;
 pub use heated::{HEATED_STEPS_S, HeatedAnswer, heated_tank};
