@@ -38,7 +38,7 @@ pub struct TimeAxis {
     /// What to zoom about when no cursor is in sight (s); the middle where this is not in sight either.
     pub about: Signal<Option<f64>>,
     /// The shortest stretch that can be shown (s).
-    pub shortest: f64,
+    pub shortest: Signal<f64>,
 }
 
 impl TimeAxis {
@@ -47,7 +47,7 @@ impl TimeAxis {
         end: Signal<f64>,
         cursor: Signal<Option<f64>>,
         on_cursor: Callback<Option<f64>>,
-        shortest: f64,
+        shortest: Signal<f64>,
     ) -> Self {
         let shown = RwSignal::new(None::<Stretch>);
         // A stretch of a longer run may lie beyond the end of this one.
@@ -66,7 +66,7 @@ impl TimeAxis {
     fn show(self, (from, to): Stretch) {
         let (begin, end) = self.whole.get_untracked();
         let all = end - begin;
-        let length = (to - from).clamp(self.shortest.min(all), all);
+        let length = (to - from).clamp(self.shortest.get_untracked().min(all), all);
         let from = from.clamp(begin, end - length);
         self.on_show.run((length < all * WHOLE).then_some((from, from + length)));
     }

@@ -72,7 +72,8 @@ pub fn CourseCard() -> impl IntoView {
 fn time_axis(session: Session) -> TimeAxis {
     let end = session.part(|s| s.experiment.duration_s);
     let on_cursor = Callback::new(move |time| set_cursor(session, time));
-    TimeAxis::of_run(end, session.own.cursor.into(), on_cursor, SHORTEST * end.get_untracked())
+    let shortest = Signal::derive(move || SHORTEST * end.get());
+    TimeAxis::of_run(end, session.own.cursor.into(), on_cursor, shortest)
 }
 
 /// The values at the shown moment.

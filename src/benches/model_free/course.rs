@@ -101,7 +101,7 @@ fn RunFigures() -> impl IntoView {
 fn time_axis(session: Session) -> TimeAxis {
     let end = session.part(|s| s.experiment.duration_s);
     let on_cursor = Callback::new(move |time| set_cursor(session, time));
-    TimeAxis::of_run(end, session.own.cursor.into(), on_cursor, SHORTEST_S)
+    TimeAxis::of_run(end, session.own.cursor.into(), on_cursor, Signal::stored(SHORTEST_S))
 }
 
 /// The values at the shown moment.

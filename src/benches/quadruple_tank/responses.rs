@@ -152,7 +152,7 @@ fn time_axis(session: Session) -> TimeAxis {
             session.document.update(|s| s.view.zoom_s = stretch.map(Into::into));
         }),
         about: Signal::derive(first_step),
-        shortest: SHORTEST_S,
+        shortest: Signal::stored(SHORTEST_S),
     }
 }
 

@@ -36,6 +36,6 @@ pub fn timeline(end: Signal<f64>, share: f64) -> TimeAxis {
         on_cursor: Callback::new(move |time| cursor.set(time)),
         on_show: Callback::new(move |stretch: Option<(f64, f64)>| shown.set(stretch.or(Some(WHOLE)))),
         about: Signal::stored(None),
-        shortest: SHORTEST * end.get_untracked(),
+        shortest: Signal::derive(move || SHORTEST * end.get()),
     }
 }
