@@ -3,6 +3,7 @@ use leptos::prelude::*;
 
 use super::marked::marked;
 use super::read_on::ReadOn;
+use super::table::is_open;
 use crate::lab::use_lab;
 use crate::texts::{Language, tr};
 
@@ -24,8 +25,11 @@ pub fn Terms(
     let name = Signal::derive(move || format!("{}: {}", tr!(lab, terms.title), title.get()));
     let open = RwSignal::new(false);
     let panel = NodeRef::<Div>::new();
-    let on_toggle = move |_| {
-        open.set(true);
+    let on_toggle = move |event| {
+        open.set(is_open(&event));
+        if !open.get_untracked() {
+            return;
+        }
         // Near the lower edge of the screen it would open out of sight.
         request_animation_frame(move || {
             // The card may be gone by then.

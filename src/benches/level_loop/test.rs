@@ -16,7 +16,7 @@ use super::session::{Session, use_session};
 use crate::controls::{ParamControl, ParamRow, Switch};
 use crate::shown::ShownUnit;
 use crate::texts::{say, terms, tr};
-use crate::widgets::{Card, ChartCanvas, ChartMenu, Scale, Sentence, Text, Tick, marked};
+use crate::widgets::{Card, ChartCanvas, ChartMenu, Scale, Sentence, Text, Tick, is_open, marked};
 
 const START: ParamControl<LevelLoopSetup> = ParamControl {
     ids: [("", "test-inflow"), ("", "test-level")],
@@ -212,7 +212,7 @@ fn ProportionalTest() -> impl IntoView {
         tr!(lab, level.proportional_test, gain = lab.number_style().significant(gain, 3), verdict = verdict)
     };
     view! {
-        <details class="more" on:toggle=move |_| open.set(true)>
+        <details class="more" on:toggle=move |event| open.set(is_open(&event))>
             <summary data-testid="p-only">{say!(lab, level.p_only)}</summary>
             <p class="sentence" data-testid="p-only-verdict">{move || open.get().then(|| marked(&text()))}</p>
         </details>

@@ -22,6 +22,7 @@ use crate::download::is_single_file;
 use crate::lab::{Lab, use_lab};
 use crate::share;
 use crate::texts::{say, tr};
+use crate::widgets::is_open;
 
 /// Everything for a course: lessons with answers, embeds, codes of reports.
 #[component]
@@ -104,7 +105,7 @@ fn guide(lab: Lab, index: usize, lesson: Arc<Lesson>) -> impl IntoView {
             {files}
             <h4>{tr!(lab, lesson.embed)}</h4>
             <textarea readonly rows="2" class="code" aria-label=tr!(lab, lesson.embed) prop:value=embed></textarea>
-            <details on:toggle=move |_| asked.set(true)>
+            <details on:toggle=move |event| asked.set(is_open(&event))>
                 <summary>{tr!(lab, lesson.answers)}</summary>
                 {answers}
             </details>
