@@ -6,6 +6,7 @@ use quadtank_scenario::Limits;
 
 use super::errors;
 use super::flags::{locks, panels};
+use super::mends::{self, MendButton};
 use super::sentences::{self, short_variance};
 use super::session::{Session, use_session};
 use crate::controls::{ParamControl, ParamRow};
@@ -70,6 +71,7 @@ pub fn AssessCard() -> impl IntoView {
                 warm=Signal::derive(move || !quality.get().0)
                 text=Signal::derive(move || quality.get().1)
             />
+            <MendButton id="mend-quality" offer=mends::of_loop />
             <p class="remark" data-testid="level-travel">{move || travel(session)}</p>
             <details class="more">
                 <summary data-testid="level-error-fold">{say!(lab, level.reference_title)}</summary>

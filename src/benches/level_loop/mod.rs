@@ -12,6 +12,7 @@ mod flags;
 mod forms;
 mod heated;
 mod map;
+mod mends;
 mod pictures;
 mod process;
 mod published;

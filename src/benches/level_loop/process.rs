@@ -9,6 +9,7 @@ use quadtank_scenario::Limits;
 use super::drawing::LoopDrawing;
 use super::element::ElementPanel;
 use super::flags::{locks, panels};
+use super::mends::{self, MendButton};
 use super::session::{Session, load, set_cursor, use_session};
 use crate::controls::{ParamControl, ParamRow};
 use crate::errors::of_level_error;
@@ -101,6 +102,7 @@ fn Start() -> impl IntoView {
             warm=Signal::derive(move || !found.get().0)
             text=Signal::derive(move || found.get().1)
         />
+        <MendButton id="mend-start" offer=mends::of_start />
     }
 }
 

@@ -13,6 +13,16 @@ use super::{LevelLoopSetup, LevelPlantSpec, Objective, PiTuning, PlantAnswer};
 const USUAL_TUNINGS: [PiTuning; 2] =
     [PiTuning { gain: 17.4, integral_time_s: 23.5 }, PiTuning { gain: 0.2, integral_time_s: 588.0 }];
 
+/// SIMC for tight and Lambda tuning for averaging control, see [`take_reference`](LevelLoopSetup::take_reference).
+fn usual_rules(model: &ProcessModel) -> [ModelRule; 2] {
+    let theta = model.dead_time_s();
+    let averaging_s = match *model {
+        ProcessModel::SelfRegulating { time_constant_s, .. } => 3.0 * theta.max(time_constant_s),
+        ProcessModel::Integrating { .. } => 30.0 * theta,
+    };
+    [ModelRule::Simc { closed_loop_time_s: theta }, ModelRule::Lambda { closed_loop_time_s: averaging_s }]
+}
+
 /// A published tuning of the loop that a setup is about.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PublishedTuning {
@@ -142,18 +152,18 @@ impl LevelLoopSetup {
     }
 
     fn tuning_by_rule(&self) -> Option<PiTuning> {
-        let model = PlantAnswer::of(self).ok()?.model;
-        let theta = model.dead_time_s();
-        let rule = match (self.objective, model) {
-            (Objective::Tight, _) => ModelRule::Simc { closed_loop_time_s: theta },
-            (Objective::Averaging { .. }, ProcessModel::SelfRegulating { time_constant_s, .. }) => {
-                ModelRule::Lambda { closed_loop_time_s: 3.0 * theta.max(time_constant_s) }
-            }
-            (Objective::Averaging { .. }, ProcessModel::Integrating { .. }) => {
-                ModelRule::Lambda { closed_loop_time_s: 30.0 * theta }
-            }
-        };
-        let settings = rule.settings(&model).ok()?;
+        self.tunings_by_rule()[0]
+    }
+
+    /// The tunings by the rules of both objectives, that of the present one first; `None` for one that does not exist.
+    pub(super) fn tunings_by_rule(&self) -> [Option<PiTuning>; 2] {
+        let Ok(PlantAnswer { model, .. }) = PlantAnswer::of(self) else { return [None; 2] };
+        let [tight, averaging] = usual_rules(&model).map(|rule| self.settings_within_box(rule, &model));
+        if self.objective == Objective::Tight { [tight, averaging] } else { [averaging, tight] }
+    }
+
+    fn settings_within_box(&self, rule: ModelRule, model: &ProcessModel) -> Option<PiTuning> {
+        let settings = rule.settings(model).ok()?;
         Some(self.search.clip(PiTuning { gain: settings.gain, integral_time_s: settings.integral_time }))
     }
 

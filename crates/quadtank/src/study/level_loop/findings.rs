@@ -3,7 +3,7 @@ use serde::Serialize;
 use crate::assess::LoopQuality;
 use crate::linear::LoopStability;
 use crate::plant::level::{LevelError, LevelPlant};
-use crate::sim::level::{InflowSignal, LevelController, LevelFigures, LevelLog};
+use crate::sim::level::{InflowSignal, LevelController, LevelExperiment, LevelFigures, LevelLog};
 
 use super::{LevelLoopSetup, Objective};
 
@@ -114,19 +114,22 @@ pub(super) fn of(
 }
 
 /// The set-point after all its steps, at the inflow of the start and at that of a step of it that lasts.
-fn set_point_out_of_reach(setup: &LevelLoopSetup, plant: &LevelPlant) -> Option<Finding> {
+pub(super) fn set_point_out_of_reach(setup: &LevelLoopSetup, plant: &LevelPlant) -> Option<Finding> {
     let experiment = &setup.experiment;
     if experiment.set_point_steps.is_empty() || matches!(setup.controller, LevelController::Manual { .. }) {
         return None;
     }
-    let steps = experiment.set_point_steps.iter().filter(|step| step.time_s <= experiment.duration_s);
-    let level = steps.fold(experiment.level, |level, step| level + experiment.step_in_metres(step, &plant.transmitter));
-    let lasting = match experiment.disturbance.signal {
+    let level = setup.final_set_point();
+    let reason = plant.rest(level, (experiment.inflow + lasting_inflow(experiment)).max(0.0)).err()?;
+    Some(Finding::SetPointOutOfReach { level, reason })
+}
+
+/// What a step of the inflow adds to it until the end (m³/s).
+pub(super) fn lasting_inflow(experiment: &LevelExperiment) -> f64 {
+    match experiment.disturbance.signal {
         InflowSignal::Step { size } if experiment.disturbance.until_s >= experiment.duration_s => size,
         _ => 0.0,
-    };
-    let reason = plant.rest(level, (experiment.inflow + lasting).max(0.0)).err()?;
-    Some(Finding::SetPointOutOfReach { level, reason })
+    }
 }
 
 /// Sines and steps that ask for less than no inflow.

@@ -7,6 +7,7 @@ mod controller_kind;
 mod element;
 mod findings;
 mod heated;
+mod mends;
 mod proportional_test;
 mod published;
 mod quantities;
@@ -26,6 +27,7 @@ pub use controller_kind::ControllerKind;
 pub use element::{Element, ElementCurve};
 pub use findings::Finding;
 pub use heated::{HEATED_STEPS_S, HeatedAnswer, heated_tank};
+pub use mends::{Mend, mend_loop, mend_run, mend_start};
 pub use proportional_test::run_proportional_test;
 pub use published::{
     COMPARED_TABLES, Compared, ComparedFeatures, ComparedQuantity, ComparedTable, compare_features, compare_table,

@@ -230,6 +230,18 @@ impl LevelLoopSetup {
         experiment.set_point_steps.iter().any(|step| step.size != 0.0 && step.time_s <= experiment.duration_s)
     }
 
+    /// Dead time of the Harris index (s).
+    pub fn harris_dead_time_s(&self) -> f64 {
+        self.harris.dead_time_rows as f64 * self.experiment.log_step_s
+    }
+
+    /// The set-point (m) after all of its steps within the run.
+    pub fn final_set_point(&self) -> f64 {
+        let (experiment, transmitter) = (&self.experiment, self.plant().transmitter);
+        let steps = experiment.set_point_steps.iter().filter(|step| step.time_s <= experiment.duration_s);
+        steps.fold(experiment.level, |level, step| level + experiment.step_in_metres(step, &transmitter))
+    }
+
     /// The same controller and reference in the experiment, on the plant and the model of another setup: how a pinned setup is
     /// compared.
     #[must_use]
