@@ -38,6 +38,19 @@ const MODEL_ERROR: ParamControl<LevelLoopSetup> = ParamControl {
     ..REFERENCE
 };
 
+/// Dead time of the Harris index, in rows of the log.
+const DEAD_TIME: ParamControl<LevelLoopSetup> = ParamControl {
+    ids: [("", "harris-rows"); 2],
+    label: |_, _| "θ".to_owned(),
+    name: |lab, _| tr!(lab, level.harris_rows_name),
+    path: |_, _| "harris.dead_time_rows",
+    read: |s, _| s.harris.dead_time_rows as f64,
+    write: |s, _, rows| s.harris.dead_time_rows = whole_rows(rows),
+    digits: Some(0),
+    scale: Some(Scale::Linear(1.0)),
+    ..REFERENCE
+};
+
 /// The words of the card that explain themselves.
 const TERMS: &[Text] = &[terms::variance_index, terms::harris, terms::margins, terms::peak, terms::travel];
 
@@ -102,16 +115,24 @@ pub fn AssessCard() -> impl IntoView {
                 <p class="remark">{say!(lab, level.model_error)}</p>
                 <ParamRow session control=&MODEL_ERROR index=0 />
                 <ParamRow session control=&MODEL_ERROR index=1 />
+                <p class="remark">{say!(lab, level.harris_rows_name)}</p>
+                <div class="pairs"><ParamRow session control=&DEAD_TIME /></div>
             </details>
         </Card>
     }
+}
+
+/// The nearest number of rows; the control keeps it within its limits.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the cast saturates")]
+fn whole_rows(rows: f64) -> usize {
+    rows.round() as usize
 }
 
 /// Both indices, that of the objective first marked, and the Harris index.
 fn indices(session: Session) -> impl IntoView {
     let lab = session.lab;
     let style = lab.number_style();
-    let objective = session.throttled.setup.with(|setup| setup.objective);
+    let (objective, dead_time_s) = session.throttled.setup.with(|setup| (setup.objective, setup.harris_dead_time_s()));
     let columns = vec![
         tr!(lab, level.index),
         tr!(lab, level.column_reference),
@@ -135,7 +156,8 @@ fn indices(session: Session) -> impl IntoView {
             ],
             Err(error) => vec![Figure::None(errors::of_harris(lab, error)); 3],
         };
-        rows.push(view! { <ReasonedRow name=tr!(lab, level.harris_row) figures=harris /> }.into_any());
+        let name = tr!(lab, level.harris_dead_time, time = style.significant(dead_time_s, 3));
+        rows.push(view! { <ReasonedRow name figures=harris /> }.into_any());
         rows
     });
     view! { <TableContent caption=tr!(lab, level.indices) columns rows=rows.unwrap_or_default() /> }
