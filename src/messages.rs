@@ -36,21 +36,20 @@ pub fn talk(lab: Lab, room: Classroom) {
         }
     });
     Effect::new(move || {
-        let said = room.said.get();
-        let Some(lesson) = room.lesson.get_untracked() else { return };
-        if let Some((task, _, is_right)) = said.last() {
-            let about =
-                [("lesson", lesson.id.clone().into()), ("task", task.clone().into()), ("right", (*is_right).into())];
-            tell(lab, "answer", &about);
-        }
+        let (Some(given), Some(lesson)) = (room.given.get(), room.lesson.get_untracked()) else { return };
+        let about =
+            [("lesson", lesson.id.clone().into()), ("task", given.task.into()), ("right", given.is_right.into())];
+        tell(lab, "answer", &about);
+    });
+    let score = Memo::new(move |_| {
+        let lesson = room.lesson.get()?;
+        let (score, is_complete) =
+            room.progress.with(|progress| progress.as_ref().map(|p| (p.score(&lesson), p.is_complete(&lesson))))?;
+        Some((lesson.id.clone(), score, is_complete))
     });
     Effect::new(move || {
-        let Some(lesson) = room.lesson.get() else { return };
-        let score =
-            room.progress.with(|progress| progress.as_ref().map(|p| (p.score(&lesson), p.is_complete(&lesson))));
-        if let Some((score, is_complete)) = score {
-            let about =
-                [("lesson", lesson.id.clone().into()), ("score", score.into()), ("complete", is_complete.into())];
+        if let Some((lesson, score, is_complete)) = score.get() {
+            let about = [("lesson", lesson.into()), ("score", score.into()), ("complete", is_complete.into())];
             tell(lab, "score", &about);
         }
     });

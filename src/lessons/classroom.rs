@@ -18,6 +18,26 @@ use crate::lab::{Lab, Stage};
 use crate::session::Lock;
 use crate::share::{kept_reference, lesson_reference, show_address};
 
+/// What stands below a task.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Remark {
+    /// Id of the task.
+    pub task: String,
+    /// What is said.
+    pub feedback: Option<Feedback>,
+    /// Whether the answer was right; nothing for a remark on something that is no answer.
+    pub verdict: Option<bool>,
+}
+
+/// An answer that a student has given.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Given {
+    /// Id of the task.
+    pub task: String,
+    /// Whether it was right.
+    pub is_right: bool,
+}
+
 /// The class room of this page. A handle of one pointer, as [`Lab`].
 #[derive(Clone, Copy)]
 pub struct Classroom(&'static State);
@@ -40,7 +60,9 @@ pub struct State {
     /// Whether the report is shown in place of a step.
     pub at_end: RwSignal<bool>,
     /// What was said last about each task of the open step.
-    pub said: RwSignal<Vec<(String, Option<Feedback>, bool)>>,
+    pub said: RwSignal<Vec<Remark>>,
+    /// The last answer since the page was opened.
+    pub given: RwSignal<Option<Given>>,
     /// What the open step has set otherwise than the bench stood before.
     pub changed: RwSignal<Vec<Difference>>,
     /// The state with which the step began.
@@ -79,6 +101,7 @@ impl Classroom {
             progress: RwSignal::new(None),
             at_end: RwSignal::new(false),
             said: RwSignal::new(Vec::new()),
+            given: RwSignal::new(None),
             changed: RwSignal::new(Vec::new()),
             start: StoredValue::new(None),
             starts: StoredValue::new(BTreeMap::new()),
@@ -165,14 +188,14 @@ impl Classroom {
     }
 
     /// What was said about a task that is done already.
-    fn said_before(self, task: &Task) -> Option<(String, Option<Feedback>, bool)> {
+    fn said_before(self, task: &Task) -> Option<Remark> {
         let record = self.record(&task.id);
         let feedback = match (&task.kind, record.answer.as_ref().filter(|_| record.is_done())?) {
             (TaskKind::Choose(_), Answer::Choice(index)) => Some(Feedback::Option(*index)),
             (TaskKind::Explain(_), _) => Some(Feedback::Model),
             _ => None,
         };
-        Some((task.id.clone(), feedback, record.solved))
+        Some(Remark { task: task.id.clone(), feedback, verdict: Some(record.solved) })
     }
 
     /// Shows the cards of a step; those that give the answer away come when its tasks are done.
@@ -240,15 +263,16 @@ impl Classroom {
             return verdict;
         }
         self.change(task, |record| record.take(task, answer, verdict));
-        self.say(&task.id, verdict.feedback, verdict.is_right);
+        self.say(Remark { task: task.id.clone(), feedback: verdict.feedback, verdict: Some(verdict.is_right) });
+        self.given.set(Some(Given { task: task.id.clone(), is_right: verdict.is_right }));
         verdict
     }
 
     /// Says something about a task in place of what was said before.
-    fn say(self, id: &str, feedback: Option<Feedback>, is_right: bool) {
+    fn say(self, remark: Remark) {
         self.said.update(|said| {
-            said.retain(|(of, ..)| of != id);
-            said.push((id.to_owned(), feedback, is_right));
+            said.retain(|other| other.task != remark.task);
+            said.push(remark);
         });
     }
 
@@ -284,14 +308,14 @@ impl Classroom {
 
     /// Says something about a task without marking it, or nothing any more.
     pub fn say_in_passing(self, id: &str, feedback: Option<Feedback>) {
-        let is_said = |said: &Vec<(String, Option<Feedback>, bool)>| {
-            said.iter().find(|(of, ..)| of == id).and_then(|(_, feedback, _)| *feedback)
-        };
-        if self.said.with_untracked(is_said) != feedback {
-            self.said.update(|said| {
-                said.retain(|(of, ..)| of != id);
-                said.extend(feedback.map(|feedback| (id.to_owned(), Some(feedback), false)));
-            });
+        let of_task = |remark: &&Remark| remark.task == id;
+        let is_said = self.said.with_untracked(|said| said.iter().find(of_task).and_then(|remark| remark.feedback));
+        if is_said == feedback {
+            return;
+        }
+        match feedback {
+            Some(_) => self.say(Remark { task: id.to_owned(), feedback, verdict: None }),
+            None => self.said.update(|said| said.retain(|remark| remark.task != id)),
         }
     }
 
@@ -299,7 +323,7 @@ impl Classroom {
     pub fn show_solution(self, task: &Task) {
         let TaskKind::Achieve(goal) = &task.kind else { return };
         self.change(task, |record| record.shown = true);
-        self.say(&task.id, None, false);
+        self.say(Remark { task: task.id.clone(), feedback: None, verdict: None });
         if let Some(state) = self.start.get_value()
             && let Ok(solved) = with_settings(&state, &goal.solution)
         {

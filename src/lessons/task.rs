@@ -76,10 +76,7 @@ fn Said(lesson: Arc<Lesson>, task: Arc<Task>) -> impl IntoView {
     let is_marked = task.kind.is_marked();
     let has_options = matches!(task.kind, TaskKind::Choose(_));
     let id = task.id.clone();
-    let last = Memo::new(move |_| {
-        room.said
-            .with(|said| said.iter().find(|(of, ..)| *of == id).map(|(_, feedback, is_right)| (*feedback, *is_right)))
-    });
+    let last = Memo::new(move |_| room.said.with(|said| said.iter().find(|remark| remark.task == id).cloned()));
     let room_for = {
         let (task, lesson) = (Arc::clone(&task), Arc::clone(&lesson));
         move || {
@@ -93,15 +90,14 @@ fn Said(lesson: Arc<Lesson>, task: Arc<Task>) -> impl IntoView {
         let task = Arc::clone(&task);
         move || {
             let record = room.followed_record(&task.id);
-            let (_, is_right) = last.get()?;
-            Some(match (is_marked, is_right, record.shown) {
+            let verdict = last.get()?.verdict;
+            Some(match (is_marked, verdict, record.shown) {
                 (false, ..) => tr!(lab, lesson.recorded),
-                (true, true, _) => tr!(lab, lesson.right),
+                (true, Some(true), _) => tr!(lab, lesson.right),
                 // A student asks for the solution of a goal. That of a choice comes after the last wrong answer, whose remark is shown first.
-                (true, false, true) if !has_options => tr!(lab, lesson.solution_shown),
-                // A remark while the student tries is no verdict.
-                (true, false, false) if record.wrong == 0 => return None,
-                (true, false, _) => tr!(lab, lesson.wrong),
+                (true, _, true) if !has_options => tr!(lab, lesson.solution_shown),
+                (true, Some(false), _) => tr!(lab, lesson.wrong),
+                (true, None, _) => return None,
             })
         }
     };
@@ -109,7 +105,7 @@ fn Said(lesson: Arc<Lesson>, task: Arc<Task>) -> impl IntoView {
     let words = {
         let task = Arc::clone(&task);
         move || {
-            let (feedback, _) = last.get()?;
+            let feedback = last.get()?.feedback;
             let text = feedback_text(&task, feedback?)?.shown(tongue(lab, &lesson)).to_owned();
             let lead = matches!(feedback, Some(Feedback::Model)).then(|| tr!(lab, lesson.model));
             Some(view! { {lead.map(|lead| view! { <b>{lead}</b> " " })}{inline(&text)} })
@@ -135,15 +131,15 @@ fn Said(lesson: Arc<Lesson>, task: Arc<Task>) -> impl IntoView {
             }
         }
     };
-    let class = move || match last.get() {
-        Some((_, true)) => "said right",
-        Some(_) => "said",
+    let class = move || match last.with(|last| last.as_ref().map(|remark| remark.verdict == Some(true))) {
+        Some(true) => "said right",
+        Some(false) => "said",
         None => "said none",
     };
     // On a phone the bench covers the lower half: what is said of an answer comes into sight.
     let element = NodeRef::<Div>::new();
     Effect::new(move |before: Option<bool>| {
-        let is_said = last.get().is_some();
+        let is_said = last.with(Option::is_some);
         if before.is_some()
             && is_said
             && let Some(element) = element.get_untracked()

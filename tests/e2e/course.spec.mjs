@@ -61,6 +61,11 @@ test('the element tells answers and points of a lesson to its page, and to no ot
     if (path === '/') {
       await expect.poll(async () => (await kinds(page, 'answer')).at(-1)).toMatchObject({ lesson: lesson.id, task: 'predict-push', right: true });
       expect((await kinds(page, 'score')).at(-1)).toMatchObject({ lesson: lesson.id, score: 0, complete: false });
+      // Who turns back to an answer, or is told something while trying, gives no answer.
+      await frame.getByTestId('lesson-next').click();
+      await frame.getByTestId('lesson-back').click();
+      await expect(frame.getByTestId('said-predict-push')).toHaveClass(/right/);
+      expect(await kinds(page, 'answer')).toHaveLength(1);
     } else {
       const told = await page.evaluate(() => window.heard.map((message) => message.kind));
       expect(told.filter((kind) => !['ready', 'height'].includes(kind))).toEqual([]);
