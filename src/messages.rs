@@ -28,12 +28,19 @@ pub fn talk(lab: Lab, room: Classroom) {
     on_cleanup(move || on_message.remove());
     follow_height(lab);
     say_to(ANY, "ready", &[("version", env!("CARGO_PKG_VERSION").into())]);
-    Effect::new(move || {
+    // Without an origin that may hear, nothing of a student is even put together.
+    if lab.flags.with_value(|flags| flags.origins.is_empty()) {
+        return;
+    }
+    // A link takes a millisecond, so it is made as often as texts are, not in every frame of a drag.
+    Effect::new(move |before: Option<Option<String>>| {
         let bench = lab.bench.get();
-        (bench.track)(lab);
-        if let Ok(link) = untrack(|| (bench.link)(lab)) {
+        lab.track_texts();
+        let link = untrack(|| (bench.link)(lab)).ok();
+        if let Some(link) = link.as_ref().filter(|link| before.flatten().as_ref() != Some(link)) {
             tell(lab, "state", &[("state", link.into())]);
         }
+        link
     });
     Effect::new(move || {
         let (Some(given), Some(lesson)) = (room.given.get(), room.lesson.get_untracked()) else { return };
