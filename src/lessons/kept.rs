@@ -5,6 +5,7 @@ use std::collections::HashMap;
 
 use leptos::prelude::window;
 use quadtank_lesson::{Lesson, Progress};
+use web_sys::Storage;
 
 use crate::storage::LESSONS_KEPT;
 
@@ -21,23 +22,23 @@ pub fn is_agreed() -> bool {
     LESSONS_KEPT.read().as_deref() == Some("yes")
 }
 
-/// Agrees, or withdraws: then what was kept is deleted.
+/// Agrees, or withdraws: then what was kept is deleted, of whatever lesson and visit.
 pub fn agree(agrees: bool) {
     LESSONS_KEPT.write(if agrees { "yes" } else { "no" });
-    MEMORY.with_borrow(|memory| {
-        for progress in memory.values() {
-            if agrees {
-                write(progress);
-            } else {
-                remove(&progress.lesson);
-            }
-        }
-    });
-    if !agrees {
-        for id in quadtank_lesson::LESSON_IDS {
-            remove(id);
+    if agrees {
+        MEMORY.with_borrow(|memory| memory.values().for_each(store));
+    } else if let Some(storage) = storage() {
+        for name in kept_names(&storage) {
+            let _ = storage.remove_item(&name);
         }
     }
+}
+
+/// The names of all lessons that are kept, those of an instructor's own files among them.
+fn kept_names(storage: &Storage) -> Vec<String> {
+    let count = storage.length().unwrap_or_default();
+    let names = (0..count).filter_map(|index| storage.key(index).ok().flatten());
+    names.filter(|name| name.starts_with(PREFIX)).collect()
 }
 
 /// What was done in a lesson.
@@ -49,36 +50,40 @@ pub fn read(lesson: &Lesson) -> Option<Progress> {
 pub fn known(id: &str) -> Option<Progress> {
     let memory = MEMORY.with_borrow(|memory| memory.get(id).cloned());
     memory.or_else(|| {
-        let text = window().local_storage().ok()??.get_item(&format!("{PREFIX}{id}")).ok()??;
+        let text = storage()?.get_item(&name_of(id)).ok()??;
         serde_json::from_str(&text).ok()
     })
 }
 
 /// Keeps what was done.
 pub fn write(progress: &Progress) {
-    if is_agreed()
-        && let (Ok(Some(storage)), Ok(text)) = (window().local_storage(), serde_json::to_string(progress))
-    {
-        let _ = storage.set_item(&format!("{PREFIX}{}", progress.lesson), &text);
+    if is_agreed() {
+        store(progress);
     }
-    // Borrowed already while the student agrees, and then it is there.
-    MEMORY.with(|memory| {
-        if let Ok(mut memory) = memory.try_borrow_mut() {
-            memory.insert(progress.lesson.clone(), progress.clone());
-        }
-    });
+    MEMORY.with_borrow_mut(|memory| memory.insert(progress.lesson.clone(), progress.clone()));
+}
+
+/// Puts what was done into the storage of the browser, if there is one.
+fn store(progress: &Progress) {
+    if let (Some(storage), Ok(text)) = (storage(), serde_json::to_string(progress)) {
+        let _ = storage.set_item(&name_of(&progress.lesson), &text);
+    }
 }
 
 /// Forgets what was done in a lesson.
 pub fn forget(id: &str) {
     MEMORY.with_borrow_mut(|memory| memory.remove(id));
-    remove(id);
+    if let Some(storage) = storage() {
+        let _ = storage.remove_item(&name_of(id));
+    }
 }
 
-fn remove(id: &str) {
-    if let Ok(Some(storage)) = window().local_storage() {
-        let _ = storage.remove_item(&format!("{PREFIX}{id}"));
-    }
+fn storage() -> Option<Storage> {
+    window().local_storage().ok()?
+}
+
+fn name_of(id: &str) -> String {
+    format!("{PREFIX}{id}")
 }
 
 /// A number from which the numbers of a new student follow.
