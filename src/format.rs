@@ -47,7 +47,7 @@ impl NumberStyle {
         self.fixed(value, decimals)
     }
 
-    /// What a person typed, with point or comma and either minus sign; a fraction such as 1/3 too.
+    /// What a person typed, with point or comma and a minus sign of whatever length; a fraction such as 1/3 too.
     pub fn parse(text: &str) -> Option<f64> {
         match text.split_once('/') {
             Some((above, below)) => {
@@ -58,8 +58,8 @@ impl NumberStyle {
     }
 
     fn decimal(text: &str) -> Option<f64> {
-        let text = text.trim().replace(',', ".");
-        let (sign, magnitude) = match text.strip_prefix(['-', '−']) {
+        let text = text.trim().replace(',', ".").replace(['−', '–'], "-");
+        let (sign, magnitude) = match text.strip_prefix('-') {
             Some(magnitude) => (-1.0, magnitude),
             None => (1.0, text.strip_prefix('+').unwrap_or(&text)),
         };
@@ -111,6 +111,8 @@ mod tests {
         {
             assert_eq!(NumberStyle::parse(text), Some(value), "{text}");
         }
+        assert_eq!(NumberStyle::parse(" –0,0104\u{a0}"), Some(-0.0104));
+        assert_eq!(NumberStyle::parse(&PT.significant(-2.5e-9, 3)), Some(-2.5e-9));
         for text in ["", "-", ".", "--1", "-+1", "e5", "1e", "1e999", "0x10", "1 2", "NaN", "[1]", "−−1"] {
             assert_eq!(NumberStyle::parse(text), None, "{text}");
         }

@@ -9,6 +9,7 @@ use quadtank_lesson::{Achieve, Answer, Feedback, NumberTask, Task, TaskKind, goa
 use super::classroom::{Present, use_classroom};
 use super::prose::{inline, unit_name, written};
 use super::task::kept_answer;
+use crate::format::NumberStyle;
 use crate::lab::use_lab;
 use crate::texts::{say, tr};
 
@@ -82,7 +83,7 @@ pub fn Choices(task: Arc<Task>, options: Vec<Signal<String>>) -> impl IntoView {
     view! { <div class="options">{list}</div> <CheckButton id name disabled on_check /> }
 }
 
-/// A number with its unit; a decimal comma is one too.
+/// A number with its unit, read as in every other field.
 #[component]
 pub fn NumberAnswer(task: Arc<Task>, number: NumberTask) -> impl IntoView {
     let (lab, room) = (use_lab(), use_classroom());
@@ -94,7 +95,7 @@ pub fn NumberAnswer(task: Arc<Task>, number: NumberTask) -> impl IntoView {
     let text = RwSignal::new(kept);
     let bad = RwSignal::new(false);
     let id = task.id.clone();
-    let check = Callback::new(move |()| match parsed(&text.get_untracked()) {
+    let check = Callback::new(move |()| match NumberStyle::parse(&text.get_untracked()) {
         Some(value) => {
             bad.set(false);
             room.answer(&task, Answer::Number(value));
@@ -125,13 +126,6 @@ pub fn NumberAnswer(task: Arc<Task>, number: NumberTask) -> impl IntoView {
             <span class="bad" id=described role="status">{move || bad.get().then(|| tr!(lab, lesson.no_number))}</span>
         </div>
     }
-}
-
-/// A number as people write it: decimal comma or point, a minus sign of whatever length, spaces around.
-fn parsed(text: &str) -> Option<f64> {
-    let plain = text.trim().replace(['−', '–'], "-").replace(',', ".").replace(['\u{a0}', ' '], "");
-    let plain = plain.strip_prefix('+').unwrap_or(&plain);
-    plain.parse().ok().filter(|value: &f64| value.is_finite() && plain.chars().any(|c| c.is_ascii_digit()))
 }
 
 /// How long a goal has to hold until it is reached (ms).
@@ -283,20 +277,5 @@ pub fn Words(task: Arc<Task>) -> impl IntoView {
             on:input=move |event| text.set(event_target_value(&event))
         ></textarea>
         <CheckButton id name=say!(lab, lesson.hand_in) disabled on_check />
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::parsed;
-
-    #[test]
-    fn numbers_are_read_as_people_write_them() {
-        assert_eq!(parsed(" −0,0104 "), Some(-0.0104));
-        assert_eq!(parsed("+2.5e-2"), Some(0.025));
-        assert_eq!(parsed("12"), Some(12.0));
-        for wrong in ["", "one", "1/2", "inf", "1,2,3", "-"] {
-            assert_eq!(parsed(wrong), None, "{wrong}");
-        }
     }
 }
