@@ -72,7 +72,7 @@ pub fn Laboratory(
         request_animation_frame(keep_menus_in_sight);
     });
     // The progress of a lesson is saved when the page is left, too.
-    let on_hide = window_event_listener(ev::pagehide, move |_| room.close());
+    let on_hide = window_event_listener(ev::pagehide, move |event| room.close(event.persisted()));
     let on_key = window_event_listener(ev::keydown, move |event| match event.key().as_str() {
         "Escape" => {
             close_menus(None);

@@ -369,10 +369,13 @@ impl Classroom {
         });
     }
 
-    /// The page goes: what was done is handed over.
-    pub fn close(self) {
+    /// The page goes: what was done is handed over. A page that the browser only lays aside may come back and go on, and a session
+    /// that has ended cannot begin again.
+    pub fn close(self, may_come_back: bool) {
         self.keep();
-        course::finish();
+        if !may_come_back {
+            course::finish();
+        }
     }
 
     /// Leaves the lesson for the bench that was shown before.

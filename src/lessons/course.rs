@@ -45,20 +45,21 @@ impl Course {
     }
 }
 
-/// Finds the system and begins a session; whether there is one.
-pub fn begin() -> bool {
-    let Some(api) = find() else { return false };
+/// Finds the system, if there is one, and begins a session.
+pub fn begin() {
+    let Some(api) = find() else { return };
     let mut course = Course { api, begun_at_s: js_sys::Date::now() / 1000.0, is_review: false };
     if course.call("LMSInitialize", &[""]).as_deref() != Some("true") {
-        return false;
+        return;
     }
     // An empty mode, as some systems answer, is the normal one.
     course.is_review = course.get("cmi.core.lesson_mode") == "review";
     if matches!(course.get("cmi.core.lesson_status").as_str(), "" | "not attempted") {
         course.set("cmi.core.lesson_status", "incomplete");
     }
+    // Said at once: a page that the browser lays aside may never get to say it.
+    course.set("cmi.core.exit", "suspend");
     COURSE.set(Some(course));
-    true
 }
 
 /// Whether there is a system, which keeps what is done.
@@ -112,7 +113,6 @@ pub fn commit(lesson: &Lesson, progress: &Progress) {
 /// Ends the session.
 pub fn finish() {
     if let Some(course) = COURSE.take() {
-        course.set("cmi.core.exit", "suspend");
         let _ = course.call("LMSFinish", &[""]);
     }
 }

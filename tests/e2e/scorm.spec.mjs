@@ -180,6 +180,17 @@ test_('leaving the page ends the session once, with everything handed over', asy
   expect(stored['cmi.core.exit']).toBe('suspend');
 });
 
+test_('a page that the browser has laid aside and brought back goes on with its session', async ({ lab, page, courses }) => {
+  await page.goto(`${courses.origin}/strict`);
+  const frame = await lessonIn(page);
+  await frame.evaluate(() => dispatchEvent(new PageTransitionEvent('pagehide', { persisted: true })));
+  await answerTwoSteps(frame);
+  const { calls, faults, stored } = await lms(page);
+  expect(faults).toEqual([]);
+  expect(calls).not.toContain('Finish');
+  expect(stored).toMatchObject({ 'cmi.core.score.raw': '20', 'cmi.core.exit': 'suspend' });
+});
+
 test_('a lesson in a window of its own finds the system in the window that opened it', async ({ lab, page, courses }) => {
   await page.goto(`${courses.origin}/opener`);
   const [popup] = await Promise.all([page.waitForEvent('popup'), page.evaluate(() => { window.open('/index.html'); })]);
