@@ -91,6 +91,11 @@ fn shown(lab: Lab, bench: &BenchEntry) -> Vec<(&'static str, &'static str)> {
     has_choice.then(|| ("view", bench.depth(lab.depth.get_untracked()).name())).into_iter().collect()
 }
 
+/// A reference to this page that opens the state of a link alone.
+pub fn state_reference(link: &str) -> String {
+    format!("{BARE}#{PREFIX}{link}")
+}
+
 /// The reference of a step of a lesson, counted from 0.
 pub fn lesson_reference(id: &str, step: usize) -> String {
     query_with(&bench_flags(), &[("lesson", id), ("step", &(step + 1).to_string())])

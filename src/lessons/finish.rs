@@ -5,7 +5,6 @@ use std::sync::Arc;
 use leptos::html::H2;
 use leptos::prelude::*;
 use quadtank_lesson::{Answer, Lesson, Report, Task, TaskKind, points_of, start_of};
-use quadtank_scenario::{Document, to_link};
 
 use super::classroom::{tongue, use_classroom};
 use super::panel::{focus_at_first, shown};
@@ -13,6 +12,7 @@ use super::place::absolute;
 use super::{LessonLink, course, next_of};
 use crate::download::{copy, download_text};
 use crate::lab::{Lab, use_lab};
+use crate::share::state_reference;
 use crate::texts::{say, tr};
 
 #[allow(clippy::needless_pass_by_value, reason = "properties of components are owned")]
@@ -102,8 +102,8 @@ fn TaskLine(lesson: Arc<Lesson>, task: Task, step: usize) -> impl IntoView {
     let seed = room.progress.with_untracked(|progress| progress.as_ref().map_or(0, |progress| progress.seed));
     let state = lesson.steps.get(step).and_then(|step| start_of(&lesson, step, seed).ok().flatten());
     let is_answered = record.answer.is_some() || record.is_done();
-    let link = state.as_ref().filter(|_| is_answered).and_then(link_of).map(|link| {
-        view! { <a href=absolute(&format!("?#lab={link}")) target="_blank" rel="noopener">{say!(lab, lesson.state)}</a> }
+    let link = state.as_ref().filter(|_| is_answered).and_then(|state| state.to_link().ok()).map(|link| {
+        view! { <a href=absolute(&state_reference(&link)) target="_blank" rel="noopener">{say!(lab, lesson.state)}</a> }
     });
     let points = (task.points > 0).then(|| {
         let reached = points_of(&task, &record);
@@ -121,17 +121,6 @@ fn TaskLine(lesson: Arc<Lesson>, task: Task, step: usize) -> impl IntoView {
             <p class="answer">{answer} " " {points} " " {tries} " " {link}</p>
         </li>
     }
-}
-
-/// The link of a state.
-pub fn link_of(document: &Document) -> Option<String> {
-    match document {
-        Document::Quadruple(document) => to_link(document),
-        Document::Tuning(document) => to_link(document),
-        Document::ModelFree(document) => to_link(document),
-        Document::LevelLoop(document) => to_link(document),
-    }
-    .ok()
 }
 
 /// An answer in words.

@@ -15,7 +15,6 @@ pub use package::LessonFiles;
 
 use super::catalogue::OwnFile;
 use super::classroom::tongue;
-use super::finish::link_of;
 use super::place::{SidePage, lesson_address};
 use super::{is_for_here, load};
 use crate::download::is_single_file;
@@ -134,7 +133,7 @@ fn answers_of(lab: Lab, lesson: &Lesson) -> impl IntoView + use<> {
         };
         let solved = matches!(task.kind, TaskKind::Achieve(_)).then(|| solved_state(lesson, step, &task.id)).flatten();
         let link = solved.map(|link| {
-            view! { <a href=format!("?#lab={link}") target="_blank" rel="noopener">{tr!(lab, lesson.state)}</a> }
+            view! { <a href=share::state_reference(&link) target="_blank" rel="noopener">{tr!(lab, lesson.state)}</a> }
         });
         let place = tr!(lab, lesson.place_of_task, step = step + 1, count = task.points as usize);
         Some(view! {
@@ -150,7 +149,7 @@ fn answers_of(lab: Lab, lesson: &Lesson) -> impl IntoView + use<> {
 /// The link of the bench when a goal is reached.
 fn solved_state(lesson: &Lesson, step: usize, task: &str) -> Option<String> {
     let place = lesson.steps[step].tasks.iter().position(|other| other.id == task)?;
-    link_of(&quadtank_lesson::state_before(lesson, step, place + 1, 0).ok()?)
+    quadtank_lesson::state_before(lesson, step, place + 1, 0).ok()?.to_link().ok()
 }
 
 /// The number that is right for the first student.
