@@ -112,6 +112,7 @@ pub fn Builder(lessons: RwSignal<Vec<Option<Arc<Lesson>>>>) -> impl IntoView {
     });
     let take = Callback::new(move |chosen: Subject| {
         subject.set(chosen);
+        preset.set(None);
         panels.set(Vec::new());
         locks.set(Vec::new());
     });
