@@ -14,6 +14,8 @@ mod prose;
 mod task;
 mod teachers;
 
+use std::cell::Cell;
+
 use leptos::prelude::*;
 use quadtank_lesson::{LESSON_IDS, Lesson, read_lesson};
 use wasm_bindgen_futures::spawn_local;
@@ -49,9 +51,22 @@ fn go_on_with(lab: Lab, room: Classroom, lesson: Lesson, step: Option<usize>) {
     room.begin(lesson, step);
 }
 
+thread_local! {
+    /// How often a lesson was asked for, or a step made in the browser's history.
+    static TURNS: Cell<u32> = const { Cell::new(0) };
+}
+
+/// Loads a lesson. One that arrives when the reader has gone elsewhere is let go.
 fn load_and(lab: Lab, id: String, then: impl FnOnce(Lesson) + 'static) {
+    let place = move || (TURNS.get(), lab.bench.get_untracked().id, lab.side.get_untracked());
+    TURNS.set(TURNS.get().wrapping_add(1));
+    let asked_at = place();
     spawn_local(async move {
-        match load::load(&id).await {
+        let outcome = load::load(&id).await;
+        if place() != asked_at {
+            return;
+        }
+        match outcome {
             Ok(lesson) => then(lesson),
             Err(error) => lab.notice.set(Some(Notice::NoLesson(error))),
         }
@@ -85,6 +100,7 @@ pub fn begin_asked(lab: Lab, room: Classroom) {
 
 /// Shows what the address asks for after a step in the browser's history: a lesson, or what there is without one.
 pub fn follow_address(lab: Lab, room: Classroom) {
+    TURNS.set(TURNS.get().wrapping_add(1));
     let flags = share::asked(lab);
     match flags.lesson {
         Some(id) if room.is_in(&id) => room.open(flags.step.unwrap_or_default()),

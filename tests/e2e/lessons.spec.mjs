@@ -186,6 +186,33 @@ test('Back leaves a lesson for what was there, and the next lesson begins in pla
   expect(await page.evaluate(() => window.isSamePage)).toBe(true);
 });
 
+test.describe('where files come from the network', () => {
+  test.use({ serviceWorkers: 'block' });
+
+  test('a lesson that arrives after its reader has gone back does not begin', async ({ lab, page }) => {
+    let release;
+    const held = new Promise((done) => (release = done));
+    await lab.open();
+    await lab.id('to-lessons').click();
+    await lab.id('begin-directions').waitFor();
+    await page.waitForLoadState('networkidle');
+    await page.route('**/*-directions.json', async (route) => {
+      await held;
+      await route.continue();
+    });
+    await lab.id('begin-directions').click();
+    await page.goBack();
+    await expect(lab.id('lessons')).toHaveCount(0);
+    const arrived = page.waitForResponse('**/*-directions.json');
+    release();
+    await arrived;
+    await lab.settle();
+    await expect(lab.id('lesson')).toHaveCount(0);
+    await expect(page).not.toHaveURL(/lesson=/);
+    lab.tolerate(/Service Worker registration blocked/);
+  });
+});
+
 test('a lesson on a bench that was not open yet shows its own state', async ({ lab, page }) => {
   await begin(lab, lessonOf('relay-finds-the-ultimate-point'), { step: 3 });
   await expect(lab.id('lesson')).toContainText('37.2');
