@@ -93,6 +93,7 @@ fn content(lab: Lab, notice: Notice) -> AnyView {
             view! { <div>{tr!(lab, lesson.refused)} " " {of_error(lab, DisplayUnit::Cm, &error)}</div> }.into_any()
         }
         Notice::NoLesson(LoadError::Unknown(id)) => view! { <div>{tr!(lab, lesson.unknown, id = id)}</div> }.into_any(),
+        Notice::NoLesson(LoadError::NotAtHand(id)) => view! { <div>{tr!(lab, lesson.not_at_hand, id = id)}</div> }.into_any(),
         Notice::NoLesson(LoadError::NotArrived(name)) => view! { <div>{tr!(lab, lesson.not_arrived, name = name)}</div> }.into_any(),
         Notice::NotRead => view! { <div>{tr!(lab, refused.not_read)}</div> }.into_any(),
         Notice::NotUnderstood(names) => view! { <div>{tr!(lab, app.not_understood, names = names.join(", "))}</div> }.into_any(),

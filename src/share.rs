@@ -97,8 +97,8 @@ pub fn state_reference(link: &str) -> String {
 }
 
 /// The reference of a step of a lesson, counted from 0.
-pub fn lesson_reference(id: &str, step: usize) -> String {
-    query_with(&bench_flags(), &[("lesson", id), ("step", &(step + 1).to_string())])
+pub fn lesson_reference(name: &str, step: usize) -> String {
+    query_with(&bench_flags(), &[("lesson", name), ("step", &(step + 1).to_string())])
 }
 
 fn search() -> String {

@@ -2,7 +2,7 @@
 //!
 //! `embed=1` hides the header and packs the bench; `panels=valves,zeros` shows only these cards; `lock=valves,gains` disables
 //! these controls; `lang=TAG` and `theme=light|dark` choose without being remembered; `preset=NAME` loads a
-//! published rig; `bench=NAME` shows that bench; `lesson=ID` and `step=N` begin a lesson; `page=lessons`, `glossary` or `teachers` shows that page; `origins=https://…` names the pages around a frame
+//! published rig; `bench=NAME` shows that bench; `lesson=ID`, or the path of a file beside the page, and `step=N` begin a lesson; `page=lessons`, `glossary` or `teachers` shows that page; `origins=https://…` names the pages around a frame
 //! that may talk with it; `view=explore`, `lab` or `full` says how much of it. A bench lists its own cards and controls. What is not
 //! understood has no effect, and the page names it.
 
@@ -44,7 +44,7 @@ pub struct StartFlags {
     pub dark: Option<bool>,
     /// Rig to begin with.
     pub preset: Option<PresetId>,
-    /// The lesson to begin.
+    /// The lesson to begin: its id, or the path of its file.
     pub lesson: Option<String>,
     /// Its step, from 0.
     pub step: Option<usize>,

@@ -55,6 +55,8 @@ pub struct State {
     lab: Lab,
     /// The lesson that is taken.
     pub lesson: RwSignal<Option<Arc<Lesson>>>,
+    /// What an address calls it.
+    name: StoredValue<String>,
     /// What was done in it.
     pub progress: RwSignal<Option<Progress>>,
     /// Whether the report is shown in place of a step.
@@ -98,6 +100,7 @@ impl Classroom {
         Self(Box::leak(Box::new(State {
             lab,
             lesson: RwSignal::new(None),
+            name: StoredValue::new(String::new()),
             progress: RwSignal::new(None),
             at_end: RwSignal::new(false),
             said: RwSignal::new(Vec::new()),
@@ -112,9 +115,10 @@ impl Classroom {
         })))
     }
 
-    /// Begins a lesson, or goes on with it at `step` or where it was left.
-    pub fn begin(self, lesson: Lesson, step: Option<usize>) {
+    /// Begins a lesson that an address calls `name`, or goes on with it at `step` or where it was left.
+    pub fn begin(self, name: String, lesson: Lesson, step: Option<usize>) {
         self.keep();
+        self.name.set_value(name);
         let progress = course::resumed(&lesson)
             .or_else(|| kept::read(&lesson))
             .unwrap_or_else(|| Progress::new(&lesson, kept::new_seed()));
@@ -144,9 +148,9 @@ impl Classroom {
         }
     }
 
-    /// Whether a lesson is taken.
-    pub fn is_in(self, id: &str) -> bool {
-        self.lesson.with_untracked(|lesson| lesson.as_ref().is_some_and(|lesson| lesson.id == id))
+    /// Whether the lesson is taken that an address calls so.
+    pub fn is_in(self, name: &str) -> bool {
+        self.lesson.with_untracked(Option::is_some) && self.name.with_value(|taken| taken == name)
     }
 
     /// Opens a step: brings the bench into its state, and shows its cards.
@@ -183,7 +187,7 @@ impl Classroom {
         });
         self.start.set_value(Some(present));
         self.set_stage(&lesson, step);
-        show_address(&lesson_reference(&lesson.id, index));
+        show_address(&self.name.with_value(|name| lesson_reference(name, index)));
         self.keep();
     }
 

@@ -34,21 +34,21 @@ use crate::texts::say;
 
 /// Loads a lesson of the laboratory and begins it as a step of the browser's history, so that Back leaves it.
 pub fn begin(lab: Lab, room: Classroom, id: &str) {
-    load_and(lab, id.to_owned(), move |lesson| go_on_with(lab, room, lesson, None));
+    load_and(lab, id.to_owned(), move |name, lesson| go_on_with(lab, room, name, lesson));
 }
 
 /// Begins a lesson at an address that is there already.
-fn begin_here(lab: Lab, room: Classroom, id: String, step: Option<usize>) {
-    load_and(lab, id, move |lesson| {
+fn begin_here(lab: Lab, room: Classroom, name: String, step: Option<usize>) {
+    load_and(lab, name, move |name, lesson| {
         lab.side.set(None);
-        room.begin(lesson, step);
+        room.begin(name, lesson, step);
     });
 }
 
-fn go_on_with(lab: Lab, room: Classroom, lesson: Lesson, step: Option<usize>) {
-    share::go_on_to(lab, &share::lesson_reference(&lesson.id, step.unwrap_or_default()));
+fn go_on_with(lab: Lab, room: Classroom, name: String, lesson: Lesson) {
+    share::go_on_to(lab, &share::lesson_reference(&name, 0));
     lab.side.set(None);
-    room.begin(lesson, step);
+    room.begin(name, lesson, None);
 }
 
 thread_local! {
@@ -57,17 +57,17 @@ thread_local! {
 }
 
 /// Loads a lesson. One that arrives when the reader has gone elsewhere is let go.
-fn load_and(lab: Lab, id: String, then: impl FnOnce(Lesson) + 'static) {
+fn load_and(lab: Lab, name: String, then: impl FnOnce(String, Lesson) + 'static) {
     let place = move || (TURNS.get(), lab.bench.get_untracked().id, lab.side.get_untracked());
     TURNS.set(TURNS.get().wrapping_add(1));
     let asked_at = place();
     spawn_local(async move {
-        let outcome = load::load(&id).await;
+        let outcome = load::load(&name).await;
         if place() != asked_at {
             return;
         }
         match outcome {
-            Ok(lesson) => then(lesson),
+            Ok(lesson) => then(name, lesson),
             Err(error) => lab.notice.set(Some(Notice::NoLesson(error))),
         }
     });
@@ -76,7 +76,7 @@ fn load_and(lab: Lab, id: String, then: impl FnOnce(Lesson) + 'static) {
 /// Begins the lesson of a file; one that is not a lesson is refused with its place, and nothing is lost.
 pub fn begin_file(lab: Lab, room: Classroom, bytes: &[u8]) {
     match read_lesson(bytes) {
-        Ok(lesson) => go_on_with(lab, room, lesson, Some(0)),
+        Ok(lesson) => go_on_with(lab, room, load::remember(&lesson), lesson),
         Err(error) => lab.notice.set(Some(Notice::NoLesson(LoadError::Refused(error)))),
     }
 }
@@ -87,14 +87,14 @@ pub fn begin_asked(lab: Lab, room: Classroom) {
     if let Some(text) = load::inside("lesson") {
         course::begin();
         return match read_lesson(text.as_bytes()) {
-            Ok(lesson) => room.begin(lesson, None),
+            Ok(lesson) => room.begin(lesson.id.clone(), lesson, None),
             Err(error) => lab.notice.set(Some(Notice::NoLesson(LoadError::Refused(error)))),
         };
     }
-    let (id, step) = lab.flags.with_value(|flags| (flags.lesson.clone(), flags.step));
-    if let Some(id) = id {
+    let (name, step) = lab.flags.with_value(|flags| (flags.lesson.clone(), flags.step));
+    if let Some(name) = name {
         course::begin();
-        begin_here(lab, room, id, step);
+        begin_here(lab, room, name, step);
     }
 }
 
@@ -103,8 +103,8 @@ pub fn follow_address(lab: Lab, room: Classroom) {
     TURNS.set(TURNS.get().wrapping_add(1));
     let flags = share::asked(lab);
     match flags.lesson {
-        Some(id) if room.is_in(&id) => room.open(flags.step.unwrap_or_default()),
-        Some(id) => begin_here(lab, room, id, flags.step),
+        Some(name) if room.is_in(&name) => room.open(flags.step.unwrap_or_default()),
+        Some(name) => begin_here(lab, room, name, flags.step),
         None => {
             room.end();
             share::follow_address(lab);

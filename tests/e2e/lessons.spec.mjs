@@ -211,6 +211,32 @@ test.describe('where files come from the network', () => {
     await expect(page).not.toHaveURL(/lesson=/);
     lab.tolerate(/Service Worker registration blocked/);
   });
+
+  test("an instructor's own lesson has an address: of its file beside the site, and in its tab", async ({ lab, page }) => {
+    const own = { ...lessonOf('two-valves-one-zero'), id: 'my-own' };
+    const text = JSON.stringify(own);
+    await page.route('**/course/my-own.json', (route) => route.fulfill({ contentType: 'application/json', body: text }));
+    await page.goto(`${lab.origin}/?lesson=course/my-own.json&step=2&lang=en`);
+    await expect(lab.id('step-title')).toContainText('Step 2');
+    await expect(page).toHaveURL(/lesson=course\/my-own\.json&step=2/);
+    // From a file.
+    await lab.open('page=lessons&lang=en');
+    await lab.id('open-lesson-input').setInputFiles({ name: 'own.json', mimeType: 'application/json', buffer: Buffer.from(text) });
+    await expect(lab.id('step-title')).toContainText('Step 1');
+    await page.reload();
+    await expect(lab.id('step-title')).toContainText('Step 1');
+    await page.goBack();
+    await expect(lab.id('lessons')).toBeVisible();
+    await page.goForward();
+    await expect(lab.id('lesson')).toBeVisible();
+    // In another tab, and elsewhere.
+    await page.evaluate(() => sessionStorage.clear());
+    await page.goto(`${lab.origin}/?lesson=file:my-own&lang=en`);
+    await expect(lab.id('notice')).toContainText('my-own');
+    await page.goto(`${lab.origin}/?lesson=//example.org/my-own.json&lang=en`);
+    await expect(lab.id('notice')).toContainText('There is no lesson');
+    lab.tolerate(/Service Worker registration blocked/);
+  });
 });
 
 test('a lesson on a bench that was not open yet shows its own state', async ({ lab, page }) => {
