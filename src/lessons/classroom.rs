@@ -266,7 +266,13 @@ impl Classroom {
         if matches!(task.kind, TaskKind::Achieve(_)) && !verdict.is_right {
             return verdict;
         }
-        self.change(task, |record| record.take(task, answer, verdict));
+        let state = (self.lab.bench.get_untracked().link)(self.lab).ok();
+        self.change(task, |record| {
+            if !record.is_done() {
+                record.take(task, answer, verdict);
+                record.state = state;
+            }
+        });
         self.say(Remark { task: task.id.clone(), feedback: verdict.feedback, verdict: Some(verdict.is_right) });
         self.given.set(Some(Given { task: task.id.clone(), is_right: verdict.is_right }));
         verdict

@@ -6,7 +6,7 @@ use leptos::html::H2;
 use leptos::prelude::*;
 use quadtank_lesson::{Answer, Lesson, Report, Task, TaskKind, points_of, start_of};
 
-use super::classroom::{tongue, use_classroom};
+use super::classroom::{Classroom, tongue, use_classroom};
 use super::panel::{focus_at_first, shown};
 use super::place::absolute;
 use super::{LessonLink, course, next_of};
@@ -63,6 +63,7 @@ pub fn Finish(lesson: Arc<Lesson>) -> impl IntoView {
                 <h1 class="lesson-title">{title}</h1>
                 <h2 tabindex="-1" node_ref=heading>{say!(lab, lesson.report)}</h2>
                 <p class="sum">{sum}</p>
+                <p class="remark" data-testid="report-seed">{say!(lab, lesson.seed, seed = seed(room))}</p>
                 <label class="name">
                     {say!(lab, lesson.name)}
                     <input type="text" maxlength="80" autocomplete="name" data-testid="report-name" prop:value=move || name.get()
@@ -99,10 +100,9 @@ fn TaskLine(lesson: Arc<Lesson>, task: Task, step: usize) -> impl IntoView {
     let (lab, room) = (use_lab(), use_classroom());
     let record = untrack(|| room.followed_record(&task.id));
     let question = shown(lab, &lesson, task.question.clone());
-    let seed = room.progress.with_untracked(|progress| progress.as_ref().map_or(0, |progress| progress.seed));
-    let state = lesson.steps.get(step).and_then(|step| start_of(&lesson, step, seed).ok().flatten());
     let is_answered = record.answer.is_some() || record.is_done();
-    let link = state.as_ref().filter(|_| is_answered).and_then(|state| state.to_link().ok()).map(|link| {
+    let state = record.state.clone().or_else(|| start_link(&lesson, step, seed(room)));
+    let link = state.filter(|_| is_answered).map(|link| {
         view! { <a href=absolute(&state_reference(&link)) target="_blank" rel="noopener">{say!(lab, lesson.state)}</a> }
     });
     let points = (task.points > 0).then(|| {
@@ -121,6 +121,16 @@ fn TaskLine(lesson: Arc<Lesson>, task: Task, step: usize) -> impl IntoView {
             <p class="answer">{answer} " " {points} " " {tries} " " {link}</p>
         </li>
     }
+}
+
+/// What the numbers of the student follow from.
+fn seed(room: Classroom) -> u32 {
+    room.progress.with_untracked(|progress| progress.as_ref().map_or(0, |progress| progress.seed))
+}
+
+/// The link of the state with which a step begins, if it says one.
+pub fn start_link(lesson: &Lesson, step: usize, seed: u32) -> Option<String> {
+    start_of(lesson, lesson.steps.get(step)?, seed).ok()??.to_link().ok()
 }
 
 /// An answer in words.

@@ -303,6 +303,13 @@ test('a report is read back from its code on the page for teachers', async ({ la
   await lab.id('lesson-next').click();
   await lab.id('report-name').fill('Ana Souza');
   const code = await lab.text('report-code');
+  // The report has what the student reached, and from what the numbers follow.
+  await expect(lab.id('report-seed')).toContainText(String(seed));
+  await expect(lab.id('report').locator('.report-lines a[href*="#lab="]')).toHaveCount(2);
+  const [json] = await Promise.all([page.waitForEvent('download'), lab.id('report-json').click()]);
+  const { tasks } = JSON.parse(readFileSync(await json.path(), 'utf8'));
+  const reached = tasks.find((task) => task.id === 'draw-again').state;
+  expect(await lab.id('report').locator('.report-lines a').last().getAttribute('href')).toContain(`#lab=${reached}`);
   await lab.id('report-leave').click();
   await lab.open('page=teachers');
   await lab.id('read-code').fill(code);

@@ -18,6 +18,9 @@ pub struct Record {
     /// The last answer.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub answer: Option<Answer>,
+    /// The link of the bench as it stood with that answer.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub state: Option<String>,
     /// How many answers were wrong.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub wrong: u32,
@@ -121,10 +124,12 @@ impl Progress {
         (0..lesson.steps.len()).all(|step| self.is_step_done(lesson, step))
     }
 
-    /// All of it as a text of at most [`SUSPEND_LIMIT`] characters, for a learning management system. Free texts are cut, evenly,
-    /// where they do not fit, and where even that is too much no answers are kept; the report has them whole.
+    /// What was done as a text of at most [`SUSPEND_LIMIT`] characters, for a learning management system. There is no place for states of the
+    /// bench. Free texts are cut, evenly, where they do not fit, and where even that is too much no answers are kept; the report has
+    /// them whole.
     pub fn to_suspend_data(&self) -> String {
         let mut cut = self.clone();
+        cut.records.values_mut().for_each(|record| record.state = None);
         let mut longest = SUSPEND_LIMIT;
         loop {
             let text = serde_json::to_string(&cut).map(|json| URL_SAFE_NO_PAD.encode(json)).unwrap_or_default();
@@ -321,8 +326,9 @@ mod tests {
         let lesson = read_lesson(file.as_bytes()).unwrap();
         let mut progress = Progress { seconds: 123_456.789_012_345_6, ..Progress::new(&lesson, u32::MAX) };
         for (_, task) in lesson.tasks() {
-            let answer = Some(Answer::Order((0..12).collect()));
-            progress.records.insert(task.id.clone(), Record { answer, wrong: 2, hints: 12, solved: true, shown: true });
+            let (answer, state) = (Some(Answer::Order((0..12).collect())), Some("x".repeat(2000)));
+            let record = Record { answer, state, wrong: 2, hints: 12, solved: true, shown: true };
+            progress.records.insert(task.id.clone(), record);
         }
         let text = progress.to_suspend_data();
         assert!(text.len() <= SUSPEND_LIMIT, "{}", text.len());

@@ -49,6 +49,9 @@ pub struct TaskReport {
     /// The last answer; a code has none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub answer: Option<Answer>,
+    /// The state of the bench with that answer, as a link has it after `#lab=`; a code has none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub state: Option<String>,
 }
 
 /// Why a code cannot be read.
@@ -75,6 +78,7 @@ impl Report {
                 hints: record.hints,
                 solved: record.solved,
                 answer: record.answer,
+                state: record.state,
             }
         });
         Self {
@@ -178,7 +182,7 @@ impl TaskReport {
         let id = fields.next()?.to_owned();
         let numbers: Vec<u32> = fields.map(str::parse).collect::<Result<_, _>>().ok()?;
         let [points, of, wrong, hints, solved] = numbers[..] else { return None };
-        Some(Self { id, points, of, wrong, hints, solved: solved == 1, answer: None })
+        Some(Self { id, points, of, wrong, hints, solved: solved == 1, answer: None, state: None })
     }
 }
 
@@ -196,7 +200,8 @@ mod tests {
         let mut progress = Progress::new(&lesson, 4_294_967_295);
         progress.seconds = 372.4;
         for (_, task) in lesson.tasks().filter(|(_, task)| task.id != "order") {
-            let mut record = Record { hints: u32::from(task.id == "zero"), ..Record::default() };
+            let state = Some("a-link".to_owned());
+            let mut record = Record { hints: u32::from(task.id == "zero"), state, ..Record::default() };
             for is_right in [task.id != "zero", true] {
                 record.take(task, Answer::Number(0.5), Verdict { is_right, feedback: None });
             }
@@ -207,7 +212,7 @@ mod tests {
 
     /// What a code holds of a report.
     fn without_answers(report: &Report) -> Report {
-        let tasks = report.tasks.iter().map(|task| TaskReport { answer: None, ..task.clone() });
+        let tasks = report.tasks.iter().map(|task| TaskReport { answer: None, state: None, ..task.clone() });
         Report { tasks: tasks.collect(), ..report.clone() }
     }
 
@@ -222,6 +227,7 @@ mod tests {
         assert_eq!((zero.wrong, zero.hints, zero.solved), (1, 1, true));
         assert_eq!((order.wrong, order.solved, &order.answer), (0, false, &None));
         assert_eq!(guess.answer, Some(Answer::Number(0.5)));
+        assert_eq!((guess.state.as_deref(), &order.state), (Some("a-link"), &None));
     }
 
     #[test]
