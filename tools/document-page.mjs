@@ -1,4 +1,4 @@
-// docs/model.md as a page of the site.
+// A document of docs/ as a page of the site.
 import { createRequire } from 'node:module';
 import { SITE_POLICY, fail, inlineParts, withPolicy } from './html.mjs';
 
@@ -14,23 +14,27 @@ export const anchorOf = (heading) =>
     .replace(/[^\p{L}\p{N} -]/gu, '')
     .replaceAll(' ', '-');
 
+/** The documents that are pages; a link to another file of the source leads nowhere on the site. */
+const PAGES = ['model', 'lessons', 'embedding'];
+
 /** The document as HTML, with its sections. What is wide scrolls by itself, and has a name for who reads by ear. */
 export function contentOf(markdown) {
   const sections = [];
   let section = '';
-  let count = { table: 0, equations: 0 };
-  const region = (kind) => `role="region" tabindex="0" aria-label="${escaped(`${section}: ${kind} ${(count[kind] += 1)}`)}"`;
+  let count = {};
+  const region = (kind) => `role="region" tabindex="0" aria-label="${escaped(`${section}: ${kind} ${(count[kind] = (count[kind] ?? 0) + 1)}`)}"`;
   const renderer = {
     heading({ tokens, depth, text }) {
       const [html, anchor] = [this.parser.parseInline(tokens), anchorOf(text)];
       section = text;
-      count = { table: 0, equations: 0 };
+      count = {};
       if (depth === 1) return `<h1>${html}</h1>\n`;
       if (depth === 2) sections.push({ html, anchor });
       return `<h${depth} id="${anchor}"><a href="#${anchor}">${html}</a></h${depth}>\n`;
     },
-    code({ text }) {
-      return `<pre ${region('equations')}><code>${escaped(text)}</code></pre>\n`;
+    // What names a language is a file; the equations of the model are plain.
+    code({ text, lang }) {
+      return `<pre ${region(lang ? 'file' : 'equations')}><code>${escaped(text)}</code></pre>\n`;
     },
     table({ header, rows }) {
       const cell = ({ tokens }, scope) => {
@@ -41,6 +45,12 @@ export function contentOf(markdown) {
       const body = rows.map((row) => `<tr>${row.map((each, index) => cell(each, index === 0 && 'row')).join('')}</tr>`).join('');
       return `<div class="wide" ${region('table')}><table><thead><tr>${head}</tr></thead><tbody>${body}</tbody></table></div>\n`;
     },
+    link({ href, tokens }) {
+      const words = this.parser.parseInline(tokens);
+      if (/^(https?:|#)/.test(href)) return `<a href="${escaped(href)}">${words}</a>`;
+      const [, page, anchor = ''] = href.match(/^([a-z-]+)\.md(#[\w-]+)?$/) ?? [];
+      return PAGES.includes(page) ? `<a href="${page}.html${anchor}">${words}</a>` : words;
+    },
     // What looks like a mark of HTML is an inequality.
     html: ({ text }) => escaped(text),
   };
@@ -48,7 +58,7 @@ export function contentOf(markdown) {
 }
 
 /** The page, in the look of the laboratory; `sheets` are the addresses of its styles. */
-export function modelPage(markdown, sheets) {
+export function documentPage(markdown, { title, description }, sheets) {
   const { html, sections } = contentOf(markdown);
   const styles = sheets.map((sheet) => `<link rel="stylesheet" href="${sheet}" />`).join('');
   const contents = sections.map(({ html: name, anchor }) => `<li><a href="#${anchor}">${name}</a></li>`).join('');
@@ -56,8 +66,8 @@ export function modelPage(markdown, sheets) {
 <html lang="en" data-theme="light">
 <head><meta charset="utf-8" />
 <meta name="viewport" content="width=device-width, initial-scale=1" />
-<title>The model · Quadtank</title>
-<meta name="description" content="What the laboratory computes, in which units, from which source, what is exact and what is not." />
+<title>${title} · Quadtank</title>
+<meta name="description" content="${description}" />
 ${styles}<link rel="icon" href="icon.svg" />
 <script src="theme.js"></script>
 </head>
@@ -73,6 +83,6 @@ ${html}
 </html>
 `;
   const refused = inlineParts(page);
-  if (refused.length > 0) fail(`the page of the model has inline parts that its policy refuses: ${refused.join(' ')}`);
+  if (refused.length > 0) fail(`the page “${title}” has inline parts that its policy refuses: ${refused.join(' ')}`);
   return withPolicy(page, SITE_POLICY);
 }

@@ -1,8 +1,8 @@
-// The step between Trunk and a static host: the page gets its content security policy and must not break it, and the model its own page.
+// The step between Trunk and a static host: the page gets its content security policy and must not break it, and documents get pages of their own.
 import { createHash } from 'node:crypto';
 import { readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { SITE_POLICY, fail, inlineParts, withPolicy } from './html.mjs';
-import { modelPage } from './model-page.mjs';
+import { documentPage } from './document-page.mjs';
 
 const PAGE = 'dist/index.html';
 
@@ -13,7 +13,15 @@ writeFileSync(PAGE, withPolicy(html, SITE_POLICY));
 
 // Of the styles of the laboratory the first has its colours and parts; what is for documents alone stands beside it.
 const sheet = html.match(/<link\b[^>]*\brel="stylesheet"[^>]*\bhref="(?:\.\/)?(main[^"]*)"/)?.[1] ?? fail(`${PAGE} has no style sheet`);
-writeFileSync('dist/model.html', modelPage(readFileSync('docs/model.md', 'utf8'), [sheet, 'paper.css']));
+const sheets = [sheet, 'paper.css'];
+const DOCUMENTS = {
+  model: { title: 'The model', description: 'What the laboratory computes, in which units, from which source, what is exact and what is not.' },
+  lessons: { title: 'Lessons', description: 'How a lesson of the laboratory is written: its file, its tasks, its markup, and how it is checked.' },
+  embedding: { title: 'Embedding', description: 'A bench or a lesson in a course page: frames, the element, messages, learning management systems.' },
+};
+for (const [name, about] of Object.entries(DOCUMENTS)) {
+  writeFileSync(`dist/${name}.html`, documentPage(readFileSync(`docs/${name}.md`, 'utf8'), about, sheets));
+}
 
 // The service worker learns what the site has; the edition is named after all of it.
 const OFFLINE = 'dist/offline.js';

@@ -338,6 +338,12 @@ test('a teacher downloads the package of a lesson, and the lesson', async ({ lab
   expect(bytes.includes('imsmanifest.xml') && bytes.includes('data-scorm="1"')).toBe(true);
   const [json] = await Promise.all([page.waitForEvent('download'), lab.id('save-directions').click()]);
   expect(JSON.parse(readFileSync(await json.path(), 'utf8')).id).toBe('directions');
+  // A state for each step that says one, and the format of what was downloaded.
+  await lab.id('guide-directions').locator('summary').nth(1).click();
+  const starts = lessonOf('directions').steps.filter((step) => step.start);
+  await expect(lab.id('guide-directions').getByTestId('starts').locator('a[href*="#lab="]')).toHaveCount(starts.length);
+  const [format] = await Promise.all([page.waitForEvent('popup'), lab.id('to-format').click()]);
+  await expect(format.getByRole('heading', { level: 1 })).toHaveText('Lessons');
 });
 
 test('the builder makes an embed and shows it as it will be', async ({ lab, page }) => {

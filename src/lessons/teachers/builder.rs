@@ -196,7 +196,8 @@ fn Preview(query: Memo<String>, size: Signal<FrameSize>) -> impl IntoView {
     }
 }
 
-fn title_of(lab: Lab, lessons: &[Option<Arc<Lesson>>], id: &'static str) -> String {
+/// The number and the title of a lesson, as far as its file is there.
+pub fn title_of(lab: Lab, lessons: &[Option<Arc<Lesson>>], id: &'static str) -> String {
     let index = LESSON_IDS.iter().position(|known| *known == id).unwrap_or_default();
     match &lessons[index] {
         Some(lesson) => format!("{}. {}", index + 1, lesson.title.shown(tongue(lab, lesson))),

@@ -9,12 +9,13 @@ use std::sync::Arc;
 use leptos::prelude::*;
 use quadtank_lesson::{Answer, LESSON_IDS, Lesson, NumberTask, Step, TaskKind, Tolerance};
 
-use builder::{Builder, FrameSize, frame_of};
+use builder::{Builder, FrameSize, frame_of, title_of};
 use codes::ReadCodes;
 pub use package::LessonFiles;
 
 use super::catalogue::OwnFile;
 use super::classroom::tongue;
+use super::finish::start_link;
 use super::place::{SidePage, lesson_address};
 use super::{is_for_here, load};
 use crate::download::is_single_file;
@@ -22,6 +23,9 @@ use crate::lab::{Lab, use_lab};
 use crate::share;
 use crate::texts::{say, tr};
 use crate::widgets::is_open;
+
+/// The page of the document about lesson files, beside the laboratory.
+const FORMAT: &str = "lessons.html";
 
 /// Everything for a course: lessons with answers, embeds, codes of reports.
 #[component]
@@ -52,6 +56,10 @@ pub fn Teachers() -> impl IntoView {
             <section>
                 <h3>{say!(lab, lesson.own)}</h3>
                 <p>{say!(lab, lesson.own_lead)}</p>
+                // The single file has no page beside it.
+                {(!is_single_file()).then(|| view! {
+                    <p><a href=FORMAT target="_blank" rel="noopener" data-testid="to-format">{say!(lab, lesson.format)}</a></p>
+                })}
                 <OwnFile />
             </section>
             <Answers lessons />
@@ -63,8 +71,9 @@ pub fn Teachers() -> impl IntoView {
 #[component]
 fn Answers(lessons: RwSignal<Vec<Option<Arc<Lesson>>>>) -> impl IntoView {
     let lab = use_lab();
-    let section =
-        move |index: usize| lessons.with(|lessons| lessons[index].clone()).map(|lesson| guide(lab, index, lesson));
+    let section = move |index: usize| {
+        lessons.with(|lessons| lessons[index].clone().map(|lesson| guide(lab, lessons, index, lesson)))
+    };
     view! {
         <section>
             <h3>{say!(lab, lesson.list)}</h3>
@@ -74,7 +83,7 @@ fn Answers(lessons: RwSignal<Vec<Option<Arc<Lesson>>>>) -> impl IntoView {
 }
 
 #[allow(clippy::needless_pass_by_value, reason = "the answers are made later and hold the lesson")]
-fn guide(lab: Lab, index: usize, lesson: Arc<Lesson>) -> impl IntoView {
+fn guide(lab: Lab, lessons: &[Option<Arc<Lesson>>], index: usize, lesson: Arc<Lesson>) -> impl IntoView + use<> {
     let language = tongue(lab, &lesson);
     let list = |texts: &[quadtank_lesson::Text]| {
         texts.iter().map(|text| view! { <li>{text.shown(language).to_owned()}</li> }).collect_view()
@@ -87,7 +96,15 @@ fn guide(lab: Lab, index: usize, lesson: Arc<Lesson>) -> impl IntoView {
     let lesson = Arc::clone(&lesson);
     let about = Arc::clone(&lesson);
     let files = (!is_single_file()).then(|| view! { <p class="links"><LessonFiles lesson=Arc::clone(&lesson) /></p> });
-    let answers = move || asked.get().then(|| view! { <ul class="answers">{answers_of(lab, &lesson)}</ul> });
+    let answers = move || {
+        asked.get().then(|| {
+            view! {
+                <ul class="answers">{answers_of(lab, &lesson)}</ul>
+                <h4>{tr!(lab, lesson.starts)}</h4>
+                <ul data-testid="starts">{starts_of(lab, &lesson)}</ul>
+            }
+        })
+    };
     let lesson = about;
     view! {
         <details data-testid=format!("guide-{}", lesson.id)>
@@ -95,6 +112,7 @@ fn guide(lab: Lab, index: usize, lesson: Arc<Lesson>) -> impl IntoView {
                 <b>{format!("{}. {}", index + 1, lesson.title.shown(language))}</b> " "
                 <span class="remark">{tr!(lab, lesson.minutes, minutes = lesson.minutes)}</span>
             </summary>
+            {lessons_before(lab, lessons, &lesson)}
             <h4>{tr!(lab, lesson.outcomes)}</h4>
             <ul>{list(&lesson.outcomes)}</ul>
             <h4>{tr!(lab, lesson.misconceptions)}</h4>
@@ -110,6 +128,25 @@ fn guide(lab: Lab, index: usize, lesson: Arc<Lesson>) -> impl IntoView {
             </details>
         </details>
     }
+}
+
+/// The lessons of the laboratory that should come before one; nothing where it stands alone.
+fn lessons_before(lab: Lab, lessons: &[Option<Arc<Lesson>>], lesson: &Lesson) -> Option<impl IntoView + use<>> {
+    let known = LESSON_IDS.into_iter().filter(|id| lesson.prerequisites.iter().any(|before| before == id));
+    let rows: Vec<_> =
+        known.map(|id| view! { <li><a href=lesson_address(id)>{title_of(lab, lessons, id)}</a></li> }).collect();
+    (!rows.is_empty()).then(|| view! { <h4>{tr!(lab, lesson.before)}</h4> <ul>{rows}</ul> })
+}
+
+/// Links to the states that the steps say, as the first student gets them.
+fn starts_of(lab: Lab, lesson: &Lesson) -> impl IntoView + use<> {
+    let language = tongue(lab, lesson);
+    let row = |(index, step): (usize, &Step)| {
+        let link = start_link(lesson, index, 0)?;
+        let name = tr!(lab, lesson.step, number = index + 1, title = step.title.shown(language));
+        Some(view! { <li><a href=share::state_reference(&link) target="_blank" rel="noopener">{name}</a></li> })
+    };
+    lesson.steps.iter().enumerate().filter_map(row).collect_view()
 }
 
 /// The tasks with their answers.
