@@ -1,12 +1,13 @@
-//! Poles and zeros of a transfer matrix, by its minors.
+//! Poles and zeros of a transfer matrix whose dead times leave its determinant as a whole, by its minors.
 
-use super::transfer::product;
+use super::repeated_roots::{Polynomial, Root};
+use super::transfer::degree;
 use super::{Complex, LinearError, TransferFunction, TransferMatrix};
 
-/// Roots that are nearer to each other than this, relative to their size, are the same: what rounding makes of a double root.
-const SAME: f64 = 1e-6;
-/// A coefficient of a difference of polynomials below this share of what is subtracted is rounding.
-const ROUNDING: f64 = 1e-13;
+/// Poles of two elements that are nearer to each other than this, relative to their size, are the same.
+const SAME: f64 = 1e-7;
+/// Dead times that differ by less than this share are the same, up to the rounding of their sums.
+const SAME_DEAD_TIME: f64 = 1e-12;
 
 /// Poles and zeros of a transfer matrix with two inputs and outputs, each as often as it counts, by rising real part.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,86 +19,123 @@ pub struct MatrixPolesAndZeros {
 }
 
 impl MatrixPolesAndZeros {
-    /// By the minors of G: the pole polynomial is the least common denominator of all of them, the zero polynomial the numerator of
-    /// det G over it (Skogestad and Postlethwaite 2005, §§4.4.3 and 4.5.2). `None` where dead times do not leave det G as a whole: it
-    /// then has zeros without number.
+    /// By the Smith-McMillan form of G at each place where an element has a pole (Skogestad and Postlethwaite 2005, §§4.4.3 and 4.5.2),
+    /// and the roots of det G elsewhere. Factors that are known are taken out before roots are sought: of a root that is one m times
+    /// rounding makes m roots that are some `ε^(1/m)` apart. `None` where dead times do not leave det G as a whole: it then has zeros
+    /// without number.
     ///
     /// # Errors
     /// [`LinearError::NoConvergence`] where the roots of a polynomial are not found.
     pub fn of(matrix: &TransferMatrix) -> Result<Option<Self>, LinearError> {
-        let TransferMatrix([[a, b], [c, d]]) = matrix;
-        let [main, cross] = [a.times(d), b.times(c)];
-        let has_cross = cross.numerator().iter().any(|&coefficient| coefficient != 0.0);
-        let has_main = main.numerator().iter().any(|&coefficient| coefficient != 0.0);
-        if has_cross && has_main && main.dead_time() != cross.dead_time() {
+        if !is_whole(matrix) {
             return Ok(None);
         }
-        let mut poles = Vec::new();
-        for element in [a, b, c, d] {
-            let mut zeros = roots(element.numerator())?;
-            let own = if zeros.is_none() { Vec::new() } else { poles_of(element)? };
-            join(&mut poles, &without_common(own, zeros.get_or_insert_default()));
+        let elements = matrix.0.as_flattened();
+        let mut of_elements = Vec::with_capacity(elements.len());
+        for element in elements {
+            of_elements.push(if is_zero(element) {
+                Vec::new()
+            } else {
+                Polynomial::of(element.denominator()).roots()?
+            });
         }
-        let numerator = difference(
-            &product(main.numerator(), cross.denominator()),
-            &product(cross.numerator(), main.denominator()),
-        );
-        let Some(mut zeros) = roots(&numerator)? else {
+        let places = Place::all(&of_elements);
+        let determinant = reduced_determinant(elements, &places);
+        let (mut poles, mut zeros) = (Vec::new(), Vec::new());
+        let mut rest = determinant.clone();
+        for place in &places {
+            let own = if determinant.is_zero() { None } else { Some(determinant.multiplicity_at(place.at)) };
+            rest = rest.over_factor(place.at, own.unwrap_or(0));
+            for index in place.structural_indices(elements, own) {
+                let (count, of) = if index < 0 { (-index, &mut poles) } else { (index, &mut zeros) };
+                of.extend((0..count).map(|_| place.at));
+            }
+        }
+        if determinant.is_zero() {
             return Ok(Some(Self { poles: sorted(poles), zeros: None }));
-        };
-        let of_determinant = [poles_of(a)?, poles_of(b)?, poles_of(c)?, poles_of(d)?].concat();
-        let of_determinant = without_common(of_determinant, &mut zeros);
-        join(&mut poles, &of_determinant);
-        // Over all poles the numerator of the determinant has those too that it lacks.
-        let mut lacking = poles.clone();
-        for &pole in &of_determinant {
-            take(&mut lacking, pole);
         }
-        zeros.extend(lacking);
+        for root in rest.roots()? {
+            zeros.extend((0..root.multiplicity).map(|_| root.place));
+        }
         Ok(Some(Self { poles: sorted(poles), zeros: Some(sorted(zeros)) }))
     }
 }
 
-/// Roots of a polynomial by rising powers, those at the origin exactly; `None` where it is zero.
-fn roots(coefficients: &[f64]) -> Result<Option<Vec<Complex>>, LinearError> {
-    let Some(at_origin) = coefficients.iter().position(|&coefficient| coefficient != 0.0) else { return Ok(None) };
-    let mut roots = TransferFunction::new(vec![1.0], coefficients[at_origin..].to_vec(), 0.0)?.poles()?;
-    roots.resize(roots.len() + at_origin, Complex::ZERO);
-    Ok(Some(roots))
+/// Whether both products of det G have the same dead time, or one of them is zero.
+fn is_whole(TransferMatrix([[a, b], [c, d]]): &TransferMatrix) -> bool {
+    let [main, cross] = [(a, d), (b, c)].map(|(one, other)| one.dead_time() + other.dead_time());
+    let has_zero = [(a, d), (b, c)].iter().any(|(one, other)| is_zero(one) || is_zero(other));
+    has_zero || (main - cross).abs() <= SAME_DEAD_TIME * main.max(cross)
 }
 
-fn poles_of(element: &TransferFunction) -> Result<Vec<Complex>, LinearError> {
-    Ok(roots(element.denominator())?.unwrap_or_default())
+fn is_zero(element: &TransferFunction) -> bool {
+    element.numerator().iter().all(|&coefficient| coefficient == 0.0)
 }
 
-/// `one − other` without what rounding leaves where they are the same.
-fn difference(one: &[f64], other: &[f64]) -> Vec<f64> {
-    let at = |coefficients: &[f64], k: usize| coefficients.get(k).copied().unwrap_or(0.0);
-    let pairs = (0..one.len().max(other.len())).map(|k| (at(one, k), at(other, k)));
-    pairs.map(|(x, y)| if (x - y).abs() <= ROUNDING * (x.abs() + y.abs()) { 0.0 } else { x - y }).collect()
+/// A place where an element has a pole.
+struct Place {
+    at: Complex,
+    /// How often the denominators of g11, g12, g21 and g22 are zero there.
+    denominators: [usize; 4],
 }
 
-/// Takes the root out that is the same as the given one.
-fn take(roots: &mut Vec<Complex>, root: Complex) -> Option<Complex> {
-    let near = |other: &Complex| (other - root).norm();
-    let nearest = (0..roots.len()).min_by(|&i, &j| near(&roots[i]).total_cmp(&near(&roots[j])))?;
-    let is_same = near(&roots[nearest]) <= SAME * root.norm().max(roots[nearest].norm());
-    is_same.then(|| roots.swap_remove(nearest))
-}
-
-/// The poles that no zero cancels; such zeros go too.
-fn without_common(poles: Vec<Complex>, zeros: &mut Vec<Complex>) -> Vec<Complex> {
-    poles.into_iter().filter(|&pole| take(zeros, pole).is_none()).collect()
-}
-
-/// Adds to the poles what they lack of others: each then counts as often as where it counts most.
-fn join(poles: &mut Vec<Complex>, others: &[Complex]) {
-    let mut known = poles.clone();
-    for &other in others {
-        if take(&mut known, other).is_none() {
-            poles.push(other);
+impl Place {
+    /// The distinct roots of all denominators.
+    fn all(of_elements: &[Vec<Root>]) -> Vec<Self> {
+        let mut places: Vec<Self> = Vec::new();
+        for (k, roots) in of_elements.iter().enumerate() {
+            for root in roots {
+                let is_same = |place: &&mut Self| {
+                    place.denominators[k] == 0
+                        && (place.at - root.place).norm() <= SAME * place.at.norm().max(root.place.norm())
+                };
+                match places.iter_mut().find(is_same) {
+                    Some(place) => place.denominators[k] = root.multiplicity,
+                    None => {
+                        let mut denominators = [0; 4];
+                        denominators[k] = root.multiplicity;
+                        places.push(Self { at: root.place, denominators });
+                    }
+                }
+            }
         }
+        places
     }
+
+    /// How often the denominators of `g11 g22` and `g12 g21` are zero here.
+    fn of_products(&self) -> [usize; 2] {
+        let [a, b, c, d] = self.denominators;
+        [a + d, b + c]
+    }
+
+    /// The powers of the local Smith-McMillan form, of poles negative, from the root that the reduced determinant has here; only the
+    /// first one where det G is zero at every frequency.
+    fn structural_indices(&self, elements: &[TransferFunction], determinant: Option<usize>) -> Vec<isize> {
+        let power = |k: usize| {
+            let zeros = Polynomial::of(elements[k].numerator()).multiplicity_at(self.at);
+            zeros.cast_signed() - self.denominators[k].cast_signed()
+        };
+        let Some(first) = (0..4).filter(|&k| !is_zero(&elements[k])).map(power).min() else { return Vec::new() };
+        let [main, cross] = self.of_products();
+        let both = determinant.map(|zeros| zeros.cast_signed() - main.max(cross).cast_signed());
+        std::iter::once(first).chain(both.map(|both| both - first)).collect()
+    }
+}
+
+/// det G times the least common multiple of the denominators of `g11 g22` and `g12 g21`.
+fn reduced_determinant(elements: &[TransferFunction], places: &[Place]) -> Polynomial {
+    let numerator = |k: usize| {
+        let leading = degree(elements[k].denominator()).map_or(1.0, |last| elements[k].denominator()[last]);
+        Polynomial::of(&elements[k].numerator().iter().map(|c| c / leading).collect::<Vec<_>>())
+    };
+    let [main, cross] = [(0, 3), (1, 2)].map(|(one, other)| numerator(one).times(&numerator(other)));
+    let expanded = |product: Polynomial, which: usize| {
+        places.iter().fold(product, |so_far, place| {
+            let counts = place.of_products();
+            so_far.times_factor(place.at, counts[0].max(counts[1]) - counts[which])
+        })
+    };
+    expanded(main, 0).minus(&expanded(cross, 1))
 }
 
 fn sorted(mut roots: Vec<Complex>) -> Vec<Complex> {
@@ -107,7 +145,11 @@ fn sorted(mut roots: Vec<Complex>) -> Vec<Complex> {
 
 #[cfg(test)]
 mod tests {
+    use proptest::array::uniform4;
+    use proptest::proptest;
+
     use super::*;
+    use crate::linear::transfer::product;
     use crate::literature::PresetId;
     use crate::literature::campestrini::PublishedPlant;
 
@@ -210,5 +252,92 @@ mod tests {
     #[test]
     fn dead_times_that_do_not_leave_the_determinant_have_zeros_without_number() {
         assert_eq!(MatrixPolesAndZeros::of(&PublishedPlant::WoodBerry.transfer_matrix().unwrap()), Ok(None));
+    }
+
+    /// `n1/p1` and `n2/p2` between constant matrices: it has the poles of both and the zeros of both.
+    fn between_constants(
+        [n1, p1]: [&[f64]; 2],
+        [n2, p2]: [&[f64]; 2],
+        a: [[f64; 2]; 2],
+        b: [[f64; 2]; 2],
+    ) -> TransferMatrix {
+        let of_roots = |roots: &[f64]| roots.iter().fold(vec![1.0], |so_far, root| product(&so_far, &[-root, 1.0]));
+        let [first, second] = [product(&of_roots(n1), &of_roots(p2)), product(&of_roots(n2), &of_roots(p1))];
+        let both = product(&of_roots(p1), &of_roots(p2));
+        let entry = |row: usize, column: usize| {
+            let at = |of: &[f64], k: usize| of.get(k).copied().unwrap_or(0.0);
+            let shares = [a[row][0] * b[0][column], a[row][1] * b[1][column]];
+            let sum =
+                (0..both.len()).map(|k| shares[0] * at(&first, k) + shares[1] * at(&second, k)).collect::<Vec<_>>();
+            element(&sum, &both, 0.0)
+        };
+        TransferMatrix([[entry(0, 0), entry(0, 1)], [entry(1, 0), entry(1, 1)]])
+    }
+
+    #[test]
+    fn a_double_pole_of_all_elements_counts_twice_for_each_input() {
+        let of = |gain: f64| element(&[gain], &[1.0, 2.0, 1.0], 0.0);
+        let found =
+            MatrixPolesAndZeros::of(&TransferMatrix([[of(1.0), of(0.5)], [of(0.5), of(1.0)]])).unwrap().unwrap();
+        assert_roots(&found.poles, &[-1.0; 4], 1e-6);
+        assert_eq!(found.zeros, Some(vec![]));
+    }
+
+    #[test]
+    fn repeated_factors_of_published_process_two_are_no_zeros() {
+        let plant = PublishedPlant::ProcessTwo.transfer_matrix().unwrap();
+        let found = MatrixPolesAndZeros::of(&plant).unwrap().unwrap();
+        assert_roots(&found.poles, &[-10.0, -10.0, -10.0, -5.0, -5.0, -5.0, -5.0, -2.0], 1e-9);
+        let zeros = found.zeros.unwrap();
+        assert_eq!(zeros.len(), 2, "{zeros:?}");
+        for (zero, sign) in zeros.iter().zip([-1.0, 1.0]) {
+            assert!((zero - Complex::new(-6.0, sign * 8.0_f64.sqrt())).norm() < 1e-6, "{zero}");
+        }
+    }
+
+    #[test]
+    fn dead_times_of_signals_leave_the_determinant_whole() {
+        // diag(e^(−0.1 s), e^(−0.2 s)) G diag(1, e^(−0.3 s)): the sums of dead times differ by rounding.
+        let of = |gain: f64, dead_time: f64| element(&[gain], &[1.0, 2.0, 1.0], dead_time);
+        let found =
+            MatrixPolesAndZeros::of(&TransferMatrix([[of(1.0, 0.1), of(0.5, 0.4)], [of(0.5, 0.2), of(1.0, 0.5)]]));
+        assert_roots(&found.unwrap().unwrap().poles, &[-1.0; 4], 1e-9);
+    }
+
+    #[test]
+    fn repeated_complex_poles_stay_conjugate() {
+        // 1/(s² + 0.4 s + 1)² in all elements of a regular matrix.
+        let of = |gain: f64| element(&[gain], &[1.0, 0.8, 2.16, 0.8, 1.0], 0.0);
+        let found =
+            MatrixPolesAndZeros::of(&TransferMatrix([[of(1.0), of(0.5)], [of(0.5), of(1.0)]])).unwrap().unwrap();
+        let expected = [-1.0, 1.0].map(|sign| Complex::new(-0.2, sign * 0.96_f64.sqrt()));
+        assert_eq!((found.poles.len(), found.zeros), (8, Some(vec![])));
+        for place in expected {
+            let near = found.poles.iter().filter(|pole| (*pole - place).norm() < 1e-9).count();
+            assert_eq!(near, 4, "{:?}", found.poles);
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn repeated_factors_count_as_often_as_they_are_there(
+            first in (1_usize..=3, 1_usize..=4, 0_usize..=2),
+            second in (1_usize..=3, 1_usize..=4, 0_usize..=2),
+            gains in uniform4(0.3..2.0_f64),
+        ) {
+            let repeated = |(place, count, zeros): (usize, usize, usize), beside: f64| {
+                (vec![2.5 * beside; zeros.min(count)], vec![-(place as f64); count])
+            };
+            let ((n1, p1), (n2, p2)) = (repeated(first, 1.0), repeated(second, -1.0));
+            let [a, b, c, d] = gains;
+            let plant = between_constants([&n1, &p1], [&n2, &p2], [[1.0, a], [-b, 1.0]], [[1.0, -c], [d, 1.0]]);
+            let found = MatrixPolesAndZeros::of(&plant).unwrap().unwrap();
+            let expect = |mut roots: Vec<f64>| {
+                roots.sort_by(f64::total_cmp);
+                roots
+            };
+            assert_roots(&found.poles, &expect([p1, p2].concat()), 1e-6);
+            assert_roots(&found.zeros.unwrap(), &expect([n1, n2].concat()), 1e-6);
+        }
     }
 }

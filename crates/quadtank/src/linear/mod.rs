@@ -17,6 +17,7 @@ mod null_vectors;
 mod peaks;
 pub mod quadruple;
 mod reduction;
+mod repeated_roots;
 mod return_ratio;
 mod scaling;
 mod sensitivity;
