@@ -13,12 +13,12 @@ pub struct ReturnRatio<'a> {
     plant: &'a TransferMatrix,
     controllers: TransferMatrix,
     integrators: u32,
-    /// Factor and order of the pole of det(I + L) at the origin, for an integrating plant.
+    /// Factor and order of the pole of det(I + L) at the origin, for a loop with integrators.
     at_origin: Option<(f64, u32)>,
     at_infinity: Matrix2<f64>,
 }
 
-/// Smallest relative deviation of det(I + L) of an integrating plant from its asymptote at the origin that the lowest frequency is
+/// Smallest relative deviation of det(I + L) of a loop with integrators from its asymptote at the origin that the lowest frequency is
 /// chosen for; rounding hides smaller ones.
 const MIN_DEVIATION: f64 = 1e-9;
 /// Decades that the lowest frequency is lowered by at most to get there.
@@ -31,7 +31,7 @@ impl<'a> ReturnRatio<'a> {
     /// From a plant and controllers without dead time. `integrators` is the order of the pole of det(I + L) at the origin.
     /// Poles of the plant at the origin are among these.
     pub fn new(plant: &'a TransferMatrix, controllers: TransferMatrix, integrators: u32) -> Self {
-        let at_origin = plant.is_integrating().then(|| {
+        let at_origin = (integrators > 0).then(|| {
             let difference = series::return_difference(&series::elements(plant), &series::elements(&controllers));
             let (factor, _) = difference.leading().unwrap_or_default();
             (factor, difference.pole_order())
@@ -46,7 +46,7 @@ impl<'a> ReturnRatio<'a> {
     }
 
     /// Whether a pole of plant or controllers at the origin stays there in the closed loop, whatever its gains are: a part that
-    /// integrates without being controlled. Only an integrating plant is asked.
+    /// integrates without being controlled, or before a zero of the plant at the origin, or without a way to the outputs at rest.
     pub fn hides_an_integrator(&self) -> bool {
         self.at_origin.is_some_and(|(_, order)| order < self.integrators)
     }
@@ -68,8 +68,7 @@ impl<'a> ReturnRatio<'a> {
         self.plant.at(s) * self.controllers.at(s)
     }
 
-    /// A frequency below which every element of G and K is one power of s, to a relative deviation; of an integrating plant det(I + L)
-    /// too.
+    /// A frequency below which every element of G and K is one power of s, to a relative deviation; with integrators det(I + L) too.
     pub(super) fn low_end(&self, deviation: f64) -> f64 {
         let mut low = f64::INFINITY;
         for g in self.plant.0.as_flattened().iter().chain(self.controllers.0.as_flattened()) {

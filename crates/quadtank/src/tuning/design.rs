@@ -21,7 +21,6 @@ const POINTS: usize = 600;
 #[derive(Clone, Debug)]
 pub struct Design<'a> {
     plant: &'a TransferMatrix,
-    controllers: PidMatrix,
     ratio: ReturnRatio<'a>,
 }
 
@@ -34,7 +33,7 @@ impl<'a> Design<'a> {
         check_stable(plant)?;
         let integrators = plant.integrators() + controllers.integrators();
         let ratio = ReturnRatio::new(plant, controllers.transfer_matrix()?, integrators);
-        Ok(Self { plant, controllers, ratio })
+        Ok(Self { plant, ratio })
     }
 
     /// Return ratio G(jω) K(jω), with derivative filters.
@@ -76,7 +75,7 @@ impl<'a> Design<'a> {
         biggest_log_modulus(&self.ratio)
     }
 
-    /// How the loci close, by what the loop is at ω = 0: G(0) Ki with integral action in both loops, else G(0) Kp. With direct
+    /// How the loci close, by what the loop is near ω = 0, where one of them may be infinite and the other not. With direct
     /// feedthrough they close at ω = ∞ too, and two joints make each locus a closed curve again.
     pub fn closure(&self) -> LociClosure {
         let [at_rest, at_infinity] = [self.closure_at_rest(), LociClosure::of(self.ratio.at_infinity())];
@@ -84,17 +83,9 @@ impl<'a> Design<'a> {
     }
 
     fn closure_at_rest(&self) -> LociClosure {
-        if self.plant.is_integrating() {
-            // The sign of the discriminant near the origin, on the real axis, where the elements are real.
-            return frequency_range(self.plant)
-                .map_or(LociClosure::Separate, |(low, _)| LociClosure::of(&self.ratio.at_real(low * NEAR_ORIGIN)));
-        }
-        let gains = if self.controllers.integrators() == 2 {
-            self.controllers.integral()
-        } else {
-            Matrix2::from_fn(|row, column| self.controllers.0[row][column].proportional)
-        };
-        LociClosure::of(&(self.plant.dc_gain() * gains))
+        // The sign of the discriminant near the origin, on the real axis, where the elements are real.
+        frequency_range(self.plant)
+            .map_or(LociClosure::Separate, |(low, _)| LociClosure::of(&self.ratio.at_real(low * NEAR_ORIGIN)))
     }
 }
 
@@ -251,5 +242,26 @@ mod tests {
         let closure = |gains| of(&matrix(gains), [pi(0.1, 0.0); 2]).closure();
         assert_eq!(closure([1.0, 0.5, 0.5, 1.0]), LociClosure::Separate);
         assert_eq!(closure([1.0, 0.5, -0.5, 1.0]), LociClosure::Joint);
+    }
+
+    #[test]
+    fn loci_with_integral_action_in_one_loop_do_not_join() {
+        // G(0) = [1, 1; −1, 1]: towards ω = 0 one locus goes to infinity, the other to 2.
+        let of = |gain: f64| element(&[gain], &[1.0, 1.0], 0.0);
+        let plant = TransferMatrix([[of(1.0), of(1.0)], [of(-1.0), of(1.0)]]);
+        let closure = |integral: [f64; 2]| super::tests::of(&plant, integral.map(|ki| pi(1.0, ki))).closure();
+        assert_eq!(closure([1.0, 0.0]), LociClosure::Separate);
+        assert_eq!(closure([0.0, 0.0]), LociClosure::Joint);
+        assert_eq!(closure([1.0, 1.0]), LociClosure::Joint);
+    }
+
+    #[test]
+    fn an_integrator_before_a_zero_at_the_origin_stays() {
+        let washout = || element(&[0.0, 1.0], &[1.0, 1.0], 0.0);
+        let plant = diagonal(washout(), washout());
+        assert_eq!(of(&plant, [pi(1.0, 1.0); 2]).stability(), LoopStability::Marginal { frequency: 0.0 });
+        assert_eq!(of(&plant, [pi(1.0, 0.0); 2]).stability(), LoopStability::Stable);
+        let plant = diagonal(washout(), lag());
+        assert_eq!(of(&plant, [pi(1.0, 1.0); 2]).stability(), LoopStability::Marginal { frequency: 0.0 });
     }
 }
