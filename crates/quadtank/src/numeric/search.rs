@@ -27,8 +27,12 @@ const ROOT_STEPS: u32 = 60;
 /// Share of the interval below which it is a point.
 const ROOT_SHARE: f64 = 1e-16;
 
-/// Where a smooth function changes its sign, given at both ends of an interval: regula falsi with the correction of Illinois.
+/// Where a smooth function changes its sign, given at both ends of an interval, or an end where it is zero: regula falsi with the
+/// correction of Illinois.
 pub fn root(function: impl Fn(f64) -> f64, (start, at_start): (f64, f64), (end, at_end): (f64, f64)) -> f64 {
+    if at_start == 0.0 {
+        return start;
+    }
     let (mut low, mut at_low, mut high, mut at_high) = (start, at_start, end, at_end);
     let sign = at_start.signum();
     let mut side = 0;
@@ -71,6 +75,9 @@ mod tests {
         // Falling or rising, and one that is flat on one side.
         let cube = root(|x| x * x * x - 1e-3, (-1.0, -1.001), (4.0, 64.0));
         assert!((cube - 0.1).abs() < 1e-14);
+        // At an end.
+        assert_eq!(root(|x| x, (0.0, 0.0), (1.0, 1.0)), 0.0);
+        assert_eq!(root(|x| x - 1.0, (0.0, -1.0), (1.0, 0.0)), 1.0);
     }
 
     #[test]
