@@ -80,16 +80,6 @@ impl ParallelPid {
         TransferFunction::new(vec![ki, kp + ki * filter, kp * filter + kd], vec![0.0, 1.0, filter], 0.0)
     }
 
-    /// The sum of two controllers, with the filter of the first that has one of its own.
-    fn plus(self, other: Self) -> Self {
-        Self {
-            proportional: self.proportional + other.proportional,
-            integral: self.integral + other.integral,
-            derivative: self.derivative + other.derivative,
-            filter: self.filter.or(other.filter),
-        }
-    }
-
     fn scaled(self, factor: f64) -> Self {
         Self {
             proportional: factor * self.proportional,
@@ -174,18 +164,22 @@ impl PidMatrix {
         Self([[first, none], [none, second]])
     }
 
-    /// Two controllers between constant matrices, `K = A diag(p1, p2) B` (Campestrini 2006, eq. 83).
-    pub fn between(a: &Matrix2<f64>, controllers: [ParallelPid; 2], b: &Matrix2<f64>) -> Self {
-        let entry = |row: usize, column: usize| {
-            let [first, second] = [0, 1].map(|k| controllers[k].scaled(a[(row, k)] * b[(k, column)]));
-            first.plus(second)
+    /// Two PI controllers of the gains kp and ki between constant matrices, `K = A diag(p1, p2) B` (Campestrini 2006, eq. 83). A sum
+    /// of filtered derivatives would be no PID controller: each has a filter time of its own.
+    pub fn between(a: &Matrix2<f64>, [first, second]: [(f64, f64); 2], b: &Matrix2<f64>) -> Self {
+        let product = |one: f64, other: f64| a * Matrix2::new(one, 0.0, 0.0, other) * b;
+        let (proportional, integral) = (product(first.0, second.0), product(first.1, second.1));
+        let entry = |row: usize, column: usize| ParallelPid {
+            proportional: proportional[(row, column)],
+            integral: integral[(row, column)],
+            ..ParallelPid::default()
         };
         Self([[entry(0, 0), entry(0, 1)], [entry(1, 0), entry(1, 1)]])
     }
 
     /// Two loops behind a static decoupler `u1 = v1 + K_I1 v2`, `u2 = v2 + K_I2 v1` (Campestrini 2006, eq. 72).
-    pub fn decoupled(controllers: [ParallelPid; 2], [one, two]: [f64; 2]) -> Self {
-        Self::between(&Matrix2::new(1.0, one, two, 1.0), controllers, &Matrix2::identity())
+    pub fn decoupled([first, second]: [ParallelPid; 2], [one, two]: [f64; 2]) -> Self {
+        Self([[first, second.scaled(one)], [first.scaled(two), second]])
     }
 
     /// Value at a frequency, with derivative filters.

@@ -175,7 +175,7 @@ fn table_3_ultimates_of_each_locus() {
 
 #[test]
 fn equation_88_with_the_sign_that_was_lost() {
-    let mu = [pid([0.437, 0.154, 0.0]), pid([-0.167, -0.019, 0.0])];
+    let mu = [(0.437, 0.154), (-0.167, -0.019)];
     let b = Matrix2::new(-1.08, 0.45, -0.20, 1.08);
     let k = |a21: f64| PidMatrix::between(&Matrix2::new(-1.0, 0.42, a21, 1.0), mu, &b).0;
     // Recomputed with A21 = −0.18; the printed second row, 0.120 0.035 −0.217 −0.034, is within the rounding of A and B.

@@ -100,25 +100,23 @@ fn what_has_no_other_form_is_none() {
 
 #[test]
 fn controllers_between_matrices_are_a_product_of_matrices() {
-    let pid = |proportional, integral, derivative| ParallelPid {
-        proportional,
-        integral,
-        derivative,
-        ..ParallelPid::default()
-    };
-    let pids = [pid(2.0, 0.5, 3.0), pid(-3.0, 0.25, 7.0)];
     let (a, b) = (Matrix2::new(1.0, 2.0, -3.0, 5.0), Matrix2::new(0.5, -1.5, 4.0, 6.0));
-    let matrix = PidMatrix::between(&a, pids, &b);
-    let product = |part: fn(&ParallelPid) -> f64| {
-        let found = Matrix2::from_fn(|row, column| part(&matrix.0[row][column]));
-        let diagonal = Matrix2::from_diagonal(&nalgebra::Vector2::new(part(&pids[0]), part(&pids[1])));
-        assert_relative_eq!(found, a * diagonal * b, epsilon = 1e-13);
-    };
-    product(|pid| pid.proportional);
-    product(|pid| pid.integral);
-    product(|pid| pid.derivative);
+    let matrix = PidMatrix::between(&a, [(2.0, 0.5), (-3.0, 0.25)], &b);
+    let s = Complex::new(0.0, 0.3);
+    let diagonal = Matrix2::new(s.inv() * 0.5 + 2.0, Complex::ZERO, Complex::ZERO, s.inv() * 0.25 - 3.0);
+    let expected = a.map(Complex::from) * diagonal * b.map(Complex::from);
+    assert_relative_eq!((matrix.at(0.3) - expected).norm(), 0.0, epsilon = 1e-12);
     assert_eq!(matrix.integral()[(1, 0)], matrix.0[1][0].integral);
-    assert_eq!(matrix.at(0.3)[(0, 1)], matrix.0[0][1].at(0.3));
+}
+
+#[test]
+fn a_decoupler_stands_behind_the_filters_of_the_controllers() {
+    let pid = |proportional, derivative, filter| ParallelPid { proportional, integral: 0.5, derivative, filter };
+    let pids = [pid(2.0, 3.0, None), pid(-3.0, 7.0, Some(0.4))];
+    let decoupler = Matrix2::new(1.0, 0.0, -0.5, 1.0).map(Complex::from);
+    let [first, second] = pids.map(|pid| pid.at(0.3));
+    let expected = decoupler * Matrix2::new(first, Complex::ZERO, Complex::ZERO, second);
+    assert_relative_eq!((PidMatrix::decoupled(pids, [0.0, -0.5]).at(0.3) - expected).norm(), 0.0, epsilon = 1e-12);
 }
 
 #[test]

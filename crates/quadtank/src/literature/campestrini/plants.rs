@@ -1,7 +1,7 @@
 use nalgebra::Matrix2;
 use serde::{Deserialize, Serialize};
 
-use crate::control::{ParallelPid, PidMatrix};
+use crate::control::PidMatrix;
 use crate::linear::{LinearError, TransferFunction, TransferMatrix};
 
 /// A published plant with two inputs and two outputs, as transfer functions.
@@ -38,8 +38,7 @@ impl PublishedPlant {
 /// The full controller of the column of Wood and Berry, A diag(μ1, μ2) B by the characteristic-locus method (Campestrini 2006,
 /// eqs. 87 and 88). A21 has lost its sign in print; with −0.18 the product is the printed one, but for the rounding of A and B.
 pub fn wood_berry_full_controller() -> PidMatrix {
-    let pi = |proportional, integral| ParallelPid { proportional, integral, ..ParallelPid::default() };
     let a = Matrix2::new(-1.0, 0.42, -0.18, 1.0);
     let b = Matrix2::new(-1.08, 0.45, -0.20, 1.08);
-    PidMatrix::between(&a, [pi(0.437, 0.154), pi(-0.167, -0.019)], &b)
+    PidMatrix::between(&a, [(0.437, 0.154), (-0.167, -0.019)], &b)
 }
