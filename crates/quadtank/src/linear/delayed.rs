@@ -1,5 +1,7 @@
 //! Exact simulation of transfer functions with dead time, for inputs that are constant between switches.
 
+use std::f64::consts::FRAC_PI_2;
+
 use nalgebra::Matrix2;
 
 use super::lag_chain::{Leap, MAX_ORDER, Motion, State};
@@ -65,8 +67,8 @@ impl DelayedPlant {
     /// # Errors
     /// [`LinearError::OutOfRange`] for a path that is not proper, of an order above [`MAX_ORDER`], or with an index of
     /// input or output above 1.
-    pub fn new(paths: &[SignalPath]) -> Result<Self, LinearError> {
-        if let Some(path) = paths.iter().find(|path| path.input > 1 || path.output > 1) {
+    pub fn new(paths_of: &[SignalPath]) -> Result<Self, LinearError> {
+        if let Some(path) = paths_of.iter().find(|path| path.input > 1 || path.output > 1) {
             return Err(LinearError::OutOfRange { field: "path", value: path.input.max(path.output) as f64 });
         }
         let moving = |path: &SignalPath| {
@@ -75,8 +77,9 @@ impl DelayedPlant {
             let (input, output) = (path.input, path.output);
             Ok(PathState { input, output, dead_time, motion, state: [0.0; MAX_ORDER], acting: 0.0, awaited: 0 })
         };
-        let paths = paths.iter().map(moving).collect::<Result<Vec<_>, LinearError>>()?;
-        let search_step = paths.iter().map(|path| 0.5 * path.motion.unit()).fold(f64::INFINITY, f64::min);
+        let paths = paths_of.iter().map(moving).collect::<Result<Vec<_>, LinearError>>()?;
+        let swings = paths_of.iter().map(|path| quarter_of_quickest_swing(&path.element));
+        let search_step = paths.iter().map(|path| 0.5 * path.motion.unit()).chain(swings).fold(f64::INFINITY, f64::min);
         Ok(Self {
             paths,
             inputs: [0.0; 2],
@@ -139,7 +142,8 @@ impl DelayedPlant {
         self.paths.iter().filter_map(|path| self.arrival(path)).fold(f64::INFINITY, f64::min) - self.time
     }
 
-    /// Time within which no path has more than one extremum: half of the shortest mean time constant.
+    /// Time within which no path has more than one extremum: half of the shortest mean time constant, or a quarter of the period of the
+    /// quickest swing, which may be far shorter.
     pub fn search_step(&self) -> f64 {
         self.search_step
     }
@@ -225,6 +229,12 @@ impl DelayedPlant {
         }
         outputs
     }
+}
+
+/// Infinite without complex poles.
+fn quarter_of_quickest_swing(element: &TransferFunction) -> f64 {
+    let quickest = element.poles().unwrap_or_default().iter().map(|pole| pole.im).fold(0.0, f64::max);
+    FRAC_PI_2 / quickest
 }
 
 impl TransferMatrix {

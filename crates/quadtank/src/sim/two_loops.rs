@@ -233,6 +233,11 @@ impl<'a> Run<'a> {
     }
 
     fn take_sample(&mut self) {
+        // Samples that follow each other at once, with a step of 0, would never come to the check between them.
+        if self.is_full() {
+            self.trace.halt = Some(Halt::Full { time: self.time });
+            return;
+        }
         let outputs = self.plant.outputs();
         let bound = DIVERGED * self.loops.excitation();
         if outputs.iter().any(|y| y.is_nan() || y.abs() > bound) {

@@ -73,3 +73,27 @@ fn a_pi_loop_reaches_its_reference_and_a_wrong_sign_diverges() {
     assert_relative_eq!(*trace.outputs[0].last().unwrap(), 1.0, epsilon = 1e-9);
     assert!(matches!(run(pid(-2.0, -0.5)).halt, Some(Halt::Diverged { .. })));
 }
+
+#[test]
+fn a_step_that_is_none_ends_with_a_full_record() {
+    for step in [0.0, -1.0] {
+        let mut plant = single(TransferFunction::lags(1.0, &[3.0], 0.5).unwrap());
+        let trace = run_two_loops(&mut plant, &relay_loop(Relay::ideal(1.0, 1.0), 10.0, step));
+        assert_eq!((trace.halt, trace.time.len()), (Some(Halt::Full { time: 0.0 }), MAX_ROWS + 1));
+    }
+}
+
+#[test]
+fn no_switch_of_a_quick_resonance_is_passed_over() {
+    // A quick resonance behind a slow lag, whose mean time constant is far longer than the period of the resonance.
+    let element = TransferFunction::lags(1.0, &[100.0], 0.0).unwrap();
+    let element = element.times(&TransferFunction::new(vec![1.0], vec![1.0, 2e-4, 1e-4], 0.0).unwrap());
+    let relay = Relay { hysteresis: 1e-4, ..Relay::ideal(1.0, 1.0) };
+    let switches = |step: f64| run_two_loops(&mut single(element.clone()), &relay_loop(relay, 2.0, step)).switches;
+    let (coarse, fine) = (switches(2.0), switches(1e-3));
+    assert!(fine[0].len() > 20, "{fine:?}");
+    assert_eq!(coarse[0].len(), fine[0].len());
+    for (one, other) in coarse[0].iter().zip(&fine[0]) {
+        assert_relative_eq!(one.0, other.0, epsilon = 1e-9);
+    }
+}
