@@ -61,6 +61,13 @@ impl MatrixPolesAndZeros {
     }
 }
 
+impl MatrixPolesAndZeros {
+    /// Whether a zero is in the right half-plane, where it limits every controller.
+    pub fn has_right_half_plane_zero(&self) -> bool {
+        self.zeros.iter().flatten().any(|zero| zero.re > 0.0)
+    }
+}
+
 /// Whether both products of det G have the same dead time, or one of them is zero.
 fn is_whole(TransferMatrix([[a, b], [c, d]]): &TransferMatrix) -> bool {
     let [main, cross] = [(a, d), (b, c)].map(|(one, other)| one.dead_time() + other.dead_time());

@@ -36,7 +36,7 @@ pub struct DesignReport {
     pub comparison: Option<ComparisonReport>,
 }
 
-/// A pair of controllers, which is one root of a placement or the given pair, and the closed loop with it; no decoupler acts.
+/// A pair of controllers, which is one root of a placement, the given pair, or that of a relay test, and the closed loop with it; no decoupler acts.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RootReport {
@@ -237,7 +237,7 @@ impl DesignReport {
 }
 
 impl RootReport {
-    fn of(study: &PlantStudy, root: &DesignRoot) -> Result<Self, TuningError> {
+    pub(super) fn of(study: &PlantStudy, root: &DesignRoot) -> Result<Self, TuningError> {
         let (margins, peaks) = (study.margins(root)?, study.peaks(root)?);
         Ok(Self {
             controllers: root.controllers.map(Gains::from),

@@ -5,7 +5,7 @@ use quadtank::tuning::{
 };
 use serde::Serialize;
 
-use super::TOO_MUCH_WORK;
+use super::{RootReport, TOO_MUCH_WORK};
 use crate::report::{ComplexNumber, rows};
 
 /// What a relay test finds.
@@ -42,11 +42,15 @@ pub enum TestReport {
     Independent {
         /// Tests of loops 1 and 2.
         loops: [LoopTestReport; 2],
+        /// The loop with the settings of both tests; null where a test leaves a loop without.
+        pair: Option<Box<RootReport>>,
     },
     /// A relay in one loop after the other, those before closed by the rule.
     Sequential {
         /// Its steps, in order.
         steps: Vec<SequentialStepReport>,
+        /// The loop with the settings that the last test of each loop ends in; null where one leaves a loop without.
+        pair: Option<Box<RootReport>>,
     },
 }
 
@@ -201,6 +205,8 @@ pub struct Settings {
 
 impl TestReport {
     pub(super) fn of(study: &PlantStudy, test: &Tested, spec: &TestSpec) -> Result<Self, TuningError> {
+        let pair = study.pair_of_test(test)?;
+        let pair = pair.map(|pair| RootReport::of(study, &pair).map(Box::new)).transpose()?;
         Ok(match test {
             Tested::Single(test, found) => {
                 let cycle = match test.reading.oscillation {
@@ -224,9 +230,9 @@ impl TestReport {
                     exact_g: recovered.map(|RecoveredResponse { exact, .. }| rows(&exact)),
                 }
             }
-            Tested::Independent(loops) => Self::Independent { loops: loops.each_ref().map(LoopTestReport::from) },
+            Tested::Independent(loops) => Self::Independent { loops: loops.each_ref().map(LoopTestReport::from), pair },
             Tested::Sequential(steps) => {
-                Self::Sequential { steps: steps.iter().map(SequentialStepReport::from).collect() }
+                Self::Sequential { steps: steps.iter().map(SequentialStepReport::from).collect(), pair }
             }
         })
     }

@@ -10,7 +10,7 @@ use crate::tuning::{
     response_at, warnings_of_gains,
 };
 
-use super::{Comparison, CriticalSpec, DesignSpec, GivenPid, PlantStudy, StepResponse, TuningSetup};
+use super::{Comparison, CriticalSpec, DesignSpec, GivenPid, PlantStudy, StepResponse, Tested, TuningSetup};
 
 /// The controllers of a session, both roots of a placement or given ones, with what they do.
 #[derive(Clone, Debug, PartialEq)]
@@ -144,6 +144,14 @@ impl PlantStudy {
         let controllers = controllers.map(ParallelPid::from);
         let warnings = warnings_of_gains(&self.wired(pairing).rest_gain(), controllers);
         self.root(controllers, pairing, warnings)
+    }
+
+    /// The loop with the settings of both loops that a test ends in; `None` for a test that does not, see [`Tested::settings`].
+    ///
+    /// # Errors
+    /// [`TuningError::UnstablePlant`] or [`TuningError::Linear`], as [`Design::new`].
+    pub fn pair_of_test(&self, test: &Tested) -> Result<Option<DesignRoot>, TuningError> {
+        test.settings().map(|settings| self.given(settings.map(GivenPid::from), Pairing::Diagonal)).transpose()
     }
 
     fn root(

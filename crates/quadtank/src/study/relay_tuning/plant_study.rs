@@ -1,7 +1,7 @@
 use nalgebra::Matrix2;
 
-use crate::control::{PidMatrix, Relay};
-use crate::linear::{Complex, DelayedPlant, TransferMatrix};
+use crate::control::{IsaPid, PidMatrix, Relay};
+use crate::linear::{Complex, DelayedPlant, LinearError, MatrixPolesAndZeros, TransferMatrix};
 use crate::tuning::{
     CriticalCurve, CriticalSearch, CurveDistance, RelayTest, SequentialStep, TestAndSettings, TestTime, TuningError,
     check_stable, distance_from_curve, frequency_range, independent_tuning, relay_test, sequential_tuning,
@@ -24,6 +24,8 @@ pub struct PlantStudy {
     pub rest_gain: Matrix2<f64>,
     /// λ11 of the relative gain array at rest; `None` where the gains at rest are singular.
     pub rga_11: Option<f64>,
+    /// Poles and transmission zeros; `None` where dead times do not leave det G as a whole, see [`MatrixPolesAndZeros::of`].
+    pub poles_and_zeros: Result<Option<MatrixPolesAndZeros>, LinearError>,
     /// The boundary of the stable gains.
     pub curve: CriticalCurve,
     /// Finds critical points in any direction.
@@ -52,6 +54,22 @@ pub enum Tested {
     Sequential(Vec<SequentialStep>),
     /// One of both loops, with its distances from the curve by peaks and by first harmonics.
     Simultaneous(Box<RelayTest>, [Option<CurveDistance>; 2]),
+}
+
+impl Tested {
+    /// The settings of both loops that an independent or a sequential test ends in; `None` where a loop is left without, and for other
+    /// tests.
+    pub fn settings(&self) -> Option<[IsaPid; 2]> {
+        match self {
+            Self::Independent(loops) => Some([loops[0].1?, loops[1].1?]),
+            // A test without settings is the last one.
+            Self::Sequential(steps) => match steps.as_slice() {
+                [.., first, second] => Some([first.settings?, second.settings?]),
+                _ => None,
+            },
+            Self::Single(..) | Self::Simultaneous(..) => None,
+        }
+    }
 }
 
 /// A point of a frequency response as a relay found it, and as it is.
@@ -95,7 +113,8 @@ impl PlantStudy {
         let (low, high) = frequency_range(&plant)?;
         let search = CriticalSearch::new(&plant, low, high);
         let curve = CriticalCurve::of(&plant, &search, DIRECTIONS);
-        Ok(Self { plant, rest_gain, rga_11: rga_11.ok(), curve, search })
+        let poles_and_zeros = MatrixPolesAndZeros::of(&plant);
+        Ok(Self { plant, rest_gain, rga_11: rga_11.ok(), poles_and_zeros, curve, search })
     }
 
     /// Gains on the axes of the normalised critical curve, k1 g11(0) and k2 g22(0) (Campestrini 2006, Fig. 25).
@@ -168,4 +187,61 @@ fn single(plant: &TransferMatrix, spec: &TestSpec, time: TestTime) -> Result<Tes
         Some(FoundPoint { frequency, modulus, response, phase })
     });
     Ok(Tested::Single(Box::new(test), found))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::control::{Pairing, ParallelPid};
+    use crate::linear::LoopStability;
+    use crate::tuning::{Design, TuningRule};
+
+    fn found(change: impl FnOnce(&mut TestSpec)) -> (PlantStudy, Tested) {
+        let mut setup = TuningSetup::default();
+        change(&mut setup.test);
+        let study = PlantStudy::of(&setup.plant).unwrap();
+        let test = study.test(&setup).unwrap();
+        (study, test)
+    }
+
+    #[test]
+    fn a_test_of_one_loop_after_the_other_ends_in_a_verdict_on_the_pair() {
+        for kind in [TestKind::Independent, TestKind::Sequential] {
+            let (study, test) = found(|test| (test.kind, test.passes) = (kind, 2));
+            let settings = test.settings().unwrap();
+            if let Tested::Sequential(steps) = &test {
+                assert_eq!(settings.map(Some), [steps[2].settings, steps[3].settings]);
+            }
+            let pair = study.pair_of_test(&test).unwrap().unwrap();
+            let controllers = settings.map(ParallelPid::from);
+            assert_eq!((pair.controllers, pair.pairing), (controllers, Pairing::Diagonal));
+            let design = Design::new(&study.plant, PidMatrix::decentralised(controllers)).unwrap();
+            assert_eq!(pair.stability, design.stability());
+        }
+    }
+
+    #[test]
+    fn settings_that_hold_a_loop_alone_may_not_hold_both() {
+        // Ziegler-Nichols PI for each loop of the column alone, as strong as it is and detuned by 2.5.
+        let of = |detuning: f64| {
+            let (study, test) = found(|test| {
+                (test.kind, test.rule) = (TestKind::Independent, TuningRule::ZieglerNicholsPid);
+                test.detuning = [detuning; 2];
+            });
+            study.pair_of_test(&test).unwrap().unwrap().stability
+        };
+        assert!(matches!(of(1.0), LoopStability::Unstable { .. }));
+        assert_eq!(of(2.5), LoopStability::Stable);
+    }
+
+    #[test]
+    fn other_tests_have_no_settings_for_both_loops() {
+        for kind in [TestKind::Single, TestKind::Simultaneous] {
+            let (study, test) = found(|test| test.kind = kind);
+            assert_eq!((test.settings(), study.pair_of_test(&test)), (None, Ok(None)));
+        }
+        // A relay that never switches back leaves its loop without.
+        let (study, test) = found(|test| (test.kind, test.hysteresis) = (TestKind::Sequential, [0.0, 1e3]));
+        assert_eq!((test.settings(), study.pair_of_test(&test)), (None, Ok(None)));
+    }
 }
