@@ -51,6 +51,11 @@ pub fn follow(language: RwSignal<Language>, text: fn(Language) -> String) -> Sig
     Signal::derive(move || text(language.get()))
 }
 
+/// A text that is the same in all languages.
+pub fn symbol(text: &'static str) -> Signal<String> {
+    Signal::stored(text.to_owned())
+}
+
 /// The same as a signal, which is what the parts of the page take.
 macro_rules! say {
     ($lab:expr, $group:ident . $key:ident) => {

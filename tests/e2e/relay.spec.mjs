@@ -197,6 +197,43 @@ test('the point that a test found goes on to the placement, and the case says th
   for (const idle of ['test-amplitude', 'test-hysteresis1', 'test-bias1']) await expect(lab.id(idle)).toBeHidden();
 });
 
+test('a test of each loop says what its settings do together, and hands them over', async ({ lab }) => {
+  await lab.open(BENCH);
+  await lab.id('test-independent').click();
+  await lab.settle();
+  await lab.id('test-details').click();
+  const verdict = lab.id('test-details').locator('xpath=../div/table/caption');
+  await expect(verdict).toContainText(/^Both loops closed with these settings: (Stable|Unstable)/);
+  await expect(lab.id('test-take')).toHaveText('use in step 3');
+  await lab.id('test-take').click();
+  await lab.settle();
+  await expect(lab.id('given-gain1')).toBeVisible();
+  // The verdict of step 3 is the same.
+  const pair = (await verdict.innerText()).replace('Both loops closed with these settings: ', '');
+  expect(await lab.text('placement-verdict')).toContain(pair.split('.')[0]);
+});
+
+test('poles and zeros of the plant stand with it', async ({ lab }) => {
+  await lab.open(BENCH);
+  const table = lab.id('plant-roots').locator('xpath=../div/table');
+  await lab.id('plant-roots').click();
+  await expect(table).toContainText('the dead times do not leave det G(s) as a whole');
+  await choose(lab, 'plant', 'process-two');
+  await expect(table).toContainText('−10.00 (3×); −5.000 (4×); −2.000');
+  await expect(table).toContainText('−6.000 ± 2.828j – none in the right half-plane');
+});
+
+test('the case that is shown goes with its plant when that is undone', async ({ lab }) => {
+  await lab.open(BENCH);
+  await choose(lab, 'plant', 'process-two');
+  await choose(lab, 'case', 'table-12-row-2');
+  await expect(lab.id('printed')).toBeVisible();
+  await lab.id('undo').click();
+  await lab.settle();
+  await expect(lab.id('plant')).toHaveValue('process-two');
+  await expect(lab.id('case')).not.toHaveValue('table-12-row-2');
+});
+
 test('a change that comes while another is painted counts as untold until its words are there', async ({ lab, page }) => {
   await lab.open(BENCH);
   await page.evaluate(async () => {

@@ -14,7 +14,7 @@ use super::session::{Session, use_session};
 use crate::controls::{ParamControl, ParamRow, Switch};
 use crate::lab::Lab;
 use crate::shown::ShownUnit;
-use crate::texts::{say, terms, tr};
+use crate::texts::{say, symbol, terms, tr};
 use crate::widgets::{Card, ChartCanvas, ChartMenu, Sentence, Text, Tick};
 
 /// Largest sensitivity peak that a search may be held to.
@@ -119,9 +119,9 @@ fn MeasureSwitch() -> impl IntoView {
             choices=vec![
                 (CostMeasure::LevelVariance, "cost-level", say!(lab, level.cost_level)),
                 (CostMeasure::OutflowVariance, "cost-outflow", say!(lab, level.cost_outflow)),
-                (CostMeasure::Iae, "cost-iae", Signal::stored("IAE".to_owned())),
-                (CostMeasure::Ise, "cost-ise", Signal::stored("ISE".to_owned())),
-                (CostMeasure::Itae, "cost-itae", Signal::stored("ITAE".to_owned())),
+                (CostMeasure::Iae, "cost-iae", symbol("IAE")),
+                (CostMeasure::Ise, "cost-ise", symbol("ISE")),
+                (CostMeasure::Itae, "cost-itae", symbol("ITAE")),
             ]
             read=|s| s.search.measure
             write=|s, measure| s.search.measure = measure

@@ -2,9 +2,10 @@
 
 use leptos::prelude::*;
 
+use super::placement::of_loop;
 use super::session::{Session, use_session};
 use crate::texts::{say, tr};
-use crate::widgets::{Folded, Row, TableContent};
+use crate::widgets::{Folded, Row, TableContent, marked};
 use quadtank::linear::Complex;
 use quadtank::study::relay_tuning::{ControllerForms, RecoveredResponse, Tested};
 
@@ -17,6 +18,9 @@ pub fn TestDetails() -> impl IntoView {
 }
 
 fn test_content(session: Session) -> AnyView {
+    if let Some(verdict) = verdict_on_pair(session) {
+        return view! { <caption>{marked(&verdict)}</caption> }.into_any();
+    }
     let found = session.throttled.study.with(|study| {
         session.throttled.test.with(|test| match (study.as_ref(), test.as_ref()) {
             (Ok(study), Ok(Tested::Simultaneous(test, _))) => {
@@ -29,6 +33,23 @@ fn test_content(session: Session) -> AnyView {
         Some(found) => responses(session, &found).into_any(),
         None => view! { <caption>{tr!(session.lab, relay.details_none)}</caption> }.into_any(),
     }
+}
+
+/// What the settings of an independent or a sequential test do together; nothing for other tests.
+fn verdict_on_pair(session: Session) -> Option<String> {
+    let lab = session.lab;
+    session.throttled.study.with(|study| {
+        session.throttled.test.with(|test| {
+            let (study, test) = (study.as_ref().as_ref().ok()?, test.as_ref().as_ref().ok()?);
+            if !matches!(test, Tested::Independent(_) | Tested::Sequential(_)) {
+                return None;
+            }
+            let Some(pair) = study.pair_of_test(test).ok()? else { return Some(tr!(lab, relay.pair_none)) };
+            let (margins, peaks) = (study.margins(&pair).ok().flatten(), study.peaks(&pair).ok());
+            let verdict = of_loop(lab, pair.stability, margins, peaks);
+            Some(tr!(lab, relay.pair_verdict, verdict = verdict))
+        })
+    })
 }
 
 /// The four responses at the ultimate frequency, recovered and of the model (Campestrini 2006, eqs. 122 and 123).

@@ -24,7 +24,20 @@ pub fn sentence(lab: Lab, error: &TuningError) -> String {
             let lead = tr!(lab, relay.error_no_gain, number = number);
             if other_pairing { format!("{lead} {}", tr!(lab, relay.error_other_pairing)) } else { lead }
         }
-        TuningError::Linear(LinearError::SingularGain { .. }) => tr!(lab, relay.error_singular),
-        TuningError::Linear(error) => tr!(lab, relay.error_plant, reason = error),
+        TuningError::Linear(error) => of_plant(lab, error),
+    }
+}
+
+/// What is wrong with the plant itself.
+fn of_plant(lab: Lab, error: LinearError) -> String {
+    let number = |v: f64| lab.number_style().significant(v, 3);
+    match error {
+        LinearError::SingularGain { .. } => tr!(lab, relay.error_singular),
+        LinearError::DegenerateRank { .. } => tr!(lab, zeros.degenerate),
+        LinearError::NoConvergence { .. } => tr!(lab, relay.error_no_convergence),
+        LinearError::OutOfRange { field: "order", value } => tr!(lab, relay.error_order, value = number(value)),
+        LinearError::OutOfRange { field: "relative_degree", .. } => tr!(lab, relay.error_improper),
+        LinearError::OutOfRange { field, value } => tr!(lab, relay.error_range, field = field, value = number(value)),
+        LinearError::Dimension { .. } | LinearError::NotSquare { .. } => tr!(lab, relay.error_plant),
     }
 }

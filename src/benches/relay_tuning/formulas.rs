@@ -227,9 +227,8 @@ fn take_script(session: Session, text: &str) -> Result<(), Refusal> {
     Ok(())
 }
 
-/// The session of another plant, of which no published case is.
+/// The session of another plant.
 fn take(session: Session, setup: TuningSetup) {
-    session.own.case.set(None);
     session.edit(|s| *s = setup);
 }
 

@@ -1,7 +1,6 @@
 //! The relay-tuning bench: relay test, critical curve, placement of the critical point, response (Campestrini 2006).
 
 mod compared;
-mod controls;
 mod curve;
 mod details;
 mod errors;
@@ -16,6 +15,7 @@ mod plant;
 mod printed;
 mod readout;
 mod response;
+mod roots;
 mod session;
 mod step;
 mod test;

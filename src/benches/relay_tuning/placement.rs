@@ -3,7 +3,6 @@
 use leptos::prelude::*;
 
 use super::compared::SideBySide;
-use super::controls::symbol;
 use super::details::OtherForms;
 use super::errors;
 use super::flags::{locks, panels};
@@ -14,9 +13,9 @@ use super::session::{Session, use_session};
 use super::step::Step;
 use crate::controls::{ParamControl, ParamRow, Switch};
 use crate::lab::Lab;
-use crate::texts::{say, terms, tr};
+use crate::texts::{say, symbol, terms, tr};
 use crate::widgets::{Choice, Figures, Nudge, PointHandle, Row, Scale, Select, TableContent, Text};
-use quadtank::linear::{LociClosure, LoopStability};
+use quadtank::linear::{LociClosure, LoopStability, Margins};
 use quadtank::study::relay_tuning::{DesignRoot, LoopPeaks, TuningSetup, rule_targets};
 use quadtank::tuning::{Action, PlacementMethod, PlacementWarning, TuningRule};
 use quadtank_figure::Frame;
@@ -206,21 +205,12 @@ fn sentence(session: Session) -> (bool, String) {
     };
     let chosen = design.chosen_root();
     let style = lab.number_style();
-    let mut text = match chosen.stability {
-        LoopStability::Stable => session.throttled.critical.with(|reading| {
-            let Ok(reading) = reading else { return String::new() };
-            let Some(margins) = reading.margins else { return tr!(lab, relay.margins_not_computed) };
-            let distance = style.significant(margins.distance, 3);
-            let degrees = margins.phase.map_or_else(|| "–".to_owned(), |p| style.fixed(p.to_degrees(), 0));
-            let gain = margins.gain_up.map_or_else(|| "∞".to_owned(), |g| style.significant(g, 3));
-            let margins = tr!(lab, relay.stable, distance = distance, degrees = degrees, gain = gain);
-            margins + &of_peaks(lab, reading.peaks)
-        }),
-        LoopStability::Unstable { poles } => tr!(lab, relay.unstable, poles = poles),
-        LoopStability::Marginal { .. } => tr!(lab, relay.marginal),
-        LoopStability::NotComputed { .. } => tr!(lab, relay.not_computed),
-        LoopStability::AlgebraicLoop { eigenvalue } => {
-            tr!(lab, relay.algebraic_loop, eigenvalue = style.significant(eigenvalue, 3))
+    let mut text = match session.throttled.critical.get() {
+        Err(_) if chosen.stability == LoopStability::Stable => String::new(),
+        reading => {
+            let reading = reading.ok();
+            let margins = reading.as_ref().and_then(|reading| reading.margins);
+            of_loop(lab, chosen.stability, margins, reading.and_then(|reading| reading.peaks))
         }
     };
     if chosen.closure == LociClosure::Joint {
@@ -237,6 +227,26 @@ fn sentence(session: Session) -> (bool, String) {
     }
     let mild = |warning: &PlacementWarning| matches!(warning, PlacementWarning::DoubleEigenvalue);
     (chosen.stability == LoopStability::Stable && chosen.warnings.iter().all(mild), text)
+}
+
+/// Whether a loop is stable and how far from the limit.
+pub fn of_loop(lab: Lab, stability: LoopStability, margins: Option<Margins>, peaks: Option<LoopPeaks>) -> String {
+    let style = lab.number_style();
+    match stability {
+        LoopStability::Stable => {
+            let Some(margins) = margins else { return tr!(lab, relay.margins_not_computed) };
+            let distance = style.significant(margins.distance, 3);
+            let degrees = margins.phase.map_or_else(|| "–".to_owned(), |p| style.fixed(p.to_degrees(), 0));
+            let gain = margins.gain_up.map_or_else(|| "∞".to_owned(), |g| style.significant(g, 3));
+            tr!(lab, relay.stable, distance = distance, degrees = degrees, gain = gain) + &of_peaks(lab, peaks)
+        }
+        LoopStability::Unstable { poles } => tr!(lab, relay.unstable, poles = poles),
+        LoopStability::Marginal { .. } => tr!(lab, relay.marginal),
+        LoopStability::NotComputed { .. } => tr!(lab, relay.not_computed),
+        LoopStability::AlgebraicLoop { eigenvalue } => {
+            tr!(lab, relay.algebraic_loop, eigenvalue = style.significant(eigenvalue, 3))
+        }
+    }
 }
 
 /// Biggest log modulus and sensitivity peak, after the margins; nothing where they are not computed.

@@ -5,6 +5,7 @@ use leptos::prelude::*;
 use super::flags::{locks, panels};
 use super::formulas::OwnPlant;
 use super::printed::{PrintedFigures, name_of_case};
+use super::roots::PlantRoots;
 use super::session::{Session, load, use_session};
 use crate::benches::quadruple_tank::name_of;
 use crate::controls::{ParamControl, ParamRow, Switch};
@@ -60,7 +61,10 @@ pub fn PlantCard() -> impl IntoView {
             <div class="strip" hidden=no_rig><RigSettings /></div>
             <PrintedFigures />
             <p class="remark about" data-testid="plant-remark">{move || remark(session)}</p>
-            <OwnPlant />
+            <div class="folded">
+                <OwnPlant />
+                <PlantRoots />
+            </div>
         </Card>
     }
 }
@@ -265,7 +269,7 @@ fn CaseSelect() -> impl IntoView {
     });
     let choose = move |case: Option<PublishedCase>| match case {
         Some(case) => load(session, TuningSetup::published(case), Some(case)),
-        None => session.own.case.set(None),
+        None => session.own.hide_case(session.document),
     };
     view! {
         <Select

@@ -2,7 +2,6 @@
 
 use leptos::prelude::*;
 
-use super::controls::symbol;
 use super::errors;
 use super::flags::{locks, panels};
 use super::mends;
@@ -15,7 +14,7 @@ use crate::benches::handover::{self, HandOver};
 use crate::controls::Switch;
 use crate::lab::Lab;
 use crate::pinned::{PinButtons, PinnedSetups};
-use crate::texts::{say, terms, tr};
+use crate::texts::{say, symbol, terms, tr};
 use crate::widgets::{Choice, DataTable, Figure, Figures, ReasonedRow, Select, TableContent, Text, ZoomButtons};
 use quadtank::linear::LoopStability;
 use quadtank::literature::campestrini::PublishedPlant;

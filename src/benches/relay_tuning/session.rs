@@ -51,10 +51,37 @@ impl Found {
 /// What the bench remembers besides its document.
 #[derive(Clone, Copy)]
 pub struct Own {
+    /// The case that was chosen.
+    chosen: RwSignal<ChosenCase>,
     /// The published case that is shown.
-    pub case: RwSignal<Option<PublishedCase>>,
+    pub case: Memo<Option<PublishedCase>>,
     /// How far the steps are open.
     pub guide: Guide,
+}
+
+impl Own {
+    /// Shows no case for the session as it is.
+    pub fn hide_case(self, document: RwSignal<TuningScenario>) {
+        self.chosen.set(ChosenCase { case: None, setup: document.with_untracked(|s| s.tuning.clone()) });
+    }
+}
+
+/// A choice among the cases, or of none, and the session that it was made for.
+#[derive(Clone, Debug)]
+struct ChosenCase {
+    case: Option<PublishedCase>,
+    setup: TuningSetup,
+}
+
+impl ChosenCase {
+    /// The case to show beside a session, which undo, a link or a file may have put in the place of the one that the choice was made
+    /// for: the case that the session is, else the chosen one as long as the plant is its own.
+    fn shown(&self, setup: &TuningSetup) -> Option<PublishedCase> {
+        if self.setup == *setup {
+            return self.case;
+        }
+        case_of(setup).or(self.case.filter(|&case| TuningSetup::published(case).plant == setup.plant))
+    }
 }
 
 impl Bench for RelayTuning {
@@ -85,8 +112,10 @@ impl Bench for RelayTuning {
     }
 
     fn own(document: RwSignal<TuningScenario>) -> Own {
-        let case = RwSignal::new(document.with_untracked(|document| case_of(&document.tuning)));
-        Own { case, guide: Guide::new() }
+        let begun = document.with_untracked(|document| document.tuning.clone());
+        let chosen = RwSignal::new(ChosenCase { case: case_of(&begun), setup: begun });
+        let case = Memo::new(move |_| chosen.with(|chosen| document.with(|document| chosen.shown(&document.tuning))));
+        Own { chosen, case, guide: Guide::new() }
     }
 
     /// Units of time are those of the plant; those of input and output are the plant's own and have no name.
@@ -120,7 +149,7 @@ pub fn use_session() -> Session {
 
 /// Begins another session.
 pub fn load(session: Session, setup: TuningSetup, case: Option<PublishedCase>) {
-    session.own.case.set(case);
+    session.own.chosen.set(ChosenCase { case, setup: setup.clone() });
     session.edit(|s| *s = setup);
 }
 
@@ -135,5 +164,29 @@ pub fn time_unit(plant: &TuningPlant) -> &'static str {
         TuningPlant::Published(PublishedPlant::WoodBerry) => "min",
         TuningPlant::Elements(_) => "",
         _ => "s",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_case_that_is_shown_is_that_of_the_session() {
+        let [a, b] = [PublishedCase { table: 12, row: 2 }, PublishedCase { table: 12, row: 1 }];
+        let chosen =
+            |case: Option<PublishedCase>| ChosenCase { case, setup: TuningSetup::published(case.unwrap_or(a)) };
+        assert_eq!(chosen(Some(a)).shown(&TuningSetup::published(a)), Some(a));
+        // Undo brings another case back.
+        assert_eq!(chosen(Some(a)).shown(&TuningSetup::published(b)), Some(b));
+        // A change of the controllers stays with the case, another plant does not.
+        let mut changed = TuningSetup::published(a);
+        changed.design.target = [-0.3, 0.0];
+        assert_eq!(chosen(Some(a)).shown(&changed), Some(a));
+        changed.plant = TuningPlant::Published(PublishedPlant::ProcessTwo);
+        assert_eq!(chosen(Some(a)).shown(&changed), None);
+        // None is a choice too.
+        assert_eq!(chosen(None).shown(&TuningSetup::published(a)), None);
+        assert_eq!(chosen(None).shown(&TuningSetup::published(b)), Some(b));
     }
 }

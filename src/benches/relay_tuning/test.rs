@@ -4,6 +4,7 @@ use leptos::prelude::*;
 
 use super::details::TestDetails;
 use super::flags::{locks, panels};
+use super::given::within_limits;
 use super::guide::{self, SwitchOn};
 use super::mends;
 use super::pictures::{self, record_of, short_name};
@@ -13,10 +14,12 @@ use super::step::Step;
 use super::test_report::{sentence, table};
 use super::timeline::{BEGINNING, timeline};
 use crate::controls::{ParamControl, ParamRow, Switch};
+use crate::session::Lock;
 use crate::shown::ShownUnit;
 use crate::texts::{say, terms, tr};
 use crate::widgets::{Choice, DataTable, Figures, Scale, Select, Text, TimeBar, ZoomButtons};
-use quadtank::study::relay_tuning::{CriticalSpec, SeriesElement, TestKind, Tested, TuningSetup};
+use quadtank::control::Pairing;
+use quadtank::study::relay_tuning::{CriticalSpec, GivenPid, SeriesElement, TestKind, Tested, TuningSetup};
 use quadtank::tuning::TuningRule;
 use quadtank_figure::Frame;
 use quadtank_scenario::Limits;
@@ -167,39 +170,71 @@ pub fn TestCard() -> impl IntoView {
     }
 }
 
-/// Hands the point that the test found to the placement.
+/// What a test found for the steps that follow.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Finding {
+    /// A critical point, for the placement.
+    Point(CriticalSpec),
+    /// Settings of both loops, as given controllers.
+    Controllers([GivenPid; 2]),
+}
+
+impl Finding {
+    /// The critical point by first harmonics of a simultaneous test, or the settings that an independent or a sequential one ends in.
+    fn of(test: &Tested) -> Option<Self> {
+        if let Some(settings) = test.settings() {
+            return Some(Self::Controllers(settings.map(|pid| within_limits(pid.into()))));
+        }
+        let Tested::Simultaneous(test, _) = test else { return None };
+        let oscillation = test.reading.oscillation?;
+        Some(Self::Point(CriticalSpec::Point { gains: oscillation.gains_by_harmonic()?, period: oscillation.period }))
+    }
+
+    fn lock(self) -> Lock {
+        match self {
+            Self::Point(_) => locks::POINT,
+            Self::Controllers(_) => locks::TARGET,
+        }
+    }
+
+    fn apply(self, setup: &mut TuningSetup) {
+        match self {
+            Self::Point(point) => setup.design.critical = point,
+            Self::Controllers(both) => {
+                (setup.design.controllers, setup.design.pairing) = (Some(both), Pairing::Diagonal);
+            }
+        }
+    }
+}
+
+/// Hands what the test found to the steps that follow.
 #[component]
 fn TakeOver() -> impl IntoView {
     let session = use_session();
+    let lab = session.lab;
+    let found =
+        Memo::new(move |_| session.throttled.test.with(|outcome| outcome.as_ref().as_ref().ok().and_then(Finding::of)));
     let take = move |_| {
-        let found =
-            session.throttled.test.with_untracked(|outcome| outcome.as_ref().as_ref().ok().and_then(found_point));
-        if let Some(point) = found {
-            session.edit(|s| s.design.critical = point);
+        if let Some(found) = found.get_untracked() {
+            session.edit(|s| found.apply(s));
         }
     };
-    let nothing = Signal::derive(move || {
-        session.throttled.test.with(|outcome| outcome.as_ref().as_ref().ok().and_then(found_point).is_none())
-    });
+    let text = move || match found.get() {
+        Some(Finding::Controllers(_)) => tr!(lab, relay.take_settings),
+        Some(Finding::Point(_)) | None => tr!(lab, relay.take_over),
+    };
     view! {
         <button
             type="button"
             class="button small"
             data-testid="test-take"
-            hidden=nothing
-            disabled=session.lab.locks(locks::POINT)
+            hidden=move || found.get().is_none()
+            disabled=move || found.get().is_some_and(|found| lab.locks(found.lock()))
             on:click=take
         >
-            {say!(session.lab, relay.take_over)}
+            {text}
         </button>
     }
-}
-
-/// The critical point by first harmonics, from a simultaneous test.
-fn found_point(test: &Tested) -> Option<CriticalSpec> {
-    let Tested::Simultaneous(test, _) = test else { return None };
-    let oscillation = test.reading.oscillation?;
-    Some(CriticalSpec::Point { gains: oscillation.gains_by_harmonic()?, period: oscillation.period })
 }
 
 #[component]
