@@ -106,11 +106,16 @@ impl Disturbance {
         self.outlet_change.map(|change| larger(1.0 + change, 0.0))
     }
 
+    /// Flow of each pump under the load as a share of its flow without, at least 0.
+    #[inline]
+    pub fn pump_share(&self) -> [f64; 2] {
+        self.pump_gain_change.map(|change| larger(1.0 + change, 0.0))
+    }
+
     /// Flow of a pump under the load (m³/s), where it is `flow` (m³/s) without it.
     #[inline]
     fn flow_of_pump(&self, pump: usize, flow: f64) -> f64 {
-        let share = larger(1.0 + self.pump_gain_change[pump], 0.0);
-        larger(share * flow + self.pump_flow[pump], 0.0)
+        larger(self.pump_share()[pump] * flow + self.pump_flow[pump], 0.0)
     }
 }
 

@@ -86,7 +86,7 @@ impl<'a> LinearModel<'a> {
         let pumped: [f64; 2] = from_fn(|i| plant.pumps[i].flow(op.pump_voltage[i]));
         let turned = plant.with_valves(load.valves(plant.valves)).fractions_at(op.pump_voltage);
         let before = plant.fractions_at(op.pump_voltage);
-        let more: [f64; 2] = from_fn(|i| load.pump_gain_change[i] * pumped[i] + load.pump_flow[i]);
+        let more: [f64; 2] = from_fn(|i| (load.pump_share()[i] - 1.0) * pumped[i] + load.pump_flow[i]);
         let turned: [f64; 2] = from_fn(|i| (turned[i] - before[i]) * pumped[i]);
         let through_valves = [
             gamma_1 * more[0] + turned[0],
@@ -98,7 +98,8 @@ impl<'a> LinearModel<'a> {
             from_fn(|j| (load.outlet_share()[j] - 1.0) * plant.tanks[j].outflow(op.levels[j], plant.gravity));
         let from_above = [drained[2], drained[3], 0.0, 0.0];
         let leaked: [f64; 4] = from_fn(|j| load.leak_area[j] * (2.0 * plant.gravity * op.levels[j]).sqrt());
-        from_fn(|j| through_valves[j] + from_above[j] - drained[j] - leaked[j] + load.tank_flow[j])
+        let outside = plant.flows_from_outside(load);
+        from_fn(|j| through_valves[j] + from_above[j] - drained[j] - leaked[j] + outside[j] - plant.inflow[j])
     }
 }
 
@@ -137,9 +138,13 @@ impl Process for LinearModel<'_> {
 /// Runs an experiment on the linear model around `op` with the same sampled controllers and limits as
 /// [`simulate`](super::simulate), in absolute levels (m).
 ///
-/// Loads are inputs of the model: the flow of a pump or into a tank exactly; leaks, valves, outlets and pumps that change with the
-/// flows that they have at the operating point. The model knows no walls, so its levels may leave the tank; they stay finite because the plant itself is
-/// stable and the limits of the pumps bound its inputs. A dry tank stays dry. There are no events.
+/// Loads are inputs of the model. What flows into a tank from outside does so exactly, and never runs back. What is added to the flow
+/// of a pump is added as it is, also where pump and load together would run backwards, which the plant does not let them. Leaks,
+/// valves, outlets and pumps that change do so with the flows that they have at the operating point; a pump or an outlet that is lost
+/// by several loads is lost once, as in the plant.
+///
+/// The model knows no walls, so its levels may leave the tank; they stay finite because the plant itself is stable and the limits of
+/// the pumps bound its inputs. A dry tank stays dry. There are no events.
 pub fn simulate_linear(
     plant: &QuadrupleTank,
     op: &OperatingPoint,
@@ -166,7 +171,12 @@ mod tests {
     /// Levels (m) that a load moves in the end, with both pumps by hand and valves of these slopes: nonlinear and linear.
     fn moved_by(load: Load, valve_slopes: [f64; 2]) -> [[f64; 4]; 2] {
         let preset = PresetId::JohanssonMinimumPhase.preset();
-        let plant = QuadrupleTank { valve_slopes, ..preset.plant };
+        moved_on(&QuadrupleTank { valve_slopes, ..preset.plant }, &[load])
+    }
+
+    /// The same of several loads on a rig.
+    fn moved_on(plant: &QuadrupleTank, loads: &[Load]) -> [[f64; 4]; 2] {
+        let preset = PresetId::JohanssonMinimumPhase.preset();
         let op = plant.free_equilibrium(preset.pump_voltage);
         let by_hand = |pump: usize| PiSettings {
             gain: 1.0,
@@ -177,12 +187,12 @@ mod tests {
         };
         let controller =
             DecentralisedPi { pairing: Pairing::Diagonal, loops: [by_hand(0), by_hand(1)], sampling_time_s: 1.0 };
-        let experiment =
-            Experiment { load_steps: vec![LoadStep { time_s: 10.0, load }], ..Experiment::at_rest(2000.0) };
+        let load_steps = loads.iter().map(|&load| LoadStep { time_s: 10.0, load }).collect();
+        let experiment = Experiment { load_steps, ..Experiment::at_rest(2000.0) };
         let jacobian = plant.linearise(&op);
         let runs = [
-            simulate(&plant, &op, &controller, &experiment),
-            simulate_linear(&plant, &op, &jacobian, &controller, &experiment),
+            simulate(plant, &op, &controller, &experiment),
+            simulate_linear(plant, &op, &jacobian, &controller, &experiment),
         ];
         runs.map(|run| std::array::from_fn(|i| run.levels[i].last().copied().unwrap_or(f64::NAN) - op.levels[i]))
     }
@@ -235,5 +245,22 @@ mod tests {
                 assert_relative_eq!(nonlinear[i], linear[i], max_relative = 1e-3, epsilon = 1e-10);
             }
         }
+    }
+
+    #[test]
+    fn loads_add_up_to_no_more_than_there_is() {
+        let plant = PresetId::JohanssonMinimumPhase.preset().plant;
+        let lost = |change: f64| Load::PumpGain { pump: 0, change };
+        // Two losses that add up to more than all of the pump are the loss of the pump.
+        let [_, twice] = moved_on(&plant, &[lost(-0.6), lost(-0.6)]);
+        let [_, once] = moved_on(&plant, &[lost(-1.0)]);
+        assert_eq!(twice, once);
+
+        // A tank gives back no more than it receives from outside.
+        let fed = QuadrupleTank { inflow: [0.0, 0.0, 1e-7, 0.0], ..plant };
+        let taken = |flow: f64| moved_on(&fed, &[Load::TankFlow { tank: 2, flow }]);
+        let [[[nonlinear, ..], more], [_, all]] = [taken(-1e-5), taken(-1e-7)];
+        assert_eq!(more, all);
+        assert_relative_eq!(more[0], nonlinear, max_relative = 0.1);
     }
 }
