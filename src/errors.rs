@@ -37,6 +37,7 @@ pub fn of_error(lab: Lab, unit: DisplayUnit, error: &ScenarioError) -> String {
             tr!(lab, refused.scene, number = index + 1, reason = of_error(lab, unit, error))
         }
         ScenarioError::TooLong { length, max } => tr!(lab, refused.long, length = length, max = max),
+        ScenarioError::NoLink { max } => tr!(lab, refused.no_link, max = max),
         ScenarioError::DamagedLink => tr!(lab, refused.damaged),
         ScenarioError::Study { error, .. } => of_study_error(lab, unit, error),
         ScenarioError::Law { field, error } => of_law(lab, field, *error),

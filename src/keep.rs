@@ -67,13 +67,11 @@ fn settle(lab: Lab) {
     }
     let bench = lab.bench.get_untracked();
     (bench.record)(lab);
-    let is_in_address = show_address(&share::kept_reference(lab, bench));
+    let link = share::link_to_keep(lab, bench);
+    let is_in_address = show_address(&share::reference_with(lab, bench, link.as_deref()));
     // The pages of a course show many embedded benches; the last one of them is not what its reader looks for next time.
     let is_embedded = lab.flags.with_value(|flags| flags.embed);
-    if !is_embedded
-        && (bench.is_changed)(lab)
-        && let Ok(link) = (bench.link)(lab)
-    {
+    if let Some(link) = link.filter(|_| !is_embedded) {
         LAST.write(&link);
     }
     let is_kept = is_in_address || (!is_embedded && storage::is_allowed());

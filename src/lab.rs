@@ -27,6 +27,8 @@ const MAX_MAGNIFIED: f64 = 2.0;
 pub enum Notice {
     /// The link or file was not usable; the bench shows what it showed before.
     Refused(ScenarioError),
+    /// What is shown could not be written as a link or file.
+    NotWritten(ScenarioError),
     /// A new edition of the site is at hand.
     NewEdition,
     /// A lesson cannot be shown.

@@ -3,7 +3,7 @@
 use gloo_timers::callback::Timeout;
 use leptos::prelude::*;
 use quadtank::literature::DisplayUnit;
-use quadtank_scenario::{Scenes, document_from_link};
+use quadtank_scenario::{ScenarioError, Scenes, document_from_link};
 
 use super::benches::{load, name_of};
 use super::errors::of_error;
@@ -42,7 +42,7 @@ pub fn Notices() -> impl IntoView {
     view! {
         <div role="status" aria-live="polite" class="notices">
             {move || lab.notice.get().map(|notice| {
-                let is_bad = matches!(notice, Notice::Refused(_) | Notice::NoLesson(_) | Notice::NotRead | Notice::NotUnderstood(_) | Notice::NotKept { .. } | Notice::TableNotCopied);
+                let is_bad = matches!(notice, Notice::Refused(_) | Notice::NotWritten(_) | Notice::NoLesson(_) | Notice::NotRead | Notice::NotUnderstood(_) | Notice::NotKept { .. } | Notice::TableNotCopied);
                 let class = if is_bad { "notice" } else { "notice good" };
                 view! {
                     <div class=class data-testid="notice">
@@ -82,6 +82,9 @@ fn bring_back(lab: Lab, said: String, name: String, former: Scenes) -> AnyView {
 fn content(lab: Lab, notice: Notice) -> AnyView {
     match notice {
         Notice::Refused(error) => view! { <div>{tr!(lab, refused.lead)} " " {of_error(lab, DisplayUnit::Cm, &error)}</div> }.into_any(),
+        // This sentence says all of it.
+        Notice::NotWritten(error @ ScenarioError::NoLink { .. }) => view! { <div>{of_error(lab, DisplayUnit::Cm, &error)}</div> }.into_any(),
+        Notice::NotWritten(error) => view! { <div>{tr!(lab, refused.not_written)} " " {of_error(lab, DisplayUnit::Cm, &error)}</div> }.into_any(),
         Notice::NewEdition => view! {
             <div>{tr!(lab, app.new_edition)}</div>
             <button type="button" class="button small" data-testid="begin-anew" on:click=|_| offline::begin_anew()>

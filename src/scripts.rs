@@ -51,7 +51,7 @@ fn hand_over(lab: Lab, name: &str, mime: &str, write: impl Fn(&Scenario) -> Resu
     let Document::Quadruple(scenario) = (lab.bench.get_untracked().document)(lab) else { return };
     match write(&scenario) {
         Ok(text) => download_text(name, mime, &text),
-        Err(ExportError::Scenario(error)) => lab.notice.set(Some(Notice::Refused(error))),
+        Err(ExportError::Scenario(error)) => lab.notice.set(Some(Notice::NotWritten(error))),
         Err(ExportError::Study(error)) => {
             lab.notice.set(Some(Notice::Refused(ScenarioError::Study { setup: "setup", error })));
         }

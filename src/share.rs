@@ -74,7 +74,16 @@ pub fn bare_reference(lab: Lab) -> Result<String, ScenarioError> {
 /// The reference that brings a bench back as it is. One that is as it begins needs no document in its address, and what does not
 /// fit into one is left to the browser's memory and to files.
 pub fn kept_reference(lab: Lab, bench: &BenchEntry) -> String {
-    let link = (bench.is_changed)(lab).then(|| (bench.link)(lab).ok()).flatten();
+    reference_with(lab, bench, link_to_keep(lab, bench).as_deref())
+}
+
+/// The link of a bench that is not as it begins, if its document has one.
+pub fn link_to_keep(lab: Lab, bench: &BenchEntry) -> Option<String> {
+    (bench.is_changed)(lab).then(|| (bench.link)(lab).ok()).flatten()
+}
+
+/// [`kept_reference`] with the link that is known already.
+pub fn reference_with(lab: Lab, bench: &BenchEntry, link: Option<&str>) -> String {
     let mut pairs = vec![("bench", bench.id)];
     if link.is_some() || asked(lab).view.is_some() {
         pairs.extend(shown(lab, bench));
@@ -128,7 +137,7 @@ fn query_with(query: &str, pairs: &[(&str, &str)]) -> String {
 /// Puts the link on the clipboard and into the address bar, so that a reload restores the bench as well.
 pub fn share(lab: Lab) {
     match address_of(lab) {
-        Err(error) => lab.notice.set(Some(Notice::Refused(error))),
+        Err(error) => lab.notice.set(Some(Notice::NotWritten(error))),
         Ok(address) => {
             let fragment = address.split_once('#').map_or("", |(_, fragment)| fragment);
             show_address(&format!("#{fragment}"));
@@ -216,7 +225,7 @@ pub fn json_of(lab: Lab) -> Result<String, ScenarioError> {
 pub fn save(lab: Lab) {
     match json_of(lab) {
         Ok(text) => download_text(&file_name(lab, FILE), "application/json", &text),
-        Err(error) => lab.notice.set(Some(Notice::Refused(error))),
+        Err(error) => lab.notice.set(Some(Notice::NotWritten(error))),
     }
 }
 

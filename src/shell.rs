@@ -270,7 +270,7 @@ fn EmbedFooter() -> impl IntoView {
             }
             Err(error) => {
                 event.prevent_default();
-                lab.notice.set(Some(Notice::Refused(error)));
+                lab.notice.set(Some(Notice::NotWritten(error)));
             }
         }
     };

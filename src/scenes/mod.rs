@@ -44,7 +44,7 @@ fn change(lab: Lab, change: impl FnOnce(&mut Vec<Document>)) {
 fn remember(lab: Lab) {
     match lab.scenes.with_untracked(Scenes::to_json) {
         Ok(text) => _ = SCENES.write(&text),
-        Err(error) => lab.notice.set(Some(Notice::Refused(error))),
+        Err(error) => lab.notice.set(Some(Notice::NotWritten(error))),
     }
 }
 

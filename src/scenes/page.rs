@@ -145,7 +145,7 @@ fn leave_field() {
 fn copy_link(lab: Lab) {
     match share::reference_of_scenes(lab) {
         Ok(reference) => share::hand_over(lab, absolute(&reference)),
-        Err(error) => lab.notice.set(Some(Notice::Refused(error))),
+        Err(error) => lab.notice.set(Some(Notice::NotWritten(error))),
     }
 }
 
@@ -153,6 +153,6 @@ fn copy_link(lab: Lab) {
 fn save(lab: Lab) {
     match lab.scenes.with_untracked(Scenes::to_json) {
         Ok(text) => download_text(FILE, "application/json", &text),
-        Err(error) => lab.notice.set(Some(Notice::Refused(error))),
+        Err(error) => lab.notice.set(Some(Notice::NotWritten(error))),
     }
 }

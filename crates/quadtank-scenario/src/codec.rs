@@ -122,9 +122,7 @@ pub fn read_json<T: DeserializeOwned>(bytes: &[u8], limit: usize) -> Result<T, S
     reader::read(&tree)
 }
 
-/// Reads a document of any kind from what JSON was parsed to.
-///
-/// A later version of a document is read here too: into its own types, then brought up to date.
+/// Reads a document of any kind from what JSON was parsed to; which kind is said by its version.
 pub(super) fn document_from_tree(tree: &Tree) -> Result<Document, ScenarioError> {
     let found = version_of(tree)?;
     match DocumentKind::of_version(found) {
@@ -187,10 +185,18 @@ fn read<T: BenchDocument + DeserializeOwned>(tree: &Tree) -> Result<T, ScenarioE
 /// Writes the document of a bench as JSON, indented; all digits of all numbers are kept.
 ///
 /// # Errors
-/// What [`BenchDocument::validate`] finds: a document that could not be read again is not written.
+/// What [`BenchDocument::validate`] finds, and [`ScenarioError::TooLong`] beyond [`DOCUMENT_LIMIT`]: a document that could not be
+/// read again is not written.
 pub fn to_json(document: &impl BenchDocument) -> Result<String, ScenarioError> {
     document.validate()?;
-    serde_json::to_string_pretty(document).map_err(|error| malformed(String::new(), error.to_string()))
+    written(document)
+}
+
+/// What was validated, as the text of a file.
+pub(super) fn written(value: &impl Serialize) -> Result<String, ScenarioError> {
+    let text = serde_json::to_string_pretty(value).map_err(|error| malformed(String::new(), error.to_string()))?;
+    check_length(text.len())?;
+    Ok(text)
 }
 
 impl Document {

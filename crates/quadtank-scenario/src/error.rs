@@ -86,6 +86,12 @@ pub enum ScenarioError {
         /// The limit.
         max: usize,
     },
+    /// A document that does not fit into a link; a file holds it.
+    #[error("the document does not fit into a link of {max} characters; a file holds it")]
+    NoLink {
+        /// The limit.
+        max: usize,
+    },
     /// A scene that cannot be read or written.
     #[error("scenes[{index}].{error}")]
     Scene {

@@ -20,7 +20,7 @@ const MARK: char = 'q';
 /// Writes the document of a bench as text for the fragment of a URL: only letters, digits, `.`, `-` and `_`.
 ///
 /// # Errors
-/// [`ScenarioError::TooLong`] beyond [`LINK_LIMIT`], or what [`BenchDocument::validate`] finds.
+/// [`ScenarioError::NoLink`] beyond [`LINK_LIMIT`], or what [`BenchDocument::validate`] finds.
 ///
 /// # Examples
 /// ```
@@ -34,10 +34,11 @@ const MARK: char = 'q';
 pub fn to_link<D: BenchDocument>(document: &D) -> Result<String, ScenarioError> {
     // Without the indentation: a string of a document has no line breaks, so every line starts with it.
     let line: String = to_json(document)?.lines().map(str::trim_start).collect();
-    let link = format!("{MARK}{}.{}", D::VERSION, URL_SAFE_NO_PAD.encode(pack(D::DICTIONARY, line.as_bytes())));
-    if link.len() > LINK_LIMIT {
-        return Err(ScenarioError::TooLong { length: link.len(), max: LINK_LIMIT });
-    }
+    let mut link = format!("{MARK}{}.", D::VERSION);
+    // Three bytes take four characters.
+    let room = (LINK_LIMIT - link.len()) * 3 / 4;
+    let packed = pack(D::DICTIONARY, line.as_bytes(), room).ok_or(ScenarioError::NoLink { max: LINK_LIMIT })?;
+    URL_SAFE_NO_PAD.encode_string(packed, &mut link);
     Ok(link)
 }
 

@@ -5,6 +5,8 @@
 //! [`END`] is followed by a checksum. Where a copy begins is told relative to where the last one would go on, because a
 //! document follows its model, number by number. A tenth of the code of a general compressor, and its links are no longer.
 
+use std::collections::HashMap;
+
 /// Characters that take one half byte each.
 const SMALL: &[u8; 13] = b"0123456789.-e";
 const COPY: u8 = 13;
@@ -16,13 +18,26 @@ const SHORTEST: usize = 4;
 /// Half bytes of the checksum.
 const CHECK: u32 = 8;
 
-/// The half bytes of `text` after `known`, two in a byte.
-pub(super) fn pack(known: &[u8], text: &[u8]) -> Vec<u8> {
+/// The half bytes of `text` after `known`, two in a byte; `None` once they are more than `limit` bytes. What is left of a text is
+/// not looked at any more then, so that the work is bounded by the limit and not by the text.
+pub(super) fn pack(known: &[u8], text: &[u8], limit: usize) -> Option<Vec<u8>> {
+    let (out, taken) = halves_of(known, text, 2 * limit);
+    let fits = taken == text.len() && out.len() <= 2 * limit;
+    fits.then(|| out.chunks(2).map(|pair| pair[0] << 4 | pair.get(1).copied().unwrap_or(0)).collect())
+}
+
+/// The half bytes of `text` after `known`, and how many bytes of the text they tell: all, or those up to more than `limit` halves.
+fn halves_of(known: &[u8], text: &[u8], limit: usize) -> (Vec<u8>, usize) {
     let whole = [known, text].concat();
+    let mut seen = Seen::default();
     let mut out = Vec::new();
     let (mut at, mut expected) = (known.len(), 0);
     while at < whole.len() {
-        if let Some((from, length)) = best_copy(&whole, at, expected) {
+        if out.len() > limit {
+            return (out, at - known.len());
+        }
+        seen.up_to(&whole, at);
+        if let Some((from, length)) = best_copy(&whole, &seen, at, expected) {
             out.push(COPY);
             push_number(&mut out, zigzag(from, expected));
             push_number(&mut out, length - SHORTEST);
@@ -37,7 +52,31 @@ pub(super) fn pack(known: &[u8], text: &[u8]) -> Vec<u8> {
     out.push(END);
     let sum = checksum(text);
     out.extend((0..CHECK).map(|k| half((sum >> (4 * k)) as usize)));
-    out.chunks(2).map(|pair| pair[0] << 4 | pair.get(1).copied().unwrap_or(0)).collect()
+    (out, text.len())
+}
+
+/// Where the beginnings of copies stand, by their first [`SHORTEST`] bytes: a place that has others is not compared.
+#[derive(Default)]
+struct Seen {
+    places: HashMap<[u8; SHORTEST], Vec<usize>>,
+    end: usize,
+}
+
+impl Seen {
+    /// Takes up the places before `at`.
+    fn up_to(&mut self, whole: &[u8], at: usize) {
+        for place in self.end..at {
+            if let Some(&beginning) = whole[place..].first_chunk() {
+                self.places.entry(beginning).or_default().push(place);
+            }
+        }
+        self.end = at;
+    }
+
+    /// The places where what stands at `at` stands too, by their order.
+    fn like(&self, whole: &[u8], at: usize) -> impl Iterator<Item = usize> {
+        whole[at..].first_chunk().and_then(|beginning| self.places.get(beginning)).into_iter().flatten().copied()
+    }
 }
 
 /// The text that [`pack`] packed; `None` when anything is wrong with it or it is longer than `limit`.
@@ -84,11 +123,11 @@ pub(super) fn unpack(known: &[u8], packed: &[u8], limit: usize) -> Option<Vec<u8
 }
 
 /// The copy that saves most half bytes at a place, as its beginning and length.
-fn best_copy(whole: &[u8], at: usize, expected: usize) -> Option<(usize, usize)> {
+fn best_copy(whole: &[u8], seen: &Seen, at: usize, expected: usize) -> Option<(usize, usize)> {
     let mut best = None;
     let mut most = 0;
     // Where the last copy would go on first: it is the usual one and the cheapest to tell.
-    for from in std::iter::once(expected).chain(0..at).filter(|&from| from < at) {
+    for from in std::iter::once(expected).filter(|&from| from < at).chain(seen.like(whole, at)) {
         let length = whole[at..].iter().zip(&whole[from..]).take_while(|(a, b)| a == b).count();
         if length < SHORTEST {
             continue;
@@ -172,7 +211,7 @@ mod tests {
     const KNOWN: &[u8] = br#"{"gain": 3.0,"time": 30.0,"mode": "automatic"}"#;
 
     fn there_and_back(text: &[u8]) -> usize {
-        let packed = pack(KNOWN, text);
+        let packed = pack(KNOWN, text, 1000).unwrap();
         assert_eq!(unpack(KNOWN, &packed, 1000).as_deref(), Some(text));
         packed.len()
     }
@@ -189,7 +228,7 @@ mod tests {
 
     #[test]
     fn damage_is_noticed() {
-        let packed = pack(KNOWN, br#"{"gain": 4.25,"time": 30.0,"mode": "manual"}"#);
+        let packed = pack(KNOWN, br#"{"gain": 4.25,"time": 30.0,"mode": "manual"}"#, 1000).unwrap();
         for end in 0..packed.len() {
             assert_eq!(unpack(KNOWN, &packed[..end], 1000), None, "{end}");
         }
@@ -200,6 +239,19 @@ mod tests {
                 assert!(unpack(KNOWN, &wrong, 1000).is_none(), "{at} {bit}");
             }
         }
-        assert_eq!(unpack(KNOWN, &pack(KNOWN, &[b'x'; 900]), 899), None);
+        assert_eq!(unpack(KNOWN, &pack(KNOWN, &[b'x'; 900], 1000).unwrap(), 899), None);
+    }
+
+    #[test]
+    fn a_text_that_does_not_fit_is_left_where_it_does_not() {
+        let text: String =
+            (0..4000).map(|k| format!("{{\"time_s\": {k}.0,\"pump\": {},\"voltage\": 3.{k}}},", k % 2)).collect();
+        let (halves, taken) = halves_of(KNOWN, text.as_bytes(), 3000);
+        assert!(halves.len() <= 3020 && taken < text.len() / 3, "{taken} of {}", text.len());
+        assert_eq!(pack(KNOWN, text.as_bytes(), 1500), None);
+        // The limit is met to the byte.
+        let packed = pack(KNOWN, text.as_bytes(), text.len()).unwrap();
+        assert_eq!(pack(KNOWN, text.as_bytes(), packed.len()), Some(packed.clone()));
+        assert_eq!(pack(KNOWN, text.as_bytes(), packed.len() - 1), None);
     }
 }

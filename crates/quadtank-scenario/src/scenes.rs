@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::codec::{Document, check_length, document_from_tree, tree_of};
+use super::codec::{Document, check_length, document_from_tree, tree_of, written};
 use super::error::malformed;
 use super::text::text_of;
 use super::tree::Tree;
@@ -56,8 +56,9 @@ impl Scenes {
     /// Writes text for the fragment of a URL, in which only commas are added to those of [`to_link`](super::to_link).
     ///
     /// # Errors
-    /// [`ScenarioError::Scene`] for the first document that has no link.
+    /// [`ScenarioError::Scene`] for the first document that has no link, [`ScenarioError::TooMany`].
     pub fn to_link(&self) -> Result<String, ScenarioError> {
+        check_count(self.documents.len())?;
         let link = |(index, document): (usize, &Document)| document.to_link().map_err(of_scene(index));
         Ok(self.documents.iter().enumerate().map(link).collect::<Result<Vec<_>, _>>()?.join(SEPARATOR))
     }
@@ -65,12 +66,14 @@ impl Scenes {
     /// Writes the file.
     ///
     /// # Errors
-    /// [`ScenarioError::Scene`] for the first document that could not be read again.
+    /// What could not be read again is not written: [`ScenarioError::Scene`] for the first such document,
+    /// [`ScenarioError::TooMany`] scenes, [`ScenarioError::TooLong`].
     pub fn to_json(&self) -> Result<String, ScenarioError> {
+        check_count(self.documents.len())?;
         for (index, document) in self.documents.iter().enumerate() {
             document.validate().map_err(of_scene(index))?;
         }
-        serde_json::to_string_pretty(self).map_err(|error| malformed(FIELD.to_owned(), error.to_string()))
+        written(self)
     }
 
     fn from_tree(tree: &Tree, scenes: &Tree) -> Result<Self, ScenarioError> {
@@ -86,12 +89,15 @@ impl Scenes {
     }
 
     fn of<T>(parts: &[T], read: impl Fn(&T) -> Result<Document, ScenarioError>) -> Result<Self, ScenarioError> {
-        if parts.len() > Self::MAX {
-            return Err(ScenarioError::TooMany { field: FIELD.to_owned(), count: parts.len(), max: Self::MAX });
-        }
+        check_count(parts.len())?;
         let read = |(index, part)| read(part).map_err(of_scene(index));
         Ok(Self { documents: parts.iter().enumerate().map(read).collect::<Result<_, _>>()? })
     }
+}
+
+fn check_count(count: usize) -> Result<(), ScenarioError> {
+    let error = ScenarioError::TooMany { field: FIELD.to_owned(), count, max: Scenes::MAX };
+    if count > Scenes::MAX { Err(error) } else { Ok(()) }
 }
 
 /// What is wrong with a scene, from what is wrong with its document.
@@ -136,10 +142,12 @@ impl Document {
 
 #[cfg(test)]
 mod tests {
+    use quadtank::sim::PumpVoltageStep;
+
     use super::*;
     use crate::level_loop::LevelLoopScenario;
     use crate::tuning::TuningScenario;
-    use crate::{Scenario, document_from_bytes};
+    use crate::{DOCUMENT_LIMIT, Scenario, document_from_bytes};
 
     fn lecture() -> Scenes {
         let mut first = Document::Quadruple(Scenario::default());
@@ -193,5 +201,21 @@ mod tests {
         assert_eq!(text("{\"scenes\": [0]}"), "scenes[0].document: missing field `version`");
         // Where one document is expected, many are refused.
         assert!(document_from_bytes(lecture().to_json().unwrap().as_bytes()).is_err());
+    }
+
+    #[test]
+    fn what_could_not_be_read_again_is_not_written() {
+        let many = Scenes { documents: vec![Document::Quadruple(Scenario::default()); Scenes::MAX + 1] };
+        let error = ScenarioError::TooMany { field: "scenes".to_owned(), count: Scenes::MAX + 1, max: Scenes::MAX };
+        assert_eq!(many.to_json(), Err(error.clone()));
+        assert_eq!(many.to_link(), Err(error));
+
+        let mut scenario = Scenario::default();
+        let step = |k: u32| PumpVoltageStep { pump: 0, time_s: f64::from(k), voltage: 3.0 };
+        scenario.setup.experiment.pump_voltage_steps = (0..4000).map(step).collect();
+        let long = Document::Quadruple(scenario);
+        assert!(opened_from_bytes(long.to_json().unwrap().as_bytes()).is_ok());
+        let scenes = Scenes { documents: vec![long; Scenes::MAX] };
+        assert!(matches!(scenes.to_json(), Err(ScenarioError::TooLong { max: DOCUMENT_LIMIT, .. })));
     }
 }
