@@ -61,7 +61,7 @@ fn is_beside(path: &str) -> bool {
         let is_plain = name.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.'));
         is_plain && !name.is_empty() && !name.starts_with('.')
     };
-    path.len() <= LONGEST_PATH && path.ends_with(".json") && path.split('/').all(is_name)
+    path.len() <= LONGEST_PATH && path.strip_suffix(".json").is_some() && path.split('/').all(is_name)
 }
 
 /// Remembers a lesson that was opened from a file, as long as the tab is there; its name in an address.

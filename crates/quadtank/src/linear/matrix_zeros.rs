@@ -96,13 +96,12 @@ impl Place {
                     place.denominators[k] == 0
                         && (place.at - root.place).norm() <= SAME * place.at.norm().max(root.place.norm())
                 };
-                match places.iter_mut().find(is_same) {
-                    Some(place) => place.denominators[k] = root.multiplicity,
-                    None => {
-                        let mut denominators = [0; 4];
-                        denominators[k] = root.multiplicity;
-                        places.push(Self { at: root.place, denominators });
-                    }
+                if let Some(place) = places.iter_mut().find(is_same) {
+                    place.denominators[k] = root.multiplicity;
+                } else {
+                    let mut denominators = [0; 4];
+                    denominators[k] = root.multiplicity;
+                    places.push(Self { at: root.place, denominators });
                 }
             }
         }
