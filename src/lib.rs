@@ -9,6 +9,7 @@ mod canvas;
 mod controls;
 mod depth;
 mod download;
+mod enlarged;
 mod errors;
 mod events;
 mod format;

@@ -120,13 +120,13 @@ fn bench_flags() -> String {
 }
 
 /// A query without these flags.
-fn query_without(query: &str, names: &[&str]) -> String {
+pub fn query_without(query: &str, names: &[&str]) -> String {
     let is_kept = |pair: &&str| !pair.is_empty() && pair.split('=').next().is_none_or(|name| !names.contains(&name));
     query.trim_start_matches('?').split('&').filter(is_kept).collect::<Vec<_>>().join("&")
 }
 
 /// A query with these values; its other ones stay.
-fn query_with(query: &str, pairs: &[(&str, &str)]) -> String {
+pub fn query_with(query: &str, pairs: &[(&str, &str)]) -> String {
     let names: Vec<&str> = pairs.iter().map(|(name, _)| *name).collect();
     let others = query_without(query, &names);
     let all = (!others.is_empty()).then_some(others);

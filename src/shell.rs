@@ -6,6 +6,8 @@ use leptos::wasm_bindgen::JsCast;
 
 use super::benches::{BENCHES, BenchEntry};
 use super::depth::Depth;
+use super::download::is_single_file;
+use super::enlarged::Enlarged;
 use super::events::is_at;
 use super::glossary::Glossary;
 use super::handout::Handout;
@@ -36,7 +38,15 @@ pub fn mount() {
         return;
     };
     root.set_text_content(None);
-    leptos::mount::mount_to(root, || view! { <Laboratory /> }).forget();
+    // A file from a disk may not show itself in a frame.
+    match StartFlags::parse(&query(), &BENCHES).scale.filter(|scale| *scale > 1.0 && !is_single_file()) {
+        Some(scale) => leptos::mount::mount_to(root, move || view! { <Enlarged scale /> }).forget(),
+        None => leptos::mount::mount_to(root, || view! { <Laboratory /> }).forget(),
+    }
+}
+
+fn query() -> String {
+    window().location().search().unwrap_or_default()
 }
 
 /// The whole laboratory.
@@ -224,8 +234,7 @@ fn keep_menus_in_sight() {
 
 /// The state that the address and the remembered choices ask for.
 fn start(benches: &'static [BenchEntry]) -> Lab {
-    let query = window().location().search().unwrap_or_default();
-    let flags = StartFlags::parse(&query, benches);
+    let flags = StartFlags::parse(&query(), benches);
     let usual_tag = || LANGUAGE.read().or_else(|| window().navigator().language()).unwrap_or_default();
     let language = flags.language.unwrap_or_else(|| Language::of_tag(&usual_tag()));
     let prefers_dark =

@@ -3,8 +3,11 @@
 //! `embed=1` hides the header and packs the bench; `panels=valves,zeros` shows only these cards; `lock=valves,gains` disables
 //! these controls; `lang=TAG` and `theme=light|dark` choose without being remembered; `preset=NAME` loads a
 //! published rig; `bench=NAME` shows that bench; `lesson=ID`, or the path of a file beside the page, and `step=N` begin a lesson; `page=lessons`, `glossary` or `teachers` shows that page; `origins=https://…` names the pages around a frame
-//! that may talk with it; `view=explore`, `lab` or `full` says how much of it. A bench lists its own cards and controls. What is not
+//! that may talk with it; `scale=1.5` makes a page larger, as for a projector;
+//! `view=explore`, `lab` or `full` says how much of it. A bench lists its own cards and controls. What is not
 //! understood has no effect, and the page names it.
+
+use std::ops::RangeInclusive;
 
 use super::benches::BenchEntry;
 use super::depth::Depth;
@@ -16,6 +19,9 @@ use quadtank::literature::PresetId;
 /// Most names that are told of what was not understood, and the longest of them (characters).
 const MAX_UNKNOWN: usize = 6;
 const LONGEST_UNKNOWN: usize = 40;
+
+/// How large a page can be asked for: below 1 no text would be legible.
+const SCALES: RangeInclusive<f64> = 1.0..=4.0;
 
 /// Parameters that mail systems, social networks and analytics add to any link that they pass on. Neither who made the link nor
 /// who follows it can do anything about them, so they are tolerated. Everything else may be a misspelt flag.
@@ -52,6 +58,8 @@ pub struct StartFlags {
     pub page: Option<SidePage>,
     /// The origins of pages that may hear and say something, see [`messages`](super::messages).
     pub origins: Vec<String>,
+    /// How much larger than usual all of the page is.
+    pub scale: Option<f64>,
     /// What was not understood, fit to be shown.
     pub unknown: Vec<String>,
 }
@@ -114,6 +122,10 @@ impl StartFlags {
                 self.origins =
                     value.split(',').map(str::trim).filter(|origin| !origin.is_empty()).map(str::to_owned).collect();
                 self.origins.iter().all(|origin| origin.starts_with("https://") || origin.starts_with("http://"))
+            }
+            "scale" => {
+                self.scale = value.parse().ok().filter(|scale| SCALES.contains(scale));
+                self.scale.is_some()
             }
             "page" => {
                 self.page = SidePage::of_name(value);
@@ -236,6 +248,14 @@ mod tests {
     #[test]
     fn names_that_are_not_known_leave_everything_shown() {
         assert!(parse("panels=nonsense").shows(Panel("process")));
+    }
+
+    #[test]
+    fn a_page_is_as_large_as_usual_or_larger() {
+        assert_eq!(parse("scale=1.5").scale, Some(1.5));
+        let flags = parse("scale=0.5&scale=9&scale=NaN&scale=large");
+        assert_eq!(flags.unknown, ["scale=0.5", "scale=9", "scale=NaN", "scale=large"]);
+        assert_eq!(flags.scale, None);
     }
 
     #[test]

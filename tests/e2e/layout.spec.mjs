@@ -314,3 +314,19 @@ for (const [width, height] of [[1440, 900], [390, 844]]) {
     await lab.clean();
   });
 }
+
+test('for a projector the page is larger, laid out as in a smaller window, and its address follows', async ({ lab, page }) => {
+  await page.setViewportSize({ width: 1440, height: 900 });
+  await page.goto(`${lab.origin}/?scale=1.5&lang=en&view=full`);
+  const frame = page.frameLocator('iframe.enlarged');
+  await frame.locator('#bench:not(.outline)').waitFor();
+  const [wide, high] = await frame.locator('html').evaluate(() => [innerWidth, innerHeight]);
+  expect(Math.abs(wide - 960) + Math.abs(high - 600)).toBeLessThanOrEqual(2);
+  const { width, height } = await page.locator('iframe.enlarged').boundingBox();
+  expect(Math.abs(width - 1440) + Math.abs(height - 900)).toBeLessThanOrEqual(2);
+  await frame.getByTestId('gamma1-number').fill('0.52');
+  await frame.getByTestId('gamma1-number').blur();
+  await expect(page).toHaveURL(/[?&]scale=1\.5.*#lab=/);
+  await page.reload();
+  await expect(frame.getByTestId('gamma1-number')).toHaveValue('0.52');
+});
