@@ -45,6 +45,7 @@ customElements.define(
 
     show() {
       const flags = new URLSearchParams({ embed: '1', origins: location.origin });
+      if (!this.hasAttribute('height')) flags.set('grows', '1');
       for (const flag of FLAGS) if (this.hasAttribute(flag)) flags.set(flag, this.getAttribute(flag));
       const state = this.getAttribute('state');
       this.frame.src = `${HERE}?${flags}${state ? `#lab=${state}` : ''}`;

@@ -103,19 +103,43 @@ fn follow_height(lab: Lab) {
     let Some(body) = document().body() else { return };
     let last = StoredValue::new(0);
     let tell = Closure::<dyn Fn()>::new(move || {
-        // A lesson fills the frame, however high it is: a frame that followed it would never stop growing.
-        if lab.stage.with_untracked(Option::is_some) {
-            return;
-        }
-        let height = document().body().map_or(0, |body| body.scroll_height());
-        if height != last.get_value() {
+        let is_lesson = lab.stage.with_untracked(Option::is_some);
+        let height = if is_lesson {
+            // From step to step it only grows, so that the page around does not jump.
+            lesson_height(lab).map(|height| height.max(last.get_value()))
+        } else {
+            Some(body.scroll_height())
+        };
+        if let Some(height) = height.filter(|height| *height != last.get_value()) {
             last.set_value(height);
             say_to(ANY, "height", &[("height", height.into())]);
         }
     });
     if let Ok(observer) = web_sys::ResizeObserver::new(tell.as_ref().unchecked_ref()) {
-        observer.observe(&body);
+        // The places of the benches are there once the page is: a bench beside a lesson may be lower than the lesson.
+        Effect::new(move || elements("body, .desk > div").iter().for_each(|element| observer.observe(element)));
     }
     // It lives as long as the page.
     tell.forget();
+}
+
+/// The height that a frame with a lesson needs so that the bench does not scroll, within limits, where the page around gives it. The text
+/// fills the frame, however high that is, and scrolls; on a narrow screen the bench does so too.
+fn lesson_height(lab: Lab) -> Option<i32> {
+    /// Text and bench stand beside each other (`style/lessons.css`).
+    const SIDE_BY_SIDE: &str = "(min-width: 860px)";
+    /// As high as the element makes its frame to begin with, and as high as a large window (CSS px).
+    const HEIGHTS_PX: (i32, i32) = (720, 1200);
+    let is_wide = window().match_media(SIDE_BY_SIDE).ok().flatten().is_some_and(|query| query.matches());
+    if !is_wide || !lab.flags.with_value(|flags| flags.grows) {
+        return None;
+    }
+    let height_of = |selector| elements(selector).first().map(|element| element.client_height());
+    let around = document().body()?.scroll_height() - height_of(".desk")?;
+    Some((around + height_of(".desk > div:not([hidden])")?).clamp(HEIGHTS_PX.0, HEIGHTS_PX.1))
+}
+
+fn elements(selector: &str) -> Vec<web_sys::Element> {
+    let Ok(found) = document().query_selector_all(selector) else { return Vec::new() };
+    (0..found.length()).filter_map(|index| found.get(index)?.dyn_into().ok()).collect()
 }

@@ -63,6 +63,7 @@ pub fn Laboratory(
     lessons::begin_asked(lab, room);
     messages::talk(lab, room);
     offline::keep_site(lab);
+    show_on_root("data-grows", if lab.flags.with_value(|flags| flags.grows) { "yes" } else { "no" });
     Effect::new(move || show_on_root("data-lesson", if lab.stage.with(Option::is_some) { "yes" } else { "no" }));
     Effect::new(move || show_on_root("data-theme", if lab.dark.get() { "dark" } else { "light" }));
     Effect::new(move || show_on_root("data-view", lab.shown_depth().name()));

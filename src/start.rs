@@ -3,7 +3,7 @@
 //! `embed=1` hides the header and packs the bench; `panels=valves,zeros` shows only these cards; `lock=valves,gains` disables
 //! these controls; `lang=TAG` and `theme=light|dark` choose without being remembered; `preset=NAME` loads a
 //! published rig; `bench=NAME` shows that bench; `lesson=ID`, or the path of a file beside the page, and `step=N` begin a lesson; `page=lessons`, `glossary` or `teachers` shows that page; `origins=https://…` names the pages around a frame
-//! that may talk with it; `scale=1.5` makes a page larger, as for a projector;
+//! that may talk with it, and `grows=1` says that such a page follows the height of the content; `scale=1.5` makes a page larger, as for a projector;
 //! `view=explore`, `lab` or `full` says how much of it. A bench lists its own cards and controls. What is not
 //! understood has no effect, and the page names it.
 
@@ -58,6 +58,8 @@ pub struct StartFlags {
     pub page: Option<SidePage>,
     /// The origins of pages that may hear and say something, see [`messages`](super::messages).
     pub origins: Vec<String>,
+    /// Whether the page around gives the frame the height that it asks for.
+    pub grows: bool,
     /// How much larger than usual all of the page is.
     pub scale: Option<f64>,
     /// What was not understood, fit to be shown.
@@ -122,6 +124,10 @@ impl StartFlags {
                 self.origins =
                     value.split(',').map(str::trim).filter(|origin| !origin.is_empty()).map(str::to_owned).collect();
                 self.origins.iter().all(|origin| origin.starts_with("https://") || origin.starts_with("http://"))
+            }
+            "grows" => {
+                self.grows = value == "1";
+                matches!(value, "0" | "1")
             }
             "scale" => {
                 self.scale = value.parse().ok().filter(|scale| SCALES.contains(scale));
@@ -252,9 +258,9 @@ mod tests {
 
     #[test]
     fn a_page_is_as_large_as_usual_or_larger() {
-        assert_eq!(parse("scale=1.5").scale, Some(1.5));
-        let flags = parse("scale=0.5&scale=9&scale=NaN&scale=large");
-        assert_eq!(flags.unknown, ["scale=0.5", "scale=9", "scale=NaN", "scale=large"]);
+        assert_eq!((parse("scale=1.5").scale, parse("grows=1").grows), (Some(1.5), true));
+        let flags = parse("scale=0.5&scale=9&scale=NaN&scale=large&grows=yes");
+        assert_eq!(flags.unknown, ["scale=0.5", "scale=9", "scale=NaN", "scale=large", "grows=yes"]);
         assert_eq!(flags.scale, None);
     }
 
