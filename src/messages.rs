@@ -101,17 +101,22 @@ fn hear(lab: Lab, event: &web_sys::MessageEvent) {
 /// Tells the page around how high the content is, whenever that changes.
 fn follow_height(lab: Lab) {
     let Some(body) = document().body() else { return };
-    let last = StoredValue::new(0);
+    let asks_for_lesson = lab.flags.with_value(|flags| flags.lesson.is_some());
+    // What was told last, and whether it was of a lesson.
+    let last = StoredValue::new(None::<(i32, bool)>);
     let tell = Closure::<dyn Fn()>::new(move || {
         let is_lesson = lab.stage.with_untracked(Option::is_some);
+        let before = last.get_value();
         let height = if is_lesson {
             // From step to step it only grows, so that the page around does not jump.
-            lesson_height(lab).map(|height| height.max(last.get_value()))
+            let reached = before.filter(|(_, was_lesson)| *was_lesson).map_or(0, |(height, _)| height);
+            lesson_height(lab).map(|height| height.max(reached))
         } else {
-            Some(body.scroll_height())
+            // A frame as high as the bench that stands there until the lesson has arrived would stay so.
+            (before.is_some() || !asks_for_lesson).then(|| body.scroll_height())
         };
-        if let Some(height) = height.filter(|height| *height != last.get_value()) {
-            last.set_value(height);
+        if let Some(height) = height.filter(|height| before != Some((*height, is_lesson))) {
+            last.set_value(Some((height, is_lesson)));
             say_to(ANY, "height", &[("height", height.into())]);
         }
     });

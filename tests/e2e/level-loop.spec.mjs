@@ -228,6 +228,40 @@ test('the model of the reference errs, and the index with it', async ({ lab }) =
   await lab.clean();
 });
 
+test('an unstable loop has no step figures, and a button puts it on the rule', async ({ lab }) => {
+  await lab.open(BENCH);
+  await press(lab, 'level-figures-fold');
+  const note = () => lab.page.locator('.course details .remark').textContent();
+  await lab.type('level-set-point', '5');
+  await lab.type('level-gain-number', '100');
+  await lab.type('level-time-number', '588');
+  expect(await lab.text('level-verdict')).toContain('unstable');
+  expect(await note()).toContain('settling –');
+  await press(lab, 'mend-run');
+  expect(await lab.text('level-verdict')).not.toContain('unstable');
+  await expect(lab.id('mend-run')).toHaveCount(0);
+  await lab.clean();
+});
+
+test('a set-point out of reach is mended, and one that is held has an offset of its own', async ({ lab }) => {
+  await lab.open(BENCH);
+  await lab.type('level-set-point', '-99');
+  expect(await lab.text('level-verdict')).toContain('cannot be held');
+  await press(lab, 'mend-run');
+  expect(await lab.text('level-verdict')).not.toContain('cannot be held');
+  await lab.clean();
+});
+
+test('a PID controller without P becomes a PI controller with numbers', async ({ lab }) => {
+  await lab.open(BENCH);
+  await press(lab, 'kind-pid');
+  await lab.type('level-p-number', '0');
+  await press(lab, 'kind-pi');
+  expect(await lab.value('level-gain-number')).toBe(10);
+  expect(await lab.value('level-time-number')).toBe(2500);
+  await lab.clean();
+});
+
 test('the heated tank shows where steps are too long', async ({ lab }) => {
   await lab.open(BENCH);
   await lab.type('heated-step-number', '0.5');

@@ -2,7 +2,7 @@
 
 use leptos::prelude::*;
 use quadtank::study::level_loop::{LevelLoopSetup, PiTuning};
-use quadtank::tuning::CostMeasure;
+use quadtank::tuning::{CostMeasure, VIOLATION};
 use quadtank_figure::Frame;
 
 use super::errors;
@@ -259,8 +259,11 @@ fn sentence(
     if parts.is_empty() { tr!(lab, level.map_idle) } else { parts.join(" ") }
 }
 
-/// A cost with its unit; without one where moves of the output are part of it.
+/// A cost with its unit; without one where moves of the output are part of it. That of a violated constraint is no cost.
 fn cost_text(lab: Lab, setup: &LevelLoopSetup, cost: f64) -> String {
+    if cost >= VIOLATION {
+        return tr!(lab, level.no_cost);
+    }
     let number = |value: f64| lab.number_style().significant(value, 5);
     if setup.search.move_penalty > 0.0 {
         return number(cost);

@@ -36,6 +36,7 @@ mod tests {
     use quadtank::study::level_loop::{ControllerKind, LevelLoopSetup, PiTuning};
 
     use super::*;
+    use crate::document::BenchDocument;
     use crate::level_loop::LevelLoopScenario;
 
     const KEPT: PiTuning = PiTuning { gain: 2.0, integral_time_s: 120.0 };

@@ -5,7 +5,7 @@ use quadtank::sim::level::LevelLog;
 use quadtank::study::level_loop::{
     ContourMap, LevelLoopAnswer, LevelLoopSetup, LevelSearch, StepTestAnswer, TradeOff, TradeOffPoint,
 };
-use quadtank::tuning::Evaluation;
+use quadtank::tuning::{Evaluation, VIOLATION};
 
 /// A table whose columns have one value for each row of the first.
 fn table(columns: &[(&str, &[f64])]) -> String {
@@ -100,8 +100,12 @@ pub fn search_to_csv(search: &LevelSearch) -> String {
     let mut text = "gain,integral_time_s,cost\n".to_owned();
     for step in search.path() {
         let [gain, integral_time_s] = step.point;
-        // A cost that is not finite is that of settings without a run.
-        let cost = if step.cost.is_finite() { step.cost.to_string() } else { "none".to_owned() };
+        let cost = match step.cost {
+            cost if cost < VIOLATION => cost.to_string(),
+            cost if cost.is_finite() => "violates".to_owned(),
+            // Settings without a run.
+            _ => "none".to_owned(),
+        };
         // Writing to a String cannot fail.
         let _ = writeln!(text, "{gain},{integral_time_s},{cost}");
     }
@@ -143,6 +147,10 @@ mod tests {
     fn what_is_no_cost_is_told_by_a_word() {
         let mut setup = LevelLoopSetup::default();
         setup.search.largest_sensitivity = Some(1.2);
+        let tight = PiTuning { gain: 90.0, integral_time_s: 100.0 };
+        let mut search = LevelSearch::new(&setup, SearchMethod::Gradient(tight)).unwrap();
+        search.advance(8);
+        assert!(search_to_csv(&search).contains(",violates\n"), "{}", search_to_csv(&search));
         let mut map = ContourMap::new(&setup, ContourSettings { size: [4, 4] }).unwrap();
         map.advance(7);
         let text = cost_map_to_csv(&map);

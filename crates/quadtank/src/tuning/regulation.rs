@@ -171,3 +171,27 @@ pub fn proportional_regulation(stretches: &[SetPointStretch]) -> Result<Regulati
         Regulation::Integrating(RegulationReason::NoOffset { share })
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_test_that_is_too_short_says_what_it_lacks() {
+        let signal = [1.0; 20];
+        let stretch = |rows: usize| SetPointStretch { set_point: 1.0, signal: &signal[..rows] };
+        let few = Err(RegulationError::TooFewRows { rows: 9 });
+        assert_eq!(proportional_regulation(&[stretch(20), stretch(9)]), few);
+        assert_eq!(open_loop_regulation(1.0, &signal, &signal[..9]), few);
+        let one = Err(RegulationError::TooFewStretches { stretches: 1 });
+        assert_eq!(proportional_regulation(&[stretch(20)]), one);
+        assert_eq!(proportional_regulation(&[]), Err(RegulationError::TooFewStretches { stretches: 0 }));
+    }
+
+    #[test]
+    fn a_signal_that_drifts_by_rounding_does_not_move() {
+        let drifting: Vec<f64> = (0..40).map(|k| 12.0 + 2e-15 * f64::from(k)).collect();
+        let found = open_loop_regulation(12.0, &drifting[..20], &drifting[20..]);
+        assert_eq!(found, Ok(Regulation::Undecided(RegulationReason::DoesNotMove)));
+    }
+}
