@@ -1,14 +1,15 @@
 //! What a program reads: comma-separated values, SI units in the column names, a point as decimal separator.
 
-use std::fmt::Write as _;
-
 use quadtank::linear::Complex;
 use quadtank::study::quadruple_tank::{Analysis, FrequencyCurves, Run, ValveMap};
+
+use super::csv_table::table;
 
 /// A row of a table of poles and zeros.
 type Root = (&'static str, Complex);
 
-/// The trajectories, one row per sample, with the unit of each column in its name.
+/// The trajectories with the unit of each column in its name: a row for each sample, and rows between them where samples are far
+/// apart.
 pub fn run_to_csv(run: &Run) -> String {
     table(&columns(run))
 }
@@ -63,24 +64,6 @@ pub fn frequency_to_csv(curves: &FrequencyCurves) -> String {
 fn singular_values<'a>(of: &str, both: &'a [Vec<f64>; 2]) -> impl Iterator<Item = (String, &'a [f64])> {
     let names = [format!("largest_{of}"), format!("smallest_{of}")];
     names.into_iter().zip(both.iter().map(Vec::as_slice))
-}
-
-/// Columns of the length of the first one, under their names.
-fn table(columns: &[(String, &[f64])]) -> String {
-    let names: Vec<&str> = columns.iter().map(|(name, _)| name.as_str()).collect();
-    let mut text = names.join(",") + "\n";
-    for row in 0..columns.first().map_or(0, |(_, values)| values.len()) {
-        for (index, (_, values)) in columns.iter().enumerate() {
-            let separator = if index == 0 { "" } else { "," };
-            // Writing to a String cannot fail.
-            let _ = match values.get(row) {
-                Some(value) => write!(text, "{separator}{value}"),
-                None => write!(text, "{separator}"),
-            };
-        }
-        text.push('\n');
-    }
-    text
 }
 
 #[cfg(test)]

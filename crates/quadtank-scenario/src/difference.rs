@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use super::Document;
-use super::params::Param;
+use super::params::{Param, field_of};
 
 /// A value that two documents have differently.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,12 +47,11 @@ impl Document {
 fn compare(before: &Value, after: &Value, path: &str, found: &mut Vec<Difference>) {
     match (before, after) {
         (Value::Object(before), Value::Object(after)) => {
-            let place = |name: &str| if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") };
             for (name, value) in after {
-                compare(before.get(name).unwrap_or(&Value::Null), value, &place(name), found);
+                compare(before.get(name).unwrap_or(&Value::Null), value, &field_of(path, name), found);
             }
             for (name, value) in before.iter().filter(|(name, _)| !after.contains_key(*name)) {
-                compare(value, &Value::Null, &place(name), found);
+                compare(value, &Value::Null, &field_of(path, name), found);
             }
         }
         (Value::Array(before), Value::Array(after)) if before.len() == after.len() => {

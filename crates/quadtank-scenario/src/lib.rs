@@ -9,6 +9,7 @@ pub mod answers;
 mod codec;
 mod csv;
 mod csv_style;
+mod csv_table;
 mod difference;
 mod document;
 mod entries;

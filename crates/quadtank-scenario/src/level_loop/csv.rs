@@ -7,24 +7,7 @@ use quadtank::study::level_loop::{
 };
 use quadtank::tuning::{Evaluation, VIOLATION};
 
-/// A table whose columns have one value for each row of the first.
-fn table(columns: &[(&str, &[f64])]) -> String {
-    let names: Vec<&str> = columns.iter().map(|(name, _)| *name).collect();
-    let mut text = names.join(",") + "\n";
-    let rows = columns.first().map_or(0, |(_, column)| column.len());
-    for row in 0..rows {
-        for (index, (_, column)) in columns.iter().enumerate() {
-            let separator = if index == 0 { "" } else { "," };
-            // Writing to a String cannot fail.
-            let _ = match column.get(row) {
-                Some(value) => write!(text, "{separator}{value}"),
-                None => write!(text, "{separator}"),
-            };
-        }
-        text.push('\n');
-    }
-    text
-}
+use crate::csv_table::table;
 
 /// The levels (m) that signals of the reference stand for.
 fn reference_levels(log: &LevelLog, plant: &LevelPlant) -> Vec<f64> {

@@ -1,32 +1,19 @@
 //! What a program reads of a session: comma-separated values, a point as decimal separator, in the unit of time of the plant.
 
-use std::fmt::Write as _;
-
 use quadtank::linear::Loci;
 use quadtank::sim::LoopTrace;
 use quadtank::tuning::{CriticalCurve, GainLimit};
 
 use quadtank::study::relay_tuning::Designed;
 
-/// A line of numbers; one that is missing is an empty cell.
-fn line(text: &mut String, numbers: &[Option<f64>]) {
-    for (index, number) in numbers.iter().enumerate() {
-        let separator = if index == 0 { "" } else { "," };
-        // Writing to a String cannot fail.
-        let _ = match number {
-            Some(number) => write!(text, "{separator}{number}"),
-            None => write!(text, "{separator}"),
-        };
-    }
-    text.push('\n');
-}
+use crate::csv_table::line;
 
 /// A record: one row per sample, switch, and arrival of what a dead time had held back.
 pub fn record_to_csv(trace: &LoopTrace) -> String {
     let mut text = "time,output_1,output_2,input_1,input_2\n".to_owned();
     let ([y1, y2], [u1, u2]) = (&trace.outputs, &trace.inputs);
     for (row, &time) in trace.time.iter().enumerate() {
-        line(&mut text, &[time, y1[row], y2[row], u1[row], u2[row]].map(Some));
+        line(&mut text, [time, y1[row], y2[row], u1[row], u2[row]].map(Some));
     }
     text
 }
@@ -50,7 +37,7 @@ pub fn response_to_csv(design: &Designed) -> String {
         let times = [(trace, next[0]), (compared, next[1])].map(|(of, row)| of.time.get(row).copied());
         let Some(time) = times.into_iter().flatten().reduce(f64::min) else { return text };
         let rows = [0, 1].map(|k| (times[k] == Some(time)).then_some(next[k]));
-        line(&mut text, &[vec![Some(time)], cells(trace, rows[0]), cells(compared, rows[1])].concat());
+        line(&mut text, [vec![Some(time)], cells(trace, rows[0]), cells(compared, rows[1])].concat());
         next = [0, 1].map(|k| next[k] + usize::from(rows[k].is_some()));
     }
 }
@@ -64,7 +51,7 @@ pub fn curve_to_csv(curve: &CriticalCurve) -> String {
             GainLimit::RealPole { gains, .. } | GainLimit::AlgebraicLoop { gains, .. } => (gains.map(Some), None),
             GainLimit::None => ([None; 2], None),
         };
-        line(&mut text, &[Some(point.angle), gains[0], gains[1], period]);
+        line(&mut text, [Some(point.angle), gains[0], gains[1], period]);
     }
     text
 }
@@ -74,7 +61,7 @@ pub fn loci_to_csv(loci: &Loci) -> String {
     let mut text = "frequency_rad,real_1,imaginary_1,real_2,imaginary_2\n".to_owned();
     let [one, two] = &loci.branches;
     for ((&frequency, a), b) in loci.frequency.iter().zip(one).zip(two) {
-        line(&mut text, &[frequency, a.re, a.im, b.re, b.im].map(Some));
+        line(&mut text, [frequency, a.re, a.im, b.re, b.im].map(Some));
     }
     text
 }

@@ -87,7 +87,7 @@ pub enum EstimatorError {
         sampling_time_s: f64,
     },
     /// The window has more samples than [`MAX_WINDOW_SAMPLES`].
-    #[error("the window of {window_s} s has more than 1000 samples of {sampling_time_s} s")]
+    #[error("the window of {window_s} s has more than {MAX_WINDOW_SAMPLES} samples of {sampling_time_s} s")]
     WindowTooLong {
         /// T (s).
         window_s: f64,
