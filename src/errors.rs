@@ -11,7 +11,7 @@ use quadtank::plant::level::LevelError;
 use quadtank::sim::NoResponse;
 use quadtank::study::relay_tuning::ElementError;
 use quadtank::study::{StudyError, StudyErrorKind};
-use quadtank_scenario::{ScenarioError, runs_backwards};
+use quadtank_scenario::{ScenarioError, is_gravity_in_cm, runs_backwards};
 
 /// One sentence; a field keeps its name from the document.
 pub fn of_error(lab: Lab, unit: DisplayUnit, error: &ScenarioError) -> String {
@@ -24,6 +24,17 @@ pub fn of_error(lab: Lab, unit: DisplayUnit, error: &ScenarioError) -> String {
         }
         ScenarioError::NotText => tr!(lab, refused.not_text),
         ScenarioError::OutOfRange { field, value, min, max } => out_of_range(lab, field, *value, *min, *max),
+        ScenarioError::TooManySamples { field, duration_s, sampling_time_s, max } => {
+            let number = |v: f64| lab.number_style().significant(v, 4);
+            tr!(
+                lab,
+                refused.samples,
+                field = field,
+                duration = number(*duration_s),
+                sampling = number(*sampling_time_s),
+                max = number(*max)
+            )
+        }
         ScenarioError::TooMany { field, count, max } => {
             tr!(lab, refused.many, field = field, count = count, max = max)
         }
@@ -191,5 +202,11 @@ pub fn of_level_error(lab: Lab, error: &LevelError) -> String {
 fn out_of_range(lab: Lab, field: &str, value: f64, min: f64, max: f64) -> String {
     let number = |v: f64| lab.number_style().significant(v, 4);
     let told = tr!(lab, refused.range, field = field, value = number(value), min = number(min), max = number(max));
-    if runs_backwards(field, value) { format!("{told} {}", tr!(lab, refused.backwards)) } else { told }
+    if runs_backwards(field, value) {
+        format!("{told} {}", tr!(lab, refused.backwards))
+    } else if is_gravity_in_cm(field, value) {
+        format!("{told} {}", tr!(lab, refused.gravity_cm))
+    } else {
+        told
+    }
 }

@@ -2,7 +2,8 @@
 
 use quadtank_scenario::BenchDocument;
 
-/// Most steps that can be undone. A document is a few kilobytes, so this is well below a megabyte.
+/// Most steps that can be undone. A document is a few kilobytes, so this is well below a megabyte; with the longest record as its
+/// experiment it has one megabyte.
 const MAX_STEPS: usize = 200;
 
 /// Whether two documents are different experiments, be it by name: where the cursor stands does not matter.

@@ -4,10 +4,11 @@ use std::cell::Cell;
 use std::rc::Rc;
 
 use js_sys::Promise;
-use leptos::prelude::window;
 use leptos::wasm_bindgen::JsValue;
 use wasm_bindgen_futures::{JsFuture, spawn_local};
 use web_sys::MessageChannel;
+
+use super::timing::now_ms;
 
 /// How long a slice takes at most, but for its last step (ms): two of them and the browser share a frame.
 const SLICE_MS: f64 = 6.0;
@@ -58,8 +59,4 @@ async fn wait_for_browser() {
     // A promise that only ever resolves.
     let _ = JsFuture::from(message).await;
     channel.port1().close();
-}
-
-fn now_ms() -> f64 {
-    window().performance().map_or(0.0, |clock| clock.now())
 }

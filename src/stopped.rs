@@ -9,10 +9,14 @@ use leptos::prelude::*;
 use super::lab::{Lab, use_lab};
 use super::share::{FILE, address_of, json_of};
 use super::texts::say;
+use super::timing::now_ms;
 
-/// The longest time from a change to its being kept (ms). Writing file and link takes 0.3 ms for a short document and 3 ms for
+/// The time from a change to its being kept (ms). Writing file and link takes 0.3 ms for a short document and 3 ms for
 /// one with four pinned runs (measured in Chromium): too much for every frame.
 const PERIOD_MS: u32 = 1000;
+/// The same as a multiple of the time that it took last: a document of several megabytes, with a record as its experiment, is kept more
+/// rarely.
+const PERIOD_SHARE: f64 = 20.0;
 
 /// The experiment in a form that needs no program; nothing where it is too long for that form.
 #[derive(Clone, Default)]
@@ -58,19 +62,27 @@ pub fn Stopped() -> impl IntoView {
     }
 }
 
-/// The experiment that is shown, at most [`PERIOD_MS`] old.
+/// The experiment that is shown, at most [`PERIOD_MS`] old where it is short.
 fn kept(lab: Lab) -> Signal<Kept> {
     let kept = RwSignal::new(Kept::default());
     let next = StoredValue::new_local(None::<Timeout>);
+    let period_ms = StoredValue::new(PERIOD_MS);
     Effect::new(move || {
         (lab.bench.get().track)(lab);
         if next.with_value(Option::is_none) {
             let keep = move || {
                 next.set_value(None);
+                let begin = now_ms();
                 kept.set(Kept::of(lab));
+                period_ms.set_value(next_period_ms(now_ms() - begin));
             };
-            next.set_value(Some(Timeout::new(PERIOD_MS, keep)));
+            next.set_value(Some(Timeout::new(period_ms.get_value(), keep)));
         }
     });
     kept.into()
+}
+
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a short time")]
+fn next_period_ms(took_ms: f64) -> u32 {
+    PERIOD_MS.max((PERIOD_SHARE * took_ms) as u32)
 }

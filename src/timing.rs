@@ -132,7 +132,8 @@ impl Stopwatch {
     }
 }
 
-fn now_ms() -> f64 {
+/// Time since the page began (ms).
+pub fn now_ms() -> f64 {
     window().performance().map_or(0.0, |clock| clock.now())
 }
 

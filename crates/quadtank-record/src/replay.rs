@@ -10,6 +10,9 @@ use crate::{Record, RecordError};
 /// A reference that moves by no more than this (m) stands still.
 const STILL: f64 = 1e-9;
 
+/// Two spacings that differ by no more than this share are the same.
+const SAME_SPACING: f64 = 1e-9;
+
 /// The setup in the experiment of a record: it begins at the first levels of the record, at rest where one was not recorded, and lasts as
 /// long. Pumps whose voltages were recorded follow them; where none was, the references follow the recorded ones.
 /// Tanks whose inflow from outside was recorded receive it. What the experiment of the setup did to the rig is not done; the measurement has no noise.
@@ -25,7 +28,7 @@ pub fn replay(record: &Record, setup: &Setup) -> Result<Setup, RecordError> {
     let moves = record.pump_moves(limits::MAX_PUMP_STEPS)?;
     let inflows = record.inflow_moves(limits::MAX_PUMP_STEPS)?;
     if record.pump_voltage.iter().all(|column| !column.is_empty()) {
-        replayed.controller.sampling_time_s = limits::SAMPLING_TIME_S.clamp(spacing(record));
+        replayed.controller.sampling_time_s = limits::sampling_time_s(record.duration_s()).clamp(spacing(record));
     }
     let duration = limits::duration_s(replayed.controller.sampling_time_s);
     let experiment = &mut replayed.experiment;
@@ -58,11 +61,14 @@ pub(crate) fn first_levels(record: &Record, setup: &Setup) -> Option<[f64; 4]> {
     Some(levels)
 }
 
-/// Time between most rows (s): the median.
+/// Time between most rows (s): the median, but the mean where all rows are equally far apart, whose rounding does not add up over
+/// thousands of samples.
 fn spacing(record: &Record) -> f64 {
     let mut between: Vec<f64> = record.time_s.windows(2).map(|pair| pair[1] - pair[0]).collect();
     between.sort_by(f64::total_cmp);
-    between.get(between.len() / 2).copied().unwrap_or(1.0)
+    let Some(&median) = between.get(between.len() / 2) else { return 1.0 };
+    let mean = record.duration_s() / between.len() as f64;
+    if (mean - median).abs() <= SAME_SPACING * median { mean } else { median }
 }
 
 /// The moves of the recorded references away from those at rest.
@@ -77,8 +83,8 @@ fn reference_steps(record: &Record, rest: &OperatingPoint) -> Result<Vec<SetPoin
             }
         }
     }
-    if steps.len() > limits::MAX_STEPS {
-        return Err(RecordError::TooManyMoves { moves: steps.len(), max: limits::MAX_STEPS });
+    if steps.len() > limits::MAX_SET_POINT_STEPS {
+        return Err(RecordError::TooManyMoves { moves: steps.len(), max: limits::MAX_SET_POINT_STEPS });
     }
     Ok(steps)
 }
@@ -136,12 +142,42 @@ mod tests {
     fn more_moves_than_an_experiment_holds_are_counted() {
         let setup = setup_of(PresetId::JohanssonMinimumPhase);
         let record = Record {
-            time_s: (0..5000).map(f64::from).collect(),
-            pump_voltage: [(0..5000).map(|k| f64::from(k % 2)).collect(), vec![]],
+            time_s: (0..50_000).map(f64::from).collect(),
+            pump_voltage: [(0..50_000).map(|k| f64::from(k % 2)).collect(), vec![]],
             ..Record::default()
         };
-        let error = RecordError::TooManyMoves { moves: 5000, max: limits::MAX_PUMP_STEPS };
+        let error = RecordError::TooManyMoves { moves: 50_000, max: limits::MAX_PUMP_STEPS };
         assert_eq!(replay(&record, &setup), Err(error));
+        let record = Record {
+            time_s: (0..200).map(f64::from).collect(),
+            references: [(0..200).map(|k| 0.12 + 0.001 * f64::from(k % 2)).collect(), vec![]],
+            ..Record::default()
+        };
+        let error = RecordError::TooManyMoves { moves: 200, max: limits::MAX_SET_POINT_STEPS };
+        assert_eq!(replay(&record, &setup), Err(error));
+    }
+
+    #[test]
+    fn both_pumps_may_move_at_every_sample_of_the_longest_run() {
+        let setup = setup_of(PresetId::JohanssonMinimumPhase);
+        let voltage = |frequency: f64| (0..20_000).map(|k| 3.0 + (frequency * f64::from(k)).sin()).collect();
+        let mut record = Record {
+            time_s: (0..20_000).map(|k| 0.01 * f64::from(k)).collect(),
+            pump_voltage: [voltage(0.7), voltage(0.9)],
+            ..Record::default()
+        };
+        let replayed = replay(&record, &setup).unwrap();
+        assert!(replayed.experiment.pump_voltage_steps.len() > 39_900);
+        assert!((replayed.controller.sampling_time_s - 0.01).abs() < 1e-9);
+        assert_eq!(replayed.experiment.duration_s, 199.99);
+        let run = run(&replayed).unwrap().nonlinear;
+        assert_eq!(run.time_s.len(), 20_000);
+        assert!(agreement(&record, &run).pump_voltage[0].unwrap().rmse < 1e-4);
+        let json = to_json(&Scenario::from(replayed)).unwrap();
+        assert!(document_from_json(&json).is_ok());
+        // Rows nearer together than samples may be do not make the run any shorter.
+        record.time_s = (0..20_000).map(|k| 0.01 * f64::from(k / 2) + 1e-4 * f64::from(k % 2)).collect();
+        assert!(replay(&record, &setup).unwrap().experiment.duration_s > 99.9);
     }
 
     #[test]

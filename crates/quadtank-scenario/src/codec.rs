@@ -13,8 +13,8 @@ use super::tree::Tree;
 use super::tuning::TuningScenario;
 use super::{BenchDocument, Scenario, ScenarioError, reader};
 
-/// Longest document that is read (bytes): far more than any scenario needs.
-pub const DOCUMENT_LIMIT: usize = 1024 * 1024;
+/// Longest document that is read or written (bytes): a record of the most moves as an experiment has 4.4 MB.
+pub const DOCUMENT_LIMIT: usize = 8 * 1024 * 1024;
 
 /// A document of any kind.
 #[derive(Clone, Debug, PartialEq, Serialize)]

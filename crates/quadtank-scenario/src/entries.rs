@@ -23,7 +23,11 @@ pub enum EntryValue {
     Choice(String),
 }
 
-/// All numbers and choices of the setup that a document works on, in the order of the file.
+/// Longest list that is shown entry by entry: of the moves of a record, paper has how many they are.
+const LONGEST_LIST: usize = 100;
+
+/// All numbers and choices of the setup that a document works on, in the order of the file. Of a list of more than a hundred entries
+/// there is their number.
 pub fn entries<D: BenchDocument>(document: &D) -> Vec<Entry> {
     let mut found = Vec::new();
     if let Ok(value) = serde_json::to_value(document) {
@@ -38,6 +42,7 @@ fn collect(root: &str, value: &Value, path: &str, found: &mut Vec<Entry>) {
         Value::Object(fields) => {
             fields.iter().for_each(|(name, value)| collect(root, value, &field_of(path, name), found));
         }
+        Value::Array(items) if items.len() > LONGEST_LIST => push(EntryValue::Number(items.len() as f64), "entries"),
         Value::Array(items) => {
             items.iter().enumerate().for_each(|(k, value)| collect(root, value, &format!("{path}[{k}]"), found));
         }
@@ -53,6 +58,8 @@ fn collect(root: &str, value: &Value, path: &str, found: &mut Vec<Entry>) {
 
 #[cfg(test)]
 mod tests {
+    use quadtank::sim::PumpVoltageStep;
+
     use super::*;
     use crate::Scenario;
     use crate::level_loop::LevelLoopScenario;
@@ -69,6 +76,13 @@ mod tests {
         let of_loop = entries(&LevelLoopScenario::default());
         let step = of_loop.iter().find(|entry| entry.path == "test.step").unwrap();
         assert_eq!(step.unit, "unit of the signal");
+        let mut of_record = Scenario::default();
+        let moved = PumpVoltageStep { pump: 0, time_s: 1.0, voltage: 3.0 };
+        of_record.setup.experiment.pump_voltage_steps = vec![moved; 5000];
+        let all_of_record = entries(&of_record);
+        let moves = all_of_record.iter().find(|entry| entry.path == "experiment.pump_voltage_steps").unwrap();
+        assert_eq!((&moves.value, moves.unit), (&EntryValue::Number(5000.0), "entries"));
+        assert!(all_of_record.len() <= all.len() + 1);
         assert!(all.iter().all(|entry| !entry.path.contains("pinned") && !entry.path.starts_with("setup")));
     }
 }

@@ -12,6 +12,22 @@ pub fn runs_backwards(field: &str, value: f64) -> bool {
     value < 0.0 && ["voltage_min", "voltage_max"].iter().any(|name| field.ends_with(name))
 }
 
+/// Whether an acceleration of gravity is one in cm/s².
+pub fn is_gravity_in_cm(field: &str, value: f64) -> bool {
+    field.ends_with("gravity") && (900.0..1100.0).contains(&value)
+}
+
+/// What may have been meant by a number that is not allowed.
+fn hint(field: &str, value: f64) -> &'static str {
+    if runs_backwards(field, value) {
+        "; pumps do not run backwards"
+    } else if is_gravity_in_cm(field, value) {
+        "; gravity is in m/s², and 981 cm/s² are 9.81 m/s²"
+    } else {
+        ""
+    }
+}
+
 /// Why a document is not a scenario, or a scenario cannot be computed.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum ScenarioError {
@@ -39,7 +55,7 @@ pub enum ScenarioError {
     #[error("not UTF-8 text, nor UTF-16, so not JSON")]
     NotText,
     /// A number that is outside its limits or not finite.
-    #[error("{field}: {value} is outside {min} to {max}{}", if runs_backwards(field, *value) { "; pumps do not run backwards" } else { "" })]
+    #[error("{field}: {value} is outside {min} to {max}{}", hint(field, *value))]
     OutOfRange {
         /// Where in the document.
         field: String,
@@ -48,6 +64,21 @@ pub enum ScenarioError {
         /// Smallest allowed value.
         min: f64,
         /// Largest allowed value.
+        max: f64,
+    },
+    /// An experiment of more samples than a run may have.
+    #[error(
+        "{field}: {duration_s} s are more than {max} samples at `controller.sampling_time_s` {sampling_time_s} s; shorten the one or \
+         lengthen the other"
+    )]
+    TooManySamples {
+        /// The duration, where it is in the document.
+        field: String,
+        /// The duration (s).
+        duration_s: f64,
+        /// The sampling time (s).
+        sampling_time_s: f64,
+        /// The most samples.
         max: f64,
     },
     /// Too many of something.

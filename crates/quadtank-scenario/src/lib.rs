@@ -43,7 +43,7 @@ pub use csv_style::{CsvStyle, DecimalSign, Separator, TwoCommas};
 pub use difference::Difference;
 pub use document::{BenchDocument, Scenario, View};
 pub use entries::{Entry, EntryValue, entries};
-pub use error::{ScenarioError, runs_backwards};
+pub use error::{ScenarioError, is_gravity_in_cm, runs_backwards};
 pub use label::Label;
 pub use limits::Limits;
 pub use link::{LINK_LIMIT, document_from_link, to_link};

@@ -64,7 +64,7 @@ pub const TRACKING_RATIO: Limits = Limits::new(0.01, 100.0);
 /// Controller output in manual mode (V).
 pub const MANUAL_OUTPUT: Limits = Limits::new(0.0, 1000.0);
 /// Sampling time Ts (s).
-pub const SAMPLING_TIME_S: Limits = Limits::new(0.05, 60.0);
+pub const SAMPLING_TIME_S: Limits = Limits::new(0.001, 60.0);
 
 /// Gain α̂ of the ultra-local model (m/(s V)).
 pub const MODEL_GAIN: Limits = Limits::new(1e-7, 1.0);
@@ -103,10 +103,13 @@ pub const LEAK_AREA: Limits = Limits::new(0.0, 0.01);
 pub const NOISE_STD: Limits = Limits::new(0.0, 1.0);
 /// Seed of the measurement noise: any whole number of 32 bits.
 pub const SEED: Limits = Limits::new(0.0, u32::MAX as f64);
-/// Steps in one list of an experiment.
+/// Loads of an experiment, and steps of the output of a level loop in manual.
 pub const MAX_STEPS: usize = 8;
-/// Steps of pumps that are moved by hand, and of measured inflows: a record of 2,000 rows in which two of them moved at every row.
-pub const MAX_PUMP_STEPS: usize = 4000;
+/// Steps of the references of an experiment: those of a record in which a level was held here and there for a while.
+pub const MAX_SET_POINT_STEPS: usize = 100;
+/// Steps of pumps that are moved by hand, and of measured inflows: two of them that move at each of [`MAX_SAMPLES`]. Such a run takes
+/// 10 ms, and its document, which has 4.4 MB, 0.1 s to read (both native).
+pub const MAX_PUMP_STEPS: usize = 40_000;
 
 /// Cross-section of a tank at any level (m²).
 pub const TANK_AREA: Limits = Limits::new(1e-5, 10.0);
@@ -153,7 +156,7 @@ pub const ONE_OR_TWO: Limits = Limits::new(1.0, 2.0);
 /// Passes of a sequential relay test.
 pub const PASSES: Limits = Limits::new(1.0, 20.0);
 /// Rows of one record.
-pub const MAX_ROWS: f64 = 100_000.0;
+pub const MAX_RECORD_ROWS: f64 = 100_000.0;
 /// Rows of all records of a sequential relay test together.
 pub const ROWS_OF_ALL: Limits = Limits::new(0.0, 500_000.0);
 /// Coefficient of a transfer function; see also [`COEFFICIENT_MAGNITUDE`].
@@ -224,9 +227,9 @@ pub fn log_step_s(duration_s: f64) -> Limits {
     Limits { min: LEVEL_STEP_S.min.max(duration_s / MAX_SAMPLES), max: LEVEL_STEP_S.max.min(duration_s) }
 }
 
-/// Allowed times between the rows of a record of a duration (any unit): at least one row, at most [`MAX_ROWS`].
+/// Allowed times between the rows of a record of a duration (any unit): at least one row, at most [`MAX_RECORD_ROWS`].
 pub fn row_step(duration: f64) -> Limits {
-    Limits::new(duration / MAX_ROWS, duration)
+    Limits::new(duration / MAX_RECORD_ROWS, duration)
 }
 
 /// Allowed sampling times (s) in an experiment of a duration (s): those of [`SAMPLING_TIME_S`] with at most [`MAX_SAMPLES`]
@@ -269,7 +272,7 @@ mod tests {
 
     #[test]
     fn short_sampling_times_make_short_experiments() {
-        assert_eq!(duration_s(SAMPLING_TIME_S.min), Limits::new(10.0, 1000.0));
+        assert_eq!(duration_s(SAMPLING_TIME_S.min), Limits::new(10.0, 20.0));
         assert_eq!(duration_s(SAMPLING_TIME_S.max), DURATION_S);
     }
 

@@ -124,5 +124,10 @@ pub fn valve(valve: &ValveSchedule, at: &str) -> Checked {
 
 /// The experiment of the setup at a path, sampled every `sampling_time_s` (s), is no more samples than a run may have.
 pub fn duration(experiment: &Experiment, sampling_time_s: f64, at: &str) -> Checked {
-    limits::duration_s(sampling_time_s).check(&format!("{at}.experiment.duration_s"), experiment.duration_s)
+    let (field, duration_s) = (format!("{at}.experiment.duration_s"), experiment.duration_s);
+    limits::DURATION_S.check(&field, duration_s)?;
+    if limits::duration_s(sampling_time_s).contains(duration_s) {
+        return Ok(());
+    }
+    Err(ScenarioError::TooManySamples { field, duration_s, sampling_time_s, max: limits::MAX_SAMPLES })
 }

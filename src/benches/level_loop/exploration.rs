@@ -9,6 +9,7 @@ use quadtank::tuning::search::GeneticSettings;
 
 use super::session::Session;
 use crate::slices::Slices;
+use crate::timing::now_ms;
 
 /// Cells along each side of the map.
 pub const CELLS: usize = 40;
@@ -150,8 +151,4 @@ fn start<T: Clone + Send + Sync + 'static>(
         }
     };
     exploration.slices.set_value(Some(Slices::start(step, after_slice)));
-}
-
-fn now_ms() -> f64 {
-    window().performance().map_or(0.0, |clock| clock.now())
 }

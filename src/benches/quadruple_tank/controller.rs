@@ -59,6 +59,8 @@ const WEIGHT: ParamControl<Setup> = ParamControl {
     digits: Some(2),
     ..FINE
 };
+/// The slider begins at this sampling time (s); what no rig needs can be typed.
+const LEAST_SAMPLING_OF_SLIDER_S: f64 = 0.05;
 const SAMPLING: ParamControl<Setup> = ParamControl {
     ids: [("sampling", "sampling-number"); 2],
     label: |lab, _| tr!(lab, pi.sampling_label),
@@ -69,7 +71,7 @@ const SAMPLING: ParamControl<Setup> = ParamControl {
     within: |s, _| limits::sampling_time_s(s.experiment.duration_s),
     travel: Some(|s| {
         let limits = limits::sampling_time_s(s.experiment.duration_s);
-        (limits.min, limits.max)
+        (limits.min.max(LEAST_SAMPLING_OF_SLIDER_S), limits.max)
     }),
     ..FINE
 };

@@ -11,8 +11,10 @@ use crate::shown::{finer_digits, per_metre, unit_name};
 use crate::texts::{say, tr};
 use crate::widgets::{Choice, NumberField, Scale, Select};
 
+/// How many steps have a row: an experiment may hold more, such as those of a record.
+const SHOWN: usize = 8;
 /// Names of the fields of each step, for tests.
-const IDS: [[&str; 3]; limits::MAX_STEPS] = [
+const IDS: [[&str; 3]; SHOWN] = [
     ["step-level-1", "step-time-1", "step-size-1"],
     ["step-level-2", "step-time-2", "step-size-2"],
     ["step-level-3", "step-time-3", "step-size-3"],
@@ -40,16 +42,19 @@ pub fn AllSteps() -> impl IntoView {
             steps.push(SetPointStep { level, time_s, size: 0.0 });
         });
     };
-    let rows = move || (0..count.get()).map(|index| view! { <StepRow index /> }).collect_view();
+    let rows = move || (0..count.get().min(SHOWN)).map(|index| view! { <StepRow index /> }).collect_view();
     view! {
         <div class="steps" role="group" aria-label=say!(lab, experiment.steps) data-testid="all-steps">
             <p class="remark">{say!(lab, experiment.steps)}</p>
             {rows}
+            <p class="remark" hidden=move || count.get() <= SHOWN data-testid="steps-not-shown">
+                {move || tr!(lab, experiment.steps_not_shown, count = count.get().saturating_sub(SHOWN))}
+            </p>
             <button
                 type="button"
                 class="button small"
                 data-testid="step-add"
-                disabled=move || { is_locked || count.get() == limits::MAX_STEPS }
+                disabled=move || { is_locked || count.get() >= SHOWN }
                 on:click=add
             >
                 {say!(lab, experiment.step_add)}
@@ -64,7 +69,7 @@ fn StepRow(index: usize) -> impl IntoView {
     let session = use_session();
     let lab = session.lab;
     let number = index + 1;
-    let [level_id, time_id, size_id] = IDS[index.min(limits::MAX_STEPS - 1)];
+    let [level_id, time_id, size_id] = IDS[index.min(SHOWN - 1)];
     let disabled = lab.locks(locks::EXPERIMENT);
     let step = move |session: Session| {
         session.read(|s| s.experiment.set_point_steps.get(index).copied()).unwrap_or(SetPointStep {

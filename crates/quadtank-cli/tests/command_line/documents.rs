@@ -70,7 +70,7 @@ fn a_file_that_is_too_long_is_refused_by_its_size() {
     fs::File::create(&file).unwrap().set_len(1 << 40).unwrap();
     let output = run(&["analyse", file.to_str().unwrap()]);
     assert_eq!(output.status.code(), Some(2));
-    assert!(stderr(&output).ends_with("the document is longer than 1048576 bytes\n"), "{}", stderr(&output));
+    assert!(stderr(&output).ends_with("the document is longer than 8388608 bytes\n"), "{}", stderr(&output));
     fs::remove_file(&file).unwrap();
     let directory = run(&["analyse", folder("sizes").to_str().unwrap()]);
     assert_eq!(directory.status.code(), Some(1));

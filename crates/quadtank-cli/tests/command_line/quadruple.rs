@@ -190,7 +190,7 @@ fn a_broken_scenario_ends_with_code_2_and_names_the_field() {
         (with("/version", json!(7)), "version: 7 is unknown, this program reads 1 to 4"),
         (good.replace("3000.0", "1e999").into_bytes(), "setup.experiment.duration_s: number out of range"),
         (singular, "setup.operating_point: the plant is singular at steady state: gamma1 + gamma2 = 1"),
-        (vec![b'['; 2_000_000], "the document is longer than 1048576 bytes"),
+        (vec![b'['; 9_000_000], "the document is longer than 8388608 bytes"),
         (vec![0xff, 0xfe, 0x00], "not UTF-8 text"),
         (Vec::new(), "document: EOF while parsing"),
     ] {

@@ -5,6 +5,9 @@
 
 mod rows;
 
+use std::collections::HashMap;
+use std::fmt::{self, Write as _};
+
 use serde::Serialize;
 use serde_json::Value;
 
@@ -99,27 +102,57 @@ const MAY_BE_NULL: &str = "view.cursor_s";
 /// [`ScenarioError::OutOfRange`] or [`ScenarioError::TooMany`] for the first one that is not allowed.
 pub(super) fn check(document: &impl Serialize) -> Result<(), ScenarioError> {
     let document = serde_json::to_value(document).map_err(|error| malformed(String::new(), error.to_string()))?;
-    check_value(&document, "")
+    Walk::default().check(&document)
 }
 
-fn check_value(value: &Value, path: &str) -> Result<(), ScenarioError> {
-    match value {
-        Value::Object(fields) => fields.iter().try_for_each(|(name, value)| check_value(value, &field_of(path, name))),
-        Value::Array(items) => {
-            check_length(items.len(), path)?;
-            items.iter().enumerate().try_for_each(|(index, item)| check_value(item, &format!("{path}[{index}]")))
+/// A way through a document. The row of a number is found once for all entries of a list: a record as an experiment has 80,000
+/// numbers, which took 160 ms when each was looked up by itself.
+#[derive(Default)]
+struct Walk {
+    /// Where it is.
+    path: String,
+    /// The same with `[]` for any index.
+    place: String,
+    rows: HashMap<String, Option<&'static Param>>,
+}
+
+impl Walk {
+    fn check(&mut self, value: &Value) -> Result<(), ScenarioError> {
+        match value {
+            Value::Object(fields) => fields.iter().try_for_each(|(name, value)| {
+                let dot = if self.path.is_empty() { "" } else { "." };
+                self.check_part(value, format_args!("{dot}{name}"), format_args!("{dot}{name}"))
+            }),
+            Value::Array(items) => {
+                check_length(items.len(), &self.path)?;
+                items
+                    .iter()
+                    .enumerate()
+                    .try_for_each(|(index, item)| self.check_part(item, format_args!("[{index}]"), format_args!("[]")))
+            }
+            Value::Number(number) => self.check_number(number.as_f64().unwrap_or(f64::NAN)),
+            // What is not finite is null in JSON.
+            Value::Null if self.path != MAY_BE_NULL => self.check_number(f64::NAN),
+            _ => Ok(()),
         }
-        Value::Number(number) => check_number(number.as_f64().unwrap_or(f64::NAN), path),
-        // What is not finite is null in JSON.
-        Value::Null if path != MAY_BE_NULL => check_number(f64::NAN, path),
-        _ => Ok(()),
     }
-}
 
-fn check_number(value: f64, path: &str) -> Result<(), ScenarioError> {
-    match Param::at(path) {
-        Some(param) => param.limits.check(path, value),
-        None => Ok(()),
+    fn check_part(&mut self, part: &Value, step: fmt::Arguments, any: fmt::Arguments) -> Result<(), ScenarioError> {
+        let ends = [self.path.len(), self.place.len()];
+        // Writing to a String cannot fail.
+        let _ = (self.path.write_fmt(step), self.place.write_fmt(any));
+        self.check(part)?;
+        self.path.truncate(ends[0]);
+        self.place.truncate(ends[1]);
+        Ok(())
+    }
+
+    fn check_number(&mut self, value: f64) -> Result<(), ScenarioError> {
+        let row = match self.rows.get(&self.place) {
+            Some(row) => *row,
+            None => *self.rows.entry(self.place.clone()).or_insert(Param::at(&self.path)),
+        };
+        row.map_or(Ok(()), |param| param.limits.check(&self.path, value))
     }
 }
 

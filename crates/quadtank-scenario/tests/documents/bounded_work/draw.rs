@@ -184,10 +184,11 @@ impl Draw {
         };
         // Every tank is that high.
         let level = Limits { max: limits::TANK_HEIGHT.min, ..limits::LEVEL };
-        let most_by_hand = if self.one_in(20) { limits::MAX_PUMP_STEPS } else { 40 };
+        let most_by_hand = if self.one_in(50) { limits::MAX_PUMP_STEPS } else { 40 };
         let steps_by_hand = if self.one_in(2) { 0 } else { self.index(most_by_hand) };
         let inflows = if self.one_in(2) { 0 } else { self.index(most_by_hand) };
-        let [set_points, loads] = [self.index(limits::MAX_STEPS + 1), self.index(limits::MAX_STEPS + 1)];
+        let most_set_points = if self.one_in(20) { limits::MAX_SET_POINT_STEPS } else { limits::MAX_STEPS };
+        let [set_points, loads] = [self.index(most_set_points + 1), self.index(limits::MAX_STEPS + 1)];
         Experiment {
             duration_s,
             set_point_steps: (0..set_points).map(|_| set_point(self)).collect(),

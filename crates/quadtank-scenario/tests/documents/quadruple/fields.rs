@@ -40,7 +40,7 @@ pub fn full() -> Value {
 }
 
 /// Fields (by the path that an error gives, and by JSON pointer) and a number that is out of their range.
-pub const LEAVES: [(&str, &str, f64); 59] = [
+pub const LEAVES: [(&str, &str, f64); 58] = [
     (
         "setup.plant.parameters.rig.tanks[2].section.area_at_empty",
         "/setup/plant/parameters/rig/tanks/2/section/area_at_empty",
@@ -90,7 +90,6 @@ pub const LEAVES: [(&str, &str, f64); 59] = [
     ("setup.controller.loops[0].mode.manual.until_s", "/setup/controller/loops/0/mode/manual/until_s", -1.0),
     ("setup.controller.sampling_time_s", "/setup/controller/sampling_time_s", 0.0),
     ("setup.experiment.duration_s", "/setup/experiment/duration_s", 1.0),
-    ("setup.experiment.duration_s", "/setup/controller/sampling_time_s", 0.06),
     ("setup.experiment.set_point_steps[0].time_s", "/setup/experiment/set_point_steps/0/time_s", -1.0),
     ("setup.experiment.set_point_steps[3].size", "/setup/experiment/set_point_steps/3/size", 11.0),
     ("setup.experiment.load_steps[1].time_s", "/setup/experiment/load_steps/1/time_s", 1e6),
@@ -142,7 +141,6 @@ fn a_sensor_is_ideal_or_has_at_least_the_least_resolution() {
 fn every_number_out_of_range_names_itself_and_its_limits() {
     for (path, pointer, wrong) in LEAVES {
         let mut document = full();
-        // The experiment lasts 1750 s: with a sampling time of 0.06 s that would be too many samples.
         *document.pointer_mut(pointer).unwrap() = json!(wrong);
         match from_json(&document.to_string()) {
             Err(ScenarioError::OutOfRange { field, value, min, max }) => {
@@ -152,6 +150,28 @@ fn every_number_out_of_range_names_itself_and_its_limits() {
             other => panic!("{path}: {other:?}"),
         }
     }
+}
+
+#[test]
+fn more_samples_than_a_run_may_have_name_both_times() {
+    let mut document = full();
+    // The experiment lasts 1750 s.
+    document["setup"]["controller"]["sampling_time_s"] = json!(0.001);
+    let error = from_json(&document.to_string()).unwrap_err();
+    let field = "setup.experiment.duration_s".to_owned();
+    let expected = ScenarioError::TooManySamples { field, duration_s: 1750.0, sampling_time_s: 0.001, max: 20_000.0 };
+    assert_eq!(error, expected);
+    assert!(error.to_string().contains("controller.sampling_time_s"), "{error}");
+    document["setup"]["experiment"]["duration_s"] = json!(20.0);
+    assert!(from_json(&document.to_string()).is_ok());
+}
+
+#[test]
+fn gravity_in_centimetres_is_told() {
+    let mut document = full();
+    document["setup"]["plant"]["parameters"]["rig"]["gravity"] = json!(981.0);
+    let error = from_json(&document.to_string()).unwrap_err().to_string();
+    assert!(error.ends_with("is outside 0.1 to 100; gravity is in m/s², and 981 cm/s² are 9.81 m/s²"), "{error}");
 }
 
 #[test]
@@ -177,10 +197,10 @@ fn an_index_beyond_its_list_names_itself() {
 #[test]
 fn too_many_entries_are_counted() {
     for (path, pointer, count, max) in [
-        ("setup.experiment.set_point_steps", "/setup/experiment/set_point_steps", 9, limits::MAX_STEPS),
+        ("setup.experiment.set_point_steps", "/setup/experiment/set_point_steps", 101, limits::MAX_SET_POINT_STEPS),
         ("setup.experiment.load_steps", "/setup/experiment/load_steps", 30, limits::MAX_STEPS),
-        ("setup.experiment.pump_voltage_steps", "/setup/experiment/pump_voltage_steps", 4001, limits::MAX_PUMP_STEPS),
-        ("setup.experiment.inflow_steps", "/setup/experiment/inflow_steps", 4001, limits::MAX_PUMP_STEPS),
+        ("setup.experiment.pump_voltage_steps", "/setup/experiment/pump_voltage_steps", 40_001, limits::MAX_PUMP_STEPS),
+        ("setup.experiment.inflow_steps", "/setup/experiment/inflow_steps", 40_001, limits::MAX_PUMP_STEPS),
         ("pinned", "/pinned", Scenario::MAX_PINNED + 1, Scenario::MAX_PINNED),
     ] {
         let mut document = full();
