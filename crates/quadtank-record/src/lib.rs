@@ -15,7 +15,7 @@ use agreement::interpolated;
 pub use agreement::{Agreement, RecordAgreement, agreement, residuals};
 pub use error::RecordError;
 pub use fit::{Estimate, Fit, FitReport, Parameter};
-pub use mapping::{ColumnMeaning, Mapping, Signal, Unit};
+pub use mapping::{ColumnMeaning, Mapping, NamedUnit, Signal, Unit};
 pub use record::Record;
 use replay::first_levels;
 pub use replay::replay;

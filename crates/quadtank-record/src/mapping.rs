@@ -151,6 +151,39 @@ pub struct ColumnMeaning {
     pub unit: Unit,
 }
 
+/// What the name of a column says of the unit.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum NamedUnit {
+    /// A unit in which the signal may be written.
+    Known(Unit),
+    /// One in which it is not, such as `ft` or `%`: as it is written.
+    Unknown(String),
+    /// None.
+    None,
+}
+
+impl NamedUnit {
+    /// What a name says of the unit of a signal. What stands in brackets or behind a slash is a unit, known or not; a word at the
+    /// end only if it is known.
+    pub fn of(name: &str, signal: Signal) -> Self {
+        let small = plain(name);
+        let known = match signal {
+            Signal::Inflow(_) => unit_of_flow(&small),
+            _ => unit_of(signal, split_unit(&small).1),
+        };
+        match (known, enclosed(name)) {
+            (Some(unit), _) => Self::Known(unit),
+            (None, Some(unit)) => Self::Unknown(unit.to_owned()),
+            (None, None) => Self::None,
+        }
+    }
+
+    /// The unit, and the usual one of the signal where it is not said.
+    pub fn or_usual(&self, signal: Signal) -> Unit {
+        if let Self::Known(unit) = self { *unit } else { signal.units()[0] }
+    }
+}
+
 /// What the columns of a table hold; `None` for a column that is left out.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Mapping(pub Vec<Option<ColumnMeaning>>);
@@ -247,11 +280,11 @@ impl Mapping {
 /// What the name of a column says: the kind by its word, which one by its digit, the unit by what stands in brackets or at its end.
 fn meaning_of(name: &str) -> Option<ColumnMeaning> {
     let name = plain(name);
-    let (words, unit) = split_unit(&name);
+    let (words, _) = split_unit(&name);
     let number = words.chars().find_map(|c| c.to_digit(10)).map(|digit| digit as usize);
     let letters = words.trim().trim_end_matches(|c: char| c.is_ascii_digit() || "_ .".contains(c));
     if letters == "t" {
-        return Some(ColumnMeaning { signal: Signal::Time, unit: unit_of(Signal::Time, unit) });
+        return Some(meant_by(Signal::Time, &name));
     }
     let is_word = |word: &str| if word.len() <= 2 { letters == word } else { words.contains(word) };
     let (_, kind) = WORDS.iter().find(|(word, _)| is_word(word))?;
@@ -261,12 +294,14 @@ fn meaning_of(name: &str) -> Option<ColumnMeaning> {
         Kind::Level => Signal::Level(within(4)?),
         Kind::Reference => Signal::Reference(within(2)?),
         Kind::Pump => Signal::PumpVoltage(within(2)?),
-        Kind::Inflow => {
-            return Some(ColumnMeaning { signal: Signal::Inflow(within(4)?), unit: unit_of_flow(&name) });
-        }
+        Kind::Inflow => Signal::Inflow(within(4)?),
         Kind::Other => return None,
     };
-    Some(ColumnMeaning { signal, unit: unit_of(signal, unit) })
+    Some(meant_by(signal, &name))
+}
+
+fn meant_by(signal: Signal, name: &str) -> ColumnMeaning {
+    ColumnMeaning { signal, unit: NamedUnit::of(name, signal).or_usual(signal) }
 }
 
 /// Small letters without accents.
@@ -287,23 +322,47 @@ fn split_unit(name: &str) -> (&str, &str) {
     }
 }
 
-/// The unit of an inflow, found anywhere in the name of its column; cm³/s if the name has none. [`split_unit`] cannot read `cm3/s`:
+/// What stands in brackets at the end of a name, or behind its last slash, as units do; `None` for what has blanks or digits, as no
+/// unit of a level, a voltage or a time has.
+fn enclosed(name: &str) -> Option<&str> {
+    let name = name.trim();
+    let inside = name.strip_suffix([')', ']']).and_then(|open| open.rsplit_once(['(', '[']));
+    let unit = inside.or_else(|| name.rsplit_once('/')).map(|(_, unit)| unit.trim())?;
+    (!unit.is_empty() && !unit.contains(|c: char| c.is_whitespace() || c.is_ascii_digit())).then_some(unit)
+}
+
+/// The unit of an inflow, found anywhere in the name of its column. [`split_unit`] cannot read `cm3/s`:
 /// it splits at the slash and takes nothing with a digit for a unit.
-fn unit_of_flow(name: &str) -> Unit {
+fn unit_of_flow(name: &str) -> Option<Unit> {
     let has = |parts: &[&str]| parts.iter().any(|part| name.contains(part));
     if has(&["l/min", "lpm"]) {
-        Unit::LitrePerMinute
-    } else if has(&["m3", "m³"]) && !has(&["cm3", "cm³"]) {
-        Unit::CubicMetre
+        Some(Unit::LitrePerMinute)
+    } else if has(&["cm3", "cm³"]) {
+        Some(Unit::CubicCentimetre)
     } else {
-        Unit::CubicCentimetre
+        has(&["m3", "m³"]).then_some(Unit::CubicMetre)
     }
 }
 
-/// The unit of a signal by its symbol, or the usual one.
-fn unit_of(signal: Signal, symbol: &str) -> Unit {
-    let units = signal.units();
-    units.iter().copied().find(|unit| unit.symbol().eq_ignore_ascii_case(symbol)).unwrap_or(units[0])
+/// Units as people write them in English, Portuguese and Spanish, without accents, beside their symbols.
+const UNIT_WORDS: [(Unit, &[&str]); 9] = [
+    (Unit::Second, &["sec", "secs", "seg", "segs", "second", "seconds", "segundo", "segundos"]),
+    (Unit::Millisecond, &["msec", "mseg", "milliseconds"]),
+    (Unit::Minute, &["mins", "minute", "minutes", "minuto", "minutos"]),
+    (Unit::Hour, &["hr", "hrs", "hour", "hours", "hora", "horas"]),
+    (Unit::Metre, &["meter", "meters", "metre", "metres", "metro", "metros"]),
+    (Unit::Centimetre, &["centimeters", "centimetres", "centimetros", "cms"]),
+    (Unit::Millimetre, &["millimeters", "millimetres", "milimetros"]),
+    (Unit::Inch, &["inch", "inches", "polegadas", "pulgadas"]),
+    (Unit::Volt, &["volt", "volts", "voltios"]),
+];
+
+/// The unit of a signal by its symbol or its word.
+fn unit_of(signal: Signal, symbol: &str) -> Option<Unit> {
+    // A level in volts is the signal of its sensor.
+    let is_sensor = |unit: Unit, word: Unit| unit == word || (unit, word) == (Unit::SensorVolt, Unit::Volt);
+    let is_word = |unit: Unit| UNIT_WORDS.iter().any(|(word, all)| is_sensor(unit, *word) && all.contains(&symbol));
+    signal.units().iter().copied().find(|&unit| unit.symbol().eq_ignore_ascii_case(symbol) || is_word(unit))
 }
 
 #[cfg(test)]
@@ -334,9 +393,32 @@ mod tests {
         ] {
             assert_eq!(meaning_of(name), Some(ColumnMeaning { signal, unit }), "{name}");
         }
+        for (name, signal, unit) in [
+            ("time (sec)", Signal::Time, Unit::Second),
+            ("Tiempo [horas]", Signal::Time, Unit::Hour),
+            ("h1 (inches)", Signal::Level(0), Unit::Inch),
+            ("h1 (volts)", Signal::Level(0), Unit::SensorVolt),
+            ("u1 (Volts)", Signal::PumpVoltage(0), Unit::Volt),
+        ] {
+            assert_eq!(NamedUnit::of(name, signal), NamedUnit::Known(unit), "{name}");
+        }
         for name in ["", "comment", "h7", "h", "linear_level_1_m", "controller_output_1_v", "flow 1"] {
             assert_eq!(meaning_of(name), None, "{name}");
         }
+    }
+
+    #[test]
+    fn a_unit_that_is_not_said_or_not_known_is_told() {
+        let level = Signal::Level(0);
+        for name in ["h1", "Tank 1", "level_1", "h1 (tank 1)", "h1 measured", "h1_raw", ""] {
+            assert_eq!(NamedUnit::of(name, level), NamedUnit::None, "{name}");
+        }
+        for (name, unit) in [("h1 (ft)", "ft"), ("h1 [%]", "%"), ("y1/feet", "feet"), ("Level 1 (cmH)", "cmH")] {
+            assert_eq!(NamedUnit::of(name, level), NamedUnit::Unknown(unit.to_owned()), "{name}");
+        }
+        assert_eq!(NamedUnit::of("inflow 3", Signal::Inflow(2)), NamedUnit::None);
+        assert_eq!(NamedUnit::of("inflow 3 (gpm)", Signal::Inflow(2)), NamedUnit::Unknown("gpm".to_owned()));
+        assert_eq!(NamedUnit::of("u1 (kV)", Signal::PumpVoltage(0)), NamedUnit::Unknown("kV".to_owned()));
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use quadtank_record::{ColumnMeaning, Mapping, Record, RecordError, Table};
+use quadtank_record::{ColumnMeaning, Mapping, NamedUnit, Record, RecordError, Table, Unit};
 
 /// A file that was opened as a record.
 #[derive(Clone, Debug)]
@@ -15,6 +15,8 @@ pub struct OpenRecord {
     pub mapping: Mapping,
     /// The record that follows, or why there is none.
     pub found: Result<Arc<Record>, RecordError>,
+    /// Columns whose unit was chosen by hand.
+    chosen: Vec<usize>,
     /// What the level sensors give (V/m), for levels in volts.
     sensor_gain: f64,
 }
@@ -26,7 +28,7 @@ impl OpenRecord {
             Ok(table) => {
                 let mapping = Mapping::guess(&table);
                 let found = Record::of(&table, &mapping, sensor_gain).map(Arc::new);
-                Self { name, table: Some(Arc::new(table)), mapping, found, sensor_gain }
+                Self { name, table: Some(Arc::new(table)), mapping, found, chosen: Vec::new(), sensor_gain }
             }
             Err(error) => Self::refused(name, error),
         }
@@ -34,12 +36,31 @@ impl OpenRecord {
 
     /// A file that is no table.
     pub fn refused(name: String, error: RecordError) -> Self {
-        Self { name, table: None, mapping: Mapping::empty(0), found: Err(error), sensor_gain: 1.0 }
+        Self { name, table: None, mapping: Mapping::empty(0), found: Err(error), chosen: Vec::new(), sensor_gain: 1.0 }
     }
 
     /// The record, if there is one.
     pub fn record(&self) -> Option<&Record> {
         self.found.as_deref().ok()
+    }
+
+    /// Columns whose unit nobody said, with what their names say of it: the usual one was taken.
+    pub fn assumed(&self) -> Vec<(usize, NamedUnit)> {
+        let columns = self.table.iter().flat_map(|table| table.columns.iter().zip(&self.mapping.0).enumerate());
+        let named = columns.filter_map(|(index, (column, meaning))| {
+            let named = NamedUnit::of(&column.name, (*meaning)?.signal);
+            let is_said = matches!(named, NamedUnit::Known(_)) || self.chosen.contains(&index);
+            (!is_said).then_some((index, named))
+        });
+        named.collect()
+    }
+
+    /// Says in which unit a column is.
+    pub fn set_unit(&mut self, column: usize, unit: Unit) {
+        if let Some(meaning) = self.mapping.0.get(column).copied().flatten() {
+            self.chosen.push(column);
+            self.set_meaning(column, Some(ColumnMeaning { unit, ..meaning }));
+        }
     }
 
     /// Says what a column is.

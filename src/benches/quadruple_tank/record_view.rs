@@ -5,7 +5,9 @@ use std::sync::Arc;
 use leptos::html::Input;
 use leptos::prelude::*;
 use quadtank_figure::Frame;
-use quadtank_record::{Agreement, ColumnMeaning, MAX_BYTES, RecordError, Signal as Recorded, Unit, agreement, replay};
+use quadtank_record::{
+    Agreement, ColumnMeaning, MAX_BYTES, NamedUnit, RecordError, Signal as Recorded, Unit, agreement, replay,
+};
 
 use super::fit_view::FitControls;
 use super::flags::locks;
@@ -117,9 +119,43 @@ fn OpenFile() -> impl IntoView {
         <p role="status" data-testid="record-told" class:warm=move || told().is_some_and(|(warm, _)| warm)>
             {move || told().map(|(_, text)| text)}
         </p>
+        <AssumedUnits />
         <Columns />
         {move || is_record.get().then(|| view! { <AgreementTable /><ResidualPlot /><RunButton /><FitControls /> })}
     }
+}
+
+/// Which columns name no unit, or none that is known, and what was taken for it.
+#[component]
+fn AssumedUnits() -> impl IntoView {
+    let session = use_session();
+    let lab = session.lab;
+    let told = move || {
+        session.own.record.with(|opened| {
+            let opened = opened.as_ref()?;
+            let table = opened.table.as_ref()?;
+            let (none, unknown): (Vec<_>, Vec<_>) =
+                opened.assumed().into_iter().partition(|(_, named)| *named == NamedUnit::None);
+            let of_column = |(index, _): &(usize, NamedUnit)| {
+                let unit = opened.mapping.0[*index].map(|meaning| unit_text(lab, meaning.unit)).unwrap_or_default();
+                format!("{} → {unit}", column_name(&table.columns[*index].name, *index))
+            };
+            let listed = |columns: &[(usize, NamedUnit)]| columns.iter().map(of_column).collect::<Vec<_>>().join(", ");
+            let mut parts = Vec::new();
+            parts.extend((!unknown.is_empty()).then(|| tr!(lab, record.units_unknown, columns = listed(&unknown))));
+            parts.extend((!none.is_empty()).then(|| tr!(lab, record.units_assumed, columns = listed(&none))));
+            (!parts.is_empty()).then(|| parts.join(" "))
+        })
+    };
+    let told = Memo::new(move |_| told());
+    view! {
+        <p class="remark warm" role="status" data-testid="record-units" hidden=move || told.with(Option::is_none)>{move || told.get()}</p>
+    }
+}
+
+/// The name of a column, or its number where it has none.
+fn column_name(name: &str, index: usize) -> String {
+    if name.is_empty() { (index + 1).to_string() } else { name.to_owned() }
 }
 
 /// What each column is, to be chosen.
@@ -135,7 +171,7 @@ fn Columns() -> impl IntoView {
         let columns = table.iter().flat_map(|table| table.columns.iter().enumerate());
         columns
             .map(|(index, column)| {
-                let name = if column.name.is_empty() { (index + 1).to_string() } else { column.name.clone() };
+                let name = column_name(&column.name, index);
                 let first = column.values.iter().copied().find(|value| !value.is_nan());
                 view! { <ColumnRow index name first /> }.into_any()
             })
@@ -170,6 +206,7 @@ fn ColumnRow(index: usize, name: String, first: Option<f64>) -> impl IntoView {
     let meaning = Signal::derive(move || {
         opened.with(|opened| opened.as_ref().and_then(|o| o.mapping.0.get(index).copied().flatten()))
     });
+    let named = name.clone();
     let set = move |meaning: Option<ColumnMeaning>| {
         opened.update(|opened| {
             if let Some(opened) = opened {
@@ -180,11 +217,17 @@ fn ColumnRow(index: usize, name: String, first: Option<f64>) -> impl IntoView {
     let choose_signal = move |signal: Option<Recorded>| {
         let unit = |signal: Recorded| {
             let kept = meaning.get_untracked().map(|meaning| meaning.unit).filter(|unit| signal.units().contains(unit));
-            kept.unwrap_or(signal.units()[0])
+            kept.unwrap_or_else(|| NamedUnit::of(&named, signal).or_usual(signal))
         };
         set(signal.map(|signal| ColumnMeaning { signal, unit: unit(signal) }));
     };
-    let choose_unit = move |unit: Unit| set(meaning.get_untracked().map(|meaning| ColumnMeaning { unit, ..meaning }));
+    let choose_unit = move |unit: Unit| {
+        opened.update(|opened| {
+            if let Some(opened) = opened {
+                opened.set_unit(index, unit);
+            }
+        });
+    };
     let signals = Signal::derive(move || {
         let none = Choice::new(None, "none", tr!(lab, record.left_out));
         let all =

@@ -6,14 +6,15 @@ use clap::Args;
 use quadtank::sim::Trajectory;
 use quadtank::study::quadruple_tank::{Setup, run};
 use quadtank_record::{
-    ColumnMeaning, Fit, FitReport, MAX_BYTES, Mapping, Parameter, Record, RecordAgreement, RecordError, Signal, Table,
-    agreement, replay,
+    ColumnMeaning, Fit, FitReport, MAX_BYTES, Mapping, NamedUnit, Parameter, Record, RecordAgreement, RecordError,
+    Signal, Table, Unit, agreement, replay,
 };
 use quadtank_scenario::{Document, Scenario, ScenarioError, to_json};
 use serde::Serialize;
 use thiserror::Error;
 
 use super::files::{bytes_of, file_name, print_json, write_file};
+use super::message::tell;
 use super::{Failure, Source, document_of, told};
 
 /// A scenario and a record.
@@ -23,9 +24,9 @@ pub struct RecordOptions {
     source: Source,
     /// Record: CSV or TSV with names of columns such as `t (s)`, `h1 (cm)`, `u1 (V)`
     record: PathBuf,
-    /// What a column is, by its number from 1, if its name does not say: `2=level1:mm`, `3=none`; may be repeated
+    /// What a column is, by its number from 1, and its unit, if its name does not say: `2=level1:mm`, `3=none`; may be repeated
     #[arg(long = "column", value_name = "N=SIGNAL[:UNIT]", value_parser = column_of)]
-    columns: Vec<(usize, Option<ColumnMeaning>)>,
+    columns: Vec<(usize, Option<Said>)>,
     /// Compare with the experiment of the scenario, not with that of the record
     #[arg(long)]
     own_experiment: bool,
@@ -38,6 +39,9 @@ pub struct RecordOptions {
     scenario: Option<PathBuf>,
 }
 
+/// What a column is said to be, and in which unit if that is said too.
+type Said = (Signal, Option<Unit>);
+
 /// Why there is no report.
 #[derive(Debug, Error)]
 pub enum RecordFault {
@@ -45,6 +49,10 @@ pub enum RecordFault {
     Record { file: String, error: RecordError },
     #[error("{file}: there is no column {column}; it has {count}")]
     NoColumn { file: String, column: usize, count: usize },
+    #[error(
+        "{file}: column {column} `{name}` is in `{unit}`, which is not known here; say `--column {column}={signal}:UNIT` with one of {known}"
+    )]
+    UnknownUnit { file: String, column: usize, name: String, unit: String, signal: String, known: String },
     #[error("a record is held against a run of the quadruple tank, version 1")]
     OtherBench,
 }
@@ -67,6 +75,9 @@ struct Report {
 struct ColumnReport {
     name: String,
     meaning: Option<ColumnMeaning>,
+    /// Whether neither its name nor `--column` says the unit, so that the usual one was taken.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    unit_assumed: bool,
 }
 
 fn parameter_of(name: &str) -> Result<Parameter, String> {
@@ -75,7 +86,7 @@ fn parameter_of(name: &str) -> Result<Parameter, String> {
 }
 
 /// `2=level1:mm`
-fn column_of(text: &str) -> Result<(usize, Option<ColumnMeaning>), String> {
+fn column_of(text: &str) -> Result<(usize, Option<Said>), String> {
     const HOW: &str = "a number of a column from 1, =, and time, level1 to level4, reference1, reference2, pump1, pump2, inflow1 to inflow4 or none, \
                        with : and a unit if need be";
     let (column, meaning) = text.split_once('=').ok_or(HOW)?;
@@ -85,17 +96,15 @@ fn column_of(text: &str) -> Result<(usize, Option<ColumnMeaning>), String> {
         return Ok((column, None));
     }
     let signal = Signal::ALL.into_iter().find(|known| known.name() == signal).ok_or(HOW)?;
-    let unit = match unit {
-        None => signal.units()[0],
-        Some(symbol) => *signal.units().iter().find(|unit| unit.name() == symbol).ok_or_else(|| {
-            format!(
-                "the units of {} are {}",
-                signal.name(),
-                signal.units().iter().map(|unit| unit.name()).collect::<Vec<_>>().join(", ")
-            )
-        })?,
+    let known = |symbol: &str| {
+        let found = signal.units().iter().copied().find(|unit| unit.name() == symbol);
+        found.ok_or_else(|| format!("the units of {} are {}", signal.name(), units_of(signal)))
     };
-    Ok((column, Some(ColumnMeaning { signal, unit })))
+    Ok((column, Some((signal, unit.map(known).transpose()?))))
+}
+
+fn units_of(signal: Signal) -> String {
+    signal.units().iter().map(|unit| unit.name()).collect::<Vec<_>>().join(", ")
 }
 
 /// Reads both, compares, fits, and prints what was found.
@@ -103,7 +112,8 @@ pub fn execute(options: &RecordOptions) -> Result<(), Failure> {
     let Document::Quadruple(mut scenario) = document_of(&options.source)? else {
         return Err(RecordFault::OtherBench.into());
     };
-    let (table, mapping) = table_of(options)?;
+    let Read { table, mapping, assumed } = table_of(options)?;
+    tell_assumed(&table, &mapping, &assumed);
     let wrong = |error| RecordFault::Record { file: file_name(&options.record), error };
     let record = Record::of(&table, &mapping, scenario.setup.plant().sensor.gain).map_err(wrong)?;
     let mut found = None;
@@ -124,7 +134,12 @@ pub fn execute(options: &RecordOptions) -> Result<(), Failure> {
             .columns
             .into_iter()
             .zip(mapping.0)
-            .map(|(column, meaning)| ColumnReport { name: column.name, meaning })
+            .enumerate()
+            .map(|(index, (column, meaning))| ColumnReport {
+                name: column.name,
+                meaning,
+                unit_assumed: assumed.contains(&index),
+            })
             .collect(),
         rows: record.time_s.len(),
         duration_s: record.duration_s(),
@@ -135,18 +150,52 @@ pub fn execute(options: &RecordOptions) -> Result<(), Failure> {
     })
 }
 
-/// The table of the record, and what its columns are.
-fn table_of(options: &RecordOptions) -> Result<(Table, Mapping), Failure> {
+/// The table of the record, what its columns are, and those of which nobody said the unit.
+struct Read {
+    table: Table,
+    mapping: Mapping,
+    assumed: Vec<usize>,
+}
+
+fn table_of(options: &RecordOptions) -> Result<Read, Failure> {
     let file = file_name(&options.record);
     let table = Table::read(&bytes_of(&options.record, MAX_BYTES)?)
         .map_err(|error| RecordFault::Record { file: file.clone(), error })?;
-    let mut mapping = Mapping::guess(&table);
+    let mut said: Vec<Option<Said>> = Mapping::guess(&table).0.iter().map(|m| m.map(|m| (m.signal, None))).collect();
     for &(column, meaning) in &options.columns {
         let count = table.columns.len();
-        let place = mapping.0.get_mut(column - 1).ok_or(RecordFault::NoColumn { file: file.clone(), column, count })?;
+        let place = said.get_mut(column - 1).ok_or(RecordFault::NoColumn { file: file.clone(), column, count })?;
         *place = meaning;
     }
-    Ok((table, mapping))
+    let (mut mapping, mut assumed) = (Mapping::empty(table.columns.len()), Vec::new());
+    for (index, said) in said.into_iter().enumerate() {
+        let Some((signal, unit)) = said else { continue };
+        let name = &table.columns[index].name;
+        let named = unit.map_or_else(|| NamedUnit::of(name, signal), NamedUnit::Known);
+        match &named {
+            NamedUnit::Known(_) => {}
+            NamedUnit::None => assumed.push(index),
+            NamedUnit::Unknown(unit) => {
+                let (name, unit) = (name.clone(), unit.clone());
+                let (signal, known) = (signal.name(), units_of(signal));
+                return Err(RecordFault::UnknownUnit { file, column: index + 1, name, unit, signal, known }.into());
+            }
+        }
+        mapping.0[index] = Some(ColumnMeaning { signal, unit: named.or_usual(signal) });
+    }
+    Ok(Read { table, mapping, assumed })
+}
+
+/// Says on standard error which units were taken because none is named.
+fn tell_assumed(table: &Table, mapping: &Mapping, assumed: &[usize]) {
+    let of_column = |&index: &usize| {
+        let unit = mapping.0[index].map_or("", |meaning| meaning.unit.name());
+        format!("column {} `{}` is read in {unit}", index + 1, table.columns[index].name)
+    };
+    if !assumed.is_empty() {
+        let all = assumed.iter().map(of_column).collect::<Vec<_>>().join(", ");
+        tell(format!("no unit is named: {all}; say another with --column N=SIGNAL:UNIT"));
+    }
 }
 
 fn fitted(setup: &Setup, record: &Record, parameters: &[Parameter]) -> Result<Fit, RecordError> {

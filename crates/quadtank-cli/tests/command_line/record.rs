@@ -50,6 +50,19 @@ fn a_record_without_names_is_told_what_it_is() {
     // Johansson's level 1 rests at 12.26 cm.
     let rmse = report["agreement"]["levels"][0]["rmse"].as_f64().unwrap();
     assert!(rmse < 3e-3, "{rmse}");
+    assert_eq!(report["columns"][0]["unit_assumed"], true);
+    assert!(report["columns"][1].get("unit_assumed").is_none());
+}
+
+#[test]
+fn a_unit_that_nobody_said_is_told() {
+    let (scenario, _) = recorded("units");
+    let record = scratch("no-units.csv");
+    fs::write(&record, "t (s),h1,u1\n0,12.4,3\n10,12.4,3\n20,12.5,3\n").unwrap();
+    let told = stderr(&run(&["record", &scenario, &record, "--own-experiment"]));
+    assert!(told.contains("column 2 `h1` is read in cm, column 3 `u1` is read in V"), "{told}");
+    let said = ["record", &scenario, &record, "--own-experiment", "--column", "2=level1:cm", "--column", "3=pump1:V"];
+    assert_eq!(stderr(&run(&said)), "");
 }
 
 #[test]
@@ -57,7 +70,10 @@ fn what_cannot_be_used_is_one_line() {
     let (scenario, record) = recorded("faults");
     let text = scratch("no-table.csv");
     fs::write(&text, "t,h1\n0,12\n1,open\n").unwrap();
+    let feet = scratch("feet.csv");
+    fs::write(&feet, "t (s),h1 (ft)\n0,0.4\n1,0.4\n").unwrap();
     for (arguments, words) in [
+        (vec!["record", &scenario, &feet], "column 2 `h1 (ft)` is in `ft`, which is not known here"),
         (vec!["record", &scenario, &text], "line 3, column 2: `open` is not a number"),
         (vec!["record", &scenario, &record, "--column", "99=level1"], "there is no column 99"),
         (vec!["record", &scenario, &record, "--column", "2=flow"], "level1 to level4"),
