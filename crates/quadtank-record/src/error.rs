@@ -1,6 +1,6 @@
 use thiserror::Error;
 
-use crate::Signal;
+use crate::{Parameter, Signal};
 
 /// Why a text is not a record, or a record cannot be used.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -104,6 +104,16 @@ pub enum RecordError {
         values: usize,
         /// Free parameters.
         parameters: usize,
+    },
+    /// Bounds of a search that are no interval, or not within what a rig may have.
+    #[error("{}: its bounds are two values between {min} and {max} in {}, the smaller one first", parameter.name(), parameter.unit())]
+    WrongBounds {
+        /// Of which parameter.
+        parameter: Parameter,
+        /// The smallest value that is allowed.
+        min: f64,
+        /// The largest one.
+        max: f64,
     },
     /// The experiment of the record cannot be run on the rig.
     #[error("the experiment of the record cannot be run on this rig")]

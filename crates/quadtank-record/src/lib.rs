@@ -14,7 +14,7 @@ mod table;
 use agreement::interpolated;
 pub use agreement::{Agreement, RecordAgreement, agreement, residuals};
 pub use error::RecordError;
-pub use fit::{Estimate, Fit, FitReport, Parameter};
+pub use fit::{Estimate, Fit, FitReport, Parameter, Sought, levels_at_start};
 pub use mapping::{ColumnMeaning, Mapping, NamedUnit, Signal, Unit};
 pub use record::Record;
 use replay::first_levels;

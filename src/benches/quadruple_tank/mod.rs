@@ -3,6 +3,8 @@
 mod controller;
 mod experiment;
 mod explore;
+mod fit_bounds;
+mod fit_found;
 mod fit_view;
 mod flags;
 mod four_levels;

@@ -9,6 +9,7 @@ use quadtank_record::{
     Agreement, ColumnMeaning, MAX_BYTES, NamedUnit, RecordError, Signal as Recorded, Unit, agreement, replay,
 };
 
+use super::fit_found::name;
 use super::fit_view::FitControls;
 use super::flags::locks;
 use super::pictures::residuals;
@@ -419,6 +420,7 @@ pub fn why(lab: Lab, error: &RecordError) -> String {
         RecordError::TooFewValues { values, parameters } => {
             tr!(lab, record.too_few, values = values, parameters = parameters)
         }
+        RecordError::WrongBounds { parameter, .. } => tr!(lab, record.wrong_bounds, name = name(lab, *parameter)),
         RecordError::CannotRun => tr!(lab, record.cannot_run),
     }
 }

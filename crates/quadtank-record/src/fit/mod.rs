@@ -8,10 +8,10 @@ use nalgebra_of_solver::DMatrix;
 use quadtank::study::quadruple_tank::Setup;
 use serde::Serialize;
 
-pub use parameter::Parameter;
-use problem::{Free, Problem};
+pub use parameter::{Parameter, Sought};
+use problem::Problem;
 
-use crate::{Record, RecordError, replay};
+use crate::{Record, RecordError, first_levels, replay};
 
 /// Times that the solver may go through all parameters before it shows where it stands.
 const PATIENCE: usize = 2;
@@ -82,14 +82,27 @@ impl Fit {
     /// As [`replay`]; [`RecordError::NothingToFit`] without a parameter or without levels; [`RecordError::TooFewValues`] with fewer
     /// values than parameters; [`RecordError::CannotRun`] where the rig cannot be run.
     pub fn new(setup: &Setup, record: &Record, parameters: &[Parameter]) -> Result<Self, RecordError> {
+        let (rig, first) = (setup.plant(), levels_at_start(setup, record));
+        let sought: Vec<Sought> = parameters.iter().map(|&parameter| Sought::usual(parameter, &rig, &first)).collect();
+        Self::within(setup, record, &sought)
+    }
+
+    /// The same from other values and within other bounds.
+    ///
+    /// # Errors
+    /// As [`Self::new`]; [`RecordError::WrongBounds`].
+    pub fn within(setup: &Setup, record: &Record, sought: &[Sought]) -> Result<Self, RecordError> {
         let rig = setup.plant();
-        let free = parameters.iter().map(|&parameter| Free { parameter, bounds: parameter.bounds(&rig) }).collect();
-        let mut problem = Problem::new(replay(record, setup)?, record, free);
-        if parameters.is_empty() || problem.count() == 0 {
+        if let Some(wrong) = sought.iter().find(|sought| !sought.is_valid(&rig)) {
+            let allowed = wrong.parameter.allowed(&rig);
+            return Err(RecordError::WrongBounds { parameter: wrong.parameter, min: allowed.min, max: allowed.max });
+        }
+        let mut problem = Problem::new(replay(record, setup)?, record, sought.to_vec());
+        if sought.is_empty() || problem.count() == 0 {
             return Err(RecordError::NothingToFit);
         }
-        if problem.count() <= parameters.len() {
-            return Err(RecordError::TooFewValues { values: problem.count(), parameters: parameters.len() });
+        if problem.count() <= sought.len() {
+            return Err(RecordError::TooFewValues { values: problem.count(), parameters: sought.len() });
         }
         let first_rmse = rmse(&problem).ok_or(RecordError::CannotRun)?;
         problem.place_delays();
@@ -157,7 +170,7 @@ impl Fit {
         let covariance = self.covariance(&values);
         let errors: Option<Vec<f64>> =
             covariance.as_ref().map(|covariance| covariance.diagonal().iter().map(|v| v.sqrt()).collect());
-        let estimate = |(index, free): (usize, &Free)| {
+        let estimate = |(index, free): (usize, &Sought)| {
             let [low, high] = free.bounds;
             let margin = AT_BOUND * (high - low);
             Estimate {
@@ -202,6 +215,11 @@ impl Fit {
         let inverse = factor.inverse();
         Some(DMatrix::from_fn(values.len(), values.len(), |i, j| variance * inverse[(i, j)] * widths[i] * widths[j]))
     }
+}
+
+/// The levels that a search begins with (m), as in the experiment of the record.
+pub fn levels_at_start(setup: &Setup, record: &Record) -> [f64; 4] {
+    first_levels(record, setup).unwrap_or_default()
 }
 
 fn rmse(problem: &Problem) -> Option<f64> {

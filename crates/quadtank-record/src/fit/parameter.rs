@@ -1,5 +1,5 @@
 use quadtank::plant::QuadrupleTank;
-use quadtank_scenario::limits;
+use quadtank_scenario::{Limits, limits};
 use serde::{Deserialize, Serialize};
 
 /// The longest delay of a hose that is always sought (s).
@@ -96,7 +96,23 @@ impl Parameter {
         }
     }
 
-    /// Bounds of the search, in the unit of the parameter: a valve fraction over almost all of 0 to 1; gains and areas from a fifth to
+    /// The values that may be sought at all.
+    pub fn allowed(self, rig: &QuadrupleTank) -> Limits {
+        match self {
+            Self::Valve(_) => limits::VALVE,
+            Self::PumpGain(_) => limits::PUMP_GAIN,
+            Self::OutletArea(index) => {
+                // Torricelli's law has to hold.
+                let widest = limits::OUTLET_SHARE * rig.tanks[index].section.area_at_empty;
+                Limits { max: limits::OUTLET_AREA.max.min(widest), ..limits::OUTLET_AREA }
+            }
+            Self::LevelOffset(index) => Limits::new(-rig.tanks[index].height, rig.tanks[index].height),
+            Self::PumpDelay(_) => limits::PUMP_DELAY_S,
+            Self::StartLevel(index) => Limits::new(0.0, rig.tanks[index].height),
+        }
+    }
+
+    /// Bounds of the search where no others are given, in the unit of the parameter: a valve fraction over almost all of 0 to 1; gains and areas from a fifth to
     /// five times their present value; a sensor offset within a fifth of the height of its tank; a delay from 0 to one minute, or to
     /// five times its present value if that is longer; a level from empty to full.
     pub fn bounds(self, rig: &QuadrupleTank) -> [f64; 2] {
@@ -111,5 +127,35 @@ impl Parameter {
             }
             Self::StartLevel(index) => [0.0, rig.tanks[index].height],
         }
+    }
+}
+
+/// A parameter that is sought: from where, and between which values.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sought {
+    /// Which one.
+    pub parameter: Parameter,
+    /// Where the search begins; a value outside of the bounds counts as the nearer bound.
+    pub start: f64,
+    /// Smallest and largest value.
+    pub bounds: [f64; 2],
+}
+
+impl Sought {
+    /// A parameter from its value on the rig, within its usual bounds. The water begins at the levels `first` (m).
+    pub fn usual(parameter: Parameter, rig: &QuadrupleTank, first: &[f64; 4]) -> Self {
+        let allowed = parameter.allowed(rig);
+        Self {
+            parameter,
+            start: parameter.of(rig, first),
+            bounds: parameter.bounds(rig).map(|bound| allowed.clamp(bound)),
+        }
+    }
+
+    /// Whether its bounds are two different values that are allowed, the smaller one first.
+    pub fn is_valid(&self, rig: &QuadrupleTank) -> bool {
+        let [low, high] = self.bounds;
+        let allowed = self.parameter.allowed(rig);
+        low < high && allowed.contains(low) && allowed.contains(high) && self.start.is_finite()
     }
 }

@@ -3,9 +3,9 @@
 use levenberg_marquardt::LeastSquaresProblem;
 use nalgebra_of_solver::{DMatrix, DVector, Dyn, Owned};
 use quadtank::sim::Trajectory;
-use quadtank::study::quadruple_tank::{PlantSpec, Setup, run};
+use quadtank::study::quadruple_tank::{PlantSpec, Setup, nonlinear_run};
 
-use super::Parameter;
+use super::{Parameter, Sought};
 use crate::{Record, first_levels, interpolated};
 
 /// Rows of the record that are compared, at most.
@@ -18,25 +18,18 @@ const STEP: f64 = 1e-5;
 /// Delays of a hose that are tried before the search.
 const PLACES: u32 = 10;
 
-/// A parameter with its bounds.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Free {
-    pub parameter: Parameter,
-    pub bounds: [f64; 2],
-}
-
-impl Free {
+impl Sought {
     fn width(&self) -> f64 {
         self.bounds[1] - self.bounds[0]
     }
 
     /// The value at a coordinate that may be any number: a logistic curve from bound to bound keeps the solver inside.
-    pub fn value(&self, coordinate: f64) -> f64 {
+    pub(super) fn value(&self, coordinate: f64) -> f64 {
         self.bounds[0] + self.width() / (1.0 + (-coordinate).exp())
     }
 
     /// The coordinate of a value, which is kept off the bounds.
-    pub fn coordinate(&self, value: f64) -> f64 {
+    pub(super) fn coordinate(&self, value: f64) -> f64 {
         let share = ((value - self.bounds[0]) / self.width()).clamp(1e-3, 1.0 - 1e-3);
         (share / (1.0 - share)).ln()
     }
@@ -51,7 +44,7 @@ impl Free {
 /// Recorded less simulated levels over the free parameters.
 #[derive(Clone, Debug)]
 pub struct Problem {
-    pub free: Vec<Free>,
+    pub free: Vec<Sought>,
     /// The experiment of the record, with the rig as it was; it begins at the levels of [`first_levels`].
     setup: Setup,
     record: Record,
@@ -62,16 +55,14 @@ pub struct Problem {
 }
 
 impl Problem {
-    pub fn new(setup: Setup, record: &Record, free: Vec<Free>) -> Self {
+    pub fn new(setup: Setup, record: &Record, free: Vec<Sought>) -> Self {
         let stride = record.time_s.len().div_ceil(MAX_ROWS).max(1);
         let end = setup.experiment.duration_s;
         let rows = (0..record.time_s.len()).step_by(stride).filter(|&row| record.time_s[row] <= end);
         let has = |tank: usize, row: usize| record.levels[tank].get(row).is_some_and(|level| !level.is_nan());
         let compared =
             rows.flat_map(|row| (0..4).map(move |tank| (tank, row))).filter(|&(tank, row)| has(tank, row)).collect();
-        let rig = setup.plant();
-        let first = setup.experiment.initial_levels.unwrap_or_default();
-        let start = free.iter().map(|free| free.coordinate(free.parameter.of(&rig, &first)));
+        let start = free.iter().map(|free| free.coordinate(free.start));
         let at = DVector::from_iterator(free.len(), start);
         Self { free, setup, record: record.clone(), compared, at }
     }
@@ -167,7 +158,7 @@ impl Problem {
         let offsets = self.offsets(values);
         let mut setup = self.setup_with(values);
         setup.experiment.initial_levels = self.first_levels(&setup, values);
-        let run = run(&setup).ok()?.nonlinear;
+        let run = nonlinear_run(&setup).ok()?;
         let difference = |&(tank, row): &(usize, usize)| {
             let simulated = self.simulated(&run, tank, row)? + offsets[tank];
             Some((self.record.levels[tank][row] - simulated) / SCALE)

@@ -178,3 +178,26 @@ fn first_levels_that_were_found_are_those_of_the_experiment() {
     assert_eq!(found[2], fit.report().estimates[0].value);
     assert_eq!(found[3], setup.operating_point().unwrap().levels[3]);
 }
+
+#[test]
+fn a_search_stays_within_given_bounds_and_begins_where_it_is_told() {
+    let (record, setup) = recorded(|rig| rig.valves[0] = 0.55, 0.0);
+    let sought = |start: f64, bounds: [f64; 2]| Sought { parameter: Parameter::Valve(0), start, bounds };
+    let run = |sought: Sought| {
+        let mut fit = Fit::within(&setup, &record, &[sought]).unwrap();
+        while !fit.is_over() {
+            fit.advance();
+        }
+        fit.report().estimates[0].clone()
+    };
+    assert!((run(sought(0.9, [0.3, 0.95])).value - 0.55).abs() < 1e-4);
+    let at_bound = run(sought(0.7, [0.6, 0.9]));
+    assert!(at_bound.is_at_bound && at_bound.value >= 0.6, "{at_bound:?}");
+    for bounds in [[0.9, 0.3], [0.5, 0.5], [-0.1, 0.9], [0.1, 1.1], [f64::NAN, 0.9]] {
+        let error = Fit::within(&setup, &record, &[sought(0.5, bounds)]).unwrap_err();
+        assert!(
+            matches!(error, RecordError::WrongBounds { parameter: Parameter::Valve(0), .. }),
+            "{bounds:?}: {error}"
+        );
+    }
+}

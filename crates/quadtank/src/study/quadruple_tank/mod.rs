@@ -25,7 +25,7 @@ pub use mends::{Mend, mend_loop, mend_rest, mend_run};
 pub use prepared::Prepared;
 pub use published::setup_of;
 pub use results::{QuadrupleTankStudy, Results};
-pub use run::{Run, run};
+pub use run::{Run, nonlinear_run, run};
 pub use setup::{OperatingPointSpec, PlantSpec, Setup};
 pub use valve_map::ValveMap;
 pub use zero_situation::{ZeroEffect, ZeroSituation};

@@ -44,6 +44,15 @@ pub fn run(setup: &Setup) -> Result<Run, StudyError> {
     Run::of(&prepared, setup, closed.ok().map(|closed| closed.stability))
 }
 
+/// The run of the nonlinear plant alone, which is what a fit does some hundred times.
+///
+/// # Errors
+/// As [`run`].
+pub fn nonlinear_run(setup: &Setup) -> Result<Trajectory, StudyError> {
+    let (plant, start) = (setup.plant(), setup.operating_point()?);
+    whole(simulate(&plant, &start, &setup.controller, &setup.experiment))
+}
+
 impl Run {
     /// The run of a setup that is prepared; `stability` is that of its sampled linear loop, if it is known, with both loops closed.
     ///
