@@ -139,7 +139,7 @@ fn lesson_height(lab: Lab) -> Option<i32> {
     if !is_wide || !lab.flags.with_value(|flags| flags.grows) {
         return None;
     }
-    let height_of = |selector| elements(selector).first().map(|element| element.client_height());
+    let height_of = |selector| elements(selector).first().map(web_sys::Element::client_height);
     let around = document().body()?.scroll_height() - height_of(".desk")?;
     Some((around + height_of(".desk > div:not([hidden])")?).clamp(HEIGHTS_PX.0, HEIGHTS_PX.1))
 }
