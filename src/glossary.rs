@@ -128,6 +128,13 @@ impl Term {
     }
 }
 
+/// The section of the document about the model on the first of some explanations.
+pub fn section_of(language: Language, texts: &[Text]) -> &'static str {
+    let explained = texts.first().map(|text| text(language));
+    let term = TERMS.iter().find(|term| Some((term.text)(language)) == explained);
+    term.map_or("", Term::section)
+}
+
 /// The link from a word to its lesson.
 fn lesson_link(lab: Lab, term: &'static Term) -> impl IntoView {
     view! {

@@ -4,6 +4,7 @@ use leptos::prelude::*;
 use super::marked::marked;
 use super::read_on::ReadOn;
 use super::table::is_open;
+use crate::glossary::section_of;
 use crate::lab::use_lab;
 use crate::texts::{Language, tr};
 
@@ -47,7 +48,7 @@ pub fn Terms(
     view! {
         <details class="menu small terms" data-testid=id on:toggle=on_toggle>
             <summary aria-label=name title=name>"?"</summary>
-            <div node_ref=panel>{move || open.get().then(list)} {move || open.get().then(|| view! { <ReadOn /> })}</div>
+            <div node_ref=panel>{move || open.get().then(list)} {move || open.get().then(|| view! { <ReadOn section=section_of(lab.language.get_untracked(), terms) /> })}</div>
         </details>
     }
 }
