@@ -244,8 +244,8 @@ mod tests {
 
     #[test]
     fn a_text_that_does_not_fit_is_left_where_it_does_not() {
-        let text: String =
-            (0..4000).map(|k| format!("{{\"time_s\": {k}.0,\"pump\": {},\"voltage\": 3.{k}}},", k % 2)).collect();
+        let step = |k: u32| format!("{{\"time_s\": {k}.0,\"pump\": {},\"voltage\": 3.{k}}}", k % 2);
+        let text = (0..4000).map(step).collect::<Vec<_>>().join(",");
         let (halves, taken) = halves_of(KNOWN, text.as_bytes(), 3000);
         assert!(halves.len() <= 3020 && taken < text.len() / 3, "{taken} of {}", text.len());
         assert_eq!(pack(KNOWN, text.as_bytes(), 1500), None);

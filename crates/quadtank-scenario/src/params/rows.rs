@@ -248,6 +248,7 @@ pub const LISTS: &[List] = &[
     List { path: "pinned", max: Scenario::MAX_PINNED },
     List { path: "pinned_loops", max: LevelLoopScenario::MAX_PINNED },
     List { path: "experiment.set_point_steps", max: limits::MAX_SET_POINT_STEPS },
+    List { path: "level_loop.experiment.set_point_steps", max: limits::MAX_STEPS },
     List { path: "experiment.load_steps", max: limits::MAX_STEPS },
     List { path: "experiment.pump_voltage_steps", max: limits::MAX_PUMP_STEPS },
     List { path: "experiment.inflow_steps", max: limits::MAX_PUMP_STEPS },
