@@ -7,7 +7,7 @@ use quadtank::sim::Trajectory;
 use quadtank::study::quadruple_tank::{Setup, run};
 use quadtank_record::{
     ColumnMeaning, Fit, FitReport, MAX_BYTES, Mapping, NamedUnit, Parameter, Record, RecordAgreement, RecordError,
-    Signal, Table, Unit, agreement, replay,
+    Signal, Sought, Table, Unit, agreement, levels_at_start, replay,
 };
 use quadtank_scenario::{Document, Scenario, ScenarioError, to_json};
 use serde::Serialize;
@@ -30,10 +30,11 @@ pub struct RecordOptions {
     /// Compare with the experiment of the scenario, not with that of the record
     #[arg(long)]
     own_experiment: bool,
-    /// Fit this parameter of the rig to the record; may be repeated: gamma1, gamma2, k1, k2, a1 to a4, offset1, offset2,
-    /// delay1, delay2 (of the hoses), start1 to start4 (levels at the beginning)
-    #[arg(long = "fit", value_name = "PARAMETER", conflicts_with = "own_experiment", value_parser = parameter_of)]
-    parameters: Vec<Parameter>,
+    /// Fit this parameter of the rig to the record; may be repeated: gamma1, gamma2, k1, k2, a1 to a4 (of the outlets, at their
+    /// loss coefficients), offset1, offset2, delay1, delay2 (of the hoses), start1 to start4 (levels at the beginning). Where the
+    /// search begins and its bounds may follow, in SI: `gamma1=0.6:0.3..0.9`
+    #[arg(long = "fit", value_name = "PARAMETER[=START][:LOW..HIGH]", conflicts_with = "own_experiment", value_parser = chosen_of)]
+    parameters: Vec<Chosen>,
     /// Write the scenario that was compared, with the fitted rig
     #[arg(long, value_name = "OUT")]
     scenario: Option<PathBuf>,
@@ -50,9 +51,11 @@ pub enum RecordFault {
     #[error("{file}: there is no column {column}; it has {count}")]
     NoColumn { file: String, column: usize, count: usize },
     #[error(
-        "{file}: column {column} `{name}` is in `{unit}`, which is not known here; say `--column {column}={signal}:UNIT` with one of {known}"
+        "{file}: column {column} `{name}` is in `{unit}`, which is not known here; say `--column {column}={}:UNIT` with one of {}",
+        signal.name(),
+        units_of(*signal)
     )]
-    UnknownUnit { file: String, column: usize, name: String, unit: String, signal: String, known: String },
+    UnknownUnit { file: String, column: usize, name: String, unit: String, signal: Signal },
     #[error("a record is held against a run of the quadruple tank, version 1")]
     OtherBench,
 }
@@ -80,9 +83,26 @@ struct ColumnReport {
     unit_assumed: bool,
 }
 
-fn parameter_of(name: &str) -> Result<Parameter, String> {
+/// A parameter to fit, with where the search begins and its bounds where they are given.
+#[derive(Clone, Copy)]
+struct Chosen {
+    parameter: Parameter,
+    start: Option<f64>,
+    bounds: Option<[f64; 2]>,
+}
+
+/// `gamma1=0.6:0.3..0.9`
+fn chosen_of(text: &str) -> Result<Chosen, String> {
+    let (head, bounds) = text.split_once(':').map_or((text, None), |(head, bounds)| (head, Some(bounds)));
+    let (name, start) = head.split_once('=').map_or((head, None), |(name, start)| (name, Some(start)));
     let known = || Parameter::ALL.map(Parameter::name).join(", ");
-    Parameter::of_name(name).ok_or_else(|| format!("it is one of {}", known()))
+    let parameter = Parameter::of_name(name).ok_or_else(|| format!("it is one of {}", known()))?;
+    let number = |text: &str| text.parse::<f64>().map_err(|_| format!("`{text}` is not a number"));
+    let range = |text: &str| {
+        let (low, high) = text.split_once("..").ok_or_else(|| format!("`{text}` are no bounds, such as 0.3..0.9"))?;
+        Ok::<_, String>([number(low)?, number(high)?])
+    };
+    Ok(Chosen { parameter, start: start.map(number).transpose()?, bounds: bounds.map(range).transpose()? })
 }
 
 /// `2=level1:mm`
@@ -177,8 +197,7 @@ fn table_of(options: &RecordOptions) -> Result<Read, Failure> {
             NamedUnit::None => assumed.push(index),
             NamedUnit::Unknown(unit) => {
                 let (name, unit) = (name.clone(), unit.clone());
-                let (signal, known) = (signal.name(), units_of(signal));
-                return Err(RecordFault::UnknownUnit { file, column: index + 1, name, unit, signal, known }.into());
+                return Err(RecordFault::UnknownUnit { file, column: index + 1, name, unit, signal }.into());
             }
         }
         mapping.0[index] = Some(ColumnMeaning { signal, unit: named.or_usual(signal) });
@@ -198,8 +217,13 @@ fn tell_assumed(table: &Table, mapping: &Mapping, assumed: &[usize]) {
     }
 }
 
-fn fitted(setup: &Setup, record: &Record, parameters: &[Parameter]) -> Result<Fit, RecordError> {
-    let mut fit = Fit::new(setup, record, parameters)?;
+fn fitted(setup: &Setup, record: &Record, chosen: &[Chosen]) -> Result<Fit, RecordError> {
+    let (rig, first) = (setup.plant(), levels_at_start(setup, record));
+    let sought = |chosen: &Chosen| {
+        let usual = Sought::usual(chosen.parameter, &rig, &first);
+        Sought { start: chosen.start.unwrap_or(usual.start), bounds: chosen.bounds.unwrap_or(usual.bounds), ..usual }
+    };
+    let mut fit = Fit::within(setup, record, &chosen.iter().map(sought).collect::<Vec<_>>())?;
     while !fit.is_over() {
         fit.advance();
     }

@@ -40,6 +40,18 @@ fn a_rig_is_fitted_to_its_record() {
 }
 
 #[test]
+fn a_fit_stays_within_the_bounds_that_are_given() {
+    let (scenario, record) = recorded("bounds");
+    let arguments = ["record", &scenario, &record, "--fit", "gamma1=0.8:0.7..0.9", "--fit", "gamma2:0.1..0.8"];
+    let report: Value = serde_json::from_str(&stdout(&run(&arguments))).unwrap();
+    let [first, second] = [0, 1].map(|index| &report["fit"]["estimates"][index]);
+    assert_eq!((&first["start"], &first["bounds"]), (&0.8.into(), &serde_json::json!([0.7, 0.9])));
+    assert_eq!(first["is_at_bound"], true);
+    assert_eq!((&second["start"], &second["bounds"]), (&0.6.into(), &serde_json::json!([0.1, 0.8])));
+    assert_eq!(report["fit"]["correlation"][0].as_array().unwrap().len(), 2);
+}
+
+#[test]
 fn a_record_without_names_is_told_what_it_is() {
     let (scenario, _) = recorded("bare");
     let record = scratch("bare-columns.csv");
@@ -82,6 +94,11 @@ fn what_cannot_be_used_is_one_line() {
             "the units of level1 are cm, m, mm, in, sensor-V",
         ),
         (vec!["record", &scenario, &record, "--fit", "gamma3"], "gamma1, gamma2"),
+        (vec!["record", &scenario, &record, "--fit", "gamma1:0.3"], "`0.3` are no bounds"),
+        (
+            vec!["record", &scenario, &record, "--fit", "gamma1:0.9..0.3"],
+            "gamma1: its bounds are two values between 0 and 1",
+        ),
     ] {
         let output = run(&arguments);
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");

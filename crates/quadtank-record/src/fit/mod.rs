@@ -37,6 +37,10 @@ const VAGUE_SHARE: f64 = 0.05;
 pub struct Estimate {
     /// Which one.
     pub parameter: Parameter,
+    /// Where the search began, in its unit.
+    pub start: f64,
+    /// Between which values it was sought.
+    pub bounds: [f64; 2],
     /// Its value, in its unit.
     pub value: f64,
     /// Standard error, if the residuals were independent; those of a record seldom are, so it is a lower bound. `None` where the record
@@ -175,6 +179,8 @@ impl Fit {
             let margin = AT_BOUND * (high - low);
             Estimate {
                 parameter: free.parameter,
+                start: free.start,
+                bounds: free.bounds,
                 value: values[index],
                 standard_error: errors.as_ref().map(|errors| errors[index]),
                 is_at_bound: values[index] - low < margin || high - values[index] < margin,
