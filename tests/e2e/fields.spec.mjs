@@ -272,7 +272,7 @@ test('a rig of another laboratory is typed in, and what cannot be is explained',
   await lab.type('voltage1', '1.63');
   await lab.type('voltage2', '2.00');
   // Without a step the rig stays at rest.
-  await lab.id('experiment-more').locator('summary').click();
+  await lab.id('experiment-more').locator('summary').first().click();
   await lab.id('step-remove-2').click();
   await lab.id('step-remove-1').click();
   await lab.settle();
@@ -292,7 +292,7 @@ test('a rig of another laboratory is typed in, and what cannot be is explained',
   await lab.page.waitForTimeout(600);
   await lab.page.reload();
   await lab.ready();
-  await lab.id('experiment-more').locator('summary').click();
+  await lab.id('experiment-more').locator('summary').first().click();
   const sizes = await Promise.all(steps.map((_, k) => lab.value(`step-size-${k + 1}`)));
   expect(sizes).toEqual([-35, -35, 20, 45, 40]);
   await lab.id('step-remove-5').click();

@@ -4,7 +4,7 @@ import { expect, test } from './lab.mjs';
 /** A record of Johansson's rig whose pump 1 moves twice, as the laboratory itself computes it, written the Brazilian way. */
 async function recorded(lab, page) {
   await lab.open('lang=en');
-  await lab.id('experiment-more').locator('summary').click();
+  await lab.id('experiment-more').locator('summary').first().click();
   await page.getByTestId('pumps-kind').selectOption('random');
   await lab.settle();
   await page.getByTestId('responses-menu').locator('summary').click();
@@ -48,11 +48,17 @@ test('a record is read, run and fitted', async ({ lab, page }) => {
   await expect(lab.id('pumps-kind')).toHaveValue('given');
   const fits = async () => (await lab.id('record-figures').locator('td:nth-child(4)').allTextContents()).map((t) => Number.parseFloat(t.replace('−', '-')));
   expect((await fits())[0]).toBeLessThan(95);
-  await lab.id('fit-fold').locator('summary').click();
+  await lab.id('fit-fold').locator('summary').first().click();
   await lab.id('fit-k1').uncheck();
   await lab.id('fit-k2').uncheck();
+  await lab.id('fit-bounds').click();
+  await expect(lab.id('fit-low')).toHaveCount(2);
+  await lab.id('fit-low').first().fill('0.3');
+  await lab.id('fit-low').first().press('Enter');
   await lab.id('fit-start').click();
   await expect(lab.id('fit-take')).toBeVisible({ timeout: 60_000 });
+  await lab.id('fit-correlation').click();
+  await expect(page.locator('details:has(> [data-testid=fit-correlation]) tbody tr')).toHaveCount(2);
   await lab.axe();
   await lab.id('fit-take').click();
   await lab.settle();
@@ -105,6 +111,10 @@ test('what is no record is explained and loses nothing', async ({ lab, page }) =
 
 test('a column is said to be another signal', async ({ lab, page }) => {
   await lab.open('lang=en');
+  await openRecord(lab, page, 't (s),h1 (ft),u1 (V)\n0,0.4,3\n1,0.4,3\n', 'feet.csv');
+  await expect(lab.id('record-units')).toContainText('not known here, and another one was taken: h1 (ft) → cm');
+  await lab.id('record-unit').nth(1).selectOption('Inch');
+  await expect(lab.id('record-units')).toBeHidden();
   await openRecord(lab, page, 's,a,b\n0,120,3\n1,121,3\n2,122,3\n', 'bare.csv');
   await expect(lab.id('record-told')).toContainText('Say which columns are levels');
   await lab.id('record-signal').nth(1).selectOption('level1');
@@ -115,19 +125,39 @@ test('a column is said to be another signal', async ({ lab, page }) => {
   await expect(lab.id('record-told')).toContainText('Columns 2 and 3 are both level 1');
 });
 
-test('a record of 20,000 rows paints, and its pumps move too often to be run', async ({ lab, page }) => {
+test('a record of 20,000 rows whose pump moves at each paints and is run', async ({ lab, page }) => {
   const rows = Array.from({ length: 20_000 }, (_, k) => `${k / 10},${12.4 + Math.sin(k / 300)},${3 + (k % 2) / 10}`);
   await lab.open('lang=en');
   await openRecord(lab, page, `t,h1,u1\n${rows.join('\n')}\n`, 'long.csv');
   await expect(lab.id('record-told')).toContainText('20000 rows');
+  await expect(lab.id('record-units')).toContainText('t → s, h1 → cm, u1 → V');
   await lab.id('record-run').click();
-  await expect(lab.id('record-fold')).toContainText('Pumps, inflows or references move 20000 times');
+  await expect(lab.id('record-fold')).toContainText('The simulation now does what the record did');
+  await lab.settle();
+  await expect(lab.id('pumps-kind')).toHaveValue('given');
+  await lab.clean();
+});
+
+test('steps of the pumps are typed as a table', async ({ lab }) => {
+  await lab.open('lang=en');
+  await lab.id('experiment-more').locator('summary').first().click();
+  await lab.id('pump-table').locator('summary').click();
+  await lab.id('pump-table-text').fill('0; 3; 3\n100; x; 3');
+  await lab.id('pump-table-use').click();
+  await expect(lab.id('pump-table-told')).toContainText('Line 2, column 2: “x” is not a number');
+  await expect(lab.id('pumps-kind')).toHaveValue('controlled');
+  await lab.id('pump-table-text').fill('0; 3; 3\n100; 3,5; 3\n');
+  await lab.id('pump-table-use').click();
+  await expect(lab.id('pump-table-told')).toContainText('The pumps make 3 steps now');
+  await lab.settle();
+  await expect(lab.id('pumps-kind')).toHaveValue('given');
+  await lab.axe();
   await lab.clean();
 });
 
 test('a run begins at other levels and the pumps are moved by hand', async ({ lab }) => {
   await lab.open('lang=en');
-  await lab.id('experiment-more').locator('summary').click();
+  await lab.id('experiment-more').locator('summary').first().click();
   await lab.id('start-kind').selectOption('levels');
   await lab.settle();
   await lab.type('start-level1', '5');

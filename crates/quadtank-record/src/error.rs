@@ -105,6 +105,26 @@ pub enum RecordError {
         /// Free parameters.
         parameters: usize,
     },
+    /// Steps of the pumps that have no or too many columns.
+    #[error("a line has {found} cells; it is a time and one or two voltages")]
+    SequenceColumns {
+        /// Cells of a line.
+        found: usize,
+    },
+    /// A time or a voltage that no experiment may have.
+    #[error("line {line}, column {column}: {value} is outside {min} to {max}")]
+    NotAllowed {
+        /// Line of the text, from 1.
+        line: usize,
+        /// Column, from 1.
+        column: usize,
+        /// The number.
+        value: f64,
+        /// Smallest allowed value.
+        min: f64,
+        /// Largest allowed value.
+        max: f64,
+    },
     /// Bounds of a search that are no interval, or not within what a rig may have.
     #[error("{}: its bounds are two values between {min} and {max} in {}, the smaller one first", parameter.name(), parameter.unit())]
     WrongBounds {

@@ -9,6 +9,7 @@ mod mapping;
 mod number;
 mod record;
 mod replay;
+mod sequence;
 mod table;
 
 use agreement::interpolated;
@@ -19,4 +20,5 @@ pub use mapping::{ColumnMeaning, Mapping, NamedUnit, Signal, Unit};
 pub use record::Record;
 use replay::first_levels;
 pub use replay::replay;
+pub use sequence::{pump_sequence, pump_sequence_text};
 pub use table::{Column, MAX_BYTES, Table};

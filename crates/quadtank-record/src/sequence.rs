@@ -1,5 +1,7 @@
 //! Steps of both pumps as people type them: a line for each time.
 
+use std::fmt::Write as _;
+
 use quadtank::sim::PumpVoltageStep;
 use quadtank_scenario::{Limits, limits};
 
@@ -67,7 +69,8 @@ pub fn pump_sequence_text(steps: &[PumpVoltageStep]) -> String {
             voltages[step.pump] = Some(step.voltage);
         }
         let [one, two] = voltages.map(|voltage| voltage.map_or_else(|| NO_VOLTAGE.to_owned(), |v| v.to_string()));
-        text += &format!("{}; {one}; {two}\n", at_once[0].time_s);
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "{}; {one}; {two}", at_once[0].time_s);
     }
     text
 }

@@ -20,6 +20,7 @@ mod poles;
 mod preset;
 mod process;
 mod published;
+mod pump_table;
 mod record;
 mod record_view;
 mod replay;

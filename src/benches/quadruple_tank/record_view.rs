@@ -421,6 +421,11 @@ pub fn why(lab: Lab, error: &RecordError) -> String {
             tr!(lab, record.too_few, values = values, parameters = parameters)
         }
         RecordError::WrongBounds { parameter, .. } => tr!(lab, record.wrong_bounds, name = name(lab, *parameter)),
+        RecordError::SequenceColumns { .. } => tr!(lab, experiment.table_lines),
+        RecordError::NotAllowed { line, column, value, min, max } => {
+            let [value, min, max] = [value, min, max].map(|&number| style.significant(number, 4));
+            tr!(lab, record.not_allowed, line = line, column = column, value = value, min = min, max = max)
+        }
         RecordError::CannotRun => tr!(lab, record.cannot_run),
     }
 }

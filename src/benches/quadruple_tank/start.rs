@@ -6,6 +6,7 @@ use quadtank_scenario::Limits;
 
 use super::flags::locks;
 use super::four_levels::{FourLevels, LEVEL};
+use super::pump_table::PumpTable;
 use super::session::use_session;
 use crate::controls::ParamControl;
 use crate::lab::Lab;
@@ -122,6 +123,7 @@ pub fn PumpControls() -> impl IntoView {
             <Select id="pumps-kind" labelled="pumps-kind" choices chosen on_choose=choose disabled=lab.locks(locks::EXPERIMENT) />
         </div>
         <p class="remark" hidden=move || !is_by_hand()>{say!(lab, experiment.pumps_remark)}</p>
+        <PumpTable />
     }
 }
 
