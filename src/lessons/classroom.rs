@@ -6,37 +6,17 @@ use std::sync::Arc;
 
 use leptos::prelude::*;
 use quadtank_lesson::{
-    Answer, Feedback, Lesson, Of, Progress, Record, Step, Task, TaskKind, Tongue, Values, Verdict, check, start_of,
-    with_settings,
+    Answer, Lesson, Of, Progress, Record, Step, Task, TaskKind, Tongue, Values, Verdict, check, start_of, with_settings,
 };
 use quadtank_scenario::{Difference, Document, Quantities};
 
 use super::course;
 use super::kept;
+use super::remarks::{Given, Remark};
 use crate::benches::BenchEntry;
 use crate::lab::{Lab, Stage};
 use crate::session::Lock;
 use crate::share::{kept_reference, lesson_reference, show_address};
-
-/// What stands below a task.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Remark {
-    /// Id of the task.
-    pub task: String,
-    /// What is said.
-    pub feedback: Option<Feedback>,
-    /// Whether the answer was right; nothing for a remark on something that is no answer.
-    pub verdict: Option<bool>,
-}
-
-/// An answer that a student has given.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Given {
-    /// Id of the task.
-    pub task: String,
-    /// Whether it was right.
-    pub is_right: bool,
-}
 
 /// The class room of this page. A handle of one pointer, as [`Lab`].
 #[derive(Clone, Copy)]
@@ -167,7 +147,7 @@ impl Classroom {
             Ok(None) if !kept => quadtank_lesson::state_before(&lesson, index, 0, seed).ok(),
             start => start.ok().flatten(),
         };
-        self.said.set(step.tasks.iter().filter_map(|task| self.said_before(task)).collect());
+        self.said.set(step.tasks.iter().filter_map(|task| Remark::before(task, &self.record(&task.id))).collect());
         self.at_end.set(false);
         self.progress.update(|progress| {
             if let Some(progress) = progress {
@@ -189,17 +169,6 @@ impl Classroom {
         self.set_stage(&lesson, step);
         show_address(&self.name.with_value(|name| lesson_reference(name, index)));
         self.keep();
-    }
-
-    /// What was said about a task that is done already.
-    fn said_before(self, task: &Task) -> Option<Remark> {
-        let record = self.record(&task.id);
-        let feedback = match (&task.kind, record.answer.as_ref().filter(|_| record.is_done())?) {
-            (TaskKind::Choose(_), Answer::Choice(index)) => Some(Feedback::Option(*index)),
-            (TaskKind::Explain(_), _) => Some(Feedback::Model),
-            _ => None,
-        };
-        Some(Remark { task: task.id.clone(), feedback, verdict: Some(record.solved) })
     }
 
     /// Shows the cards of a step; those that give the answer away come when its tasks are done.
@@ -278,14 +247,6 @@ impl Classroom {
         verdict
     }
 
-    /// Says something about a task in place of what was said before.
-    fn say(self, remark: Remark) {
-        self.said.update(|said| {
-            said.retain(|other| other.task != remark.task);
-            said.push(remark);
-        });
-    }
-
     /// Marks an answer without taking it up; follows the bench where the task is about it.
     pub fn marked(self, task: &Task, answer: &Answer) -> Verdict {
         match &task.kind {
@@ -314,19 +275,6 @@ impl Classroom {
     pub fn has_tried(self) -> bool {
         let present = (self.lab.bench.get_untracked().document)(self.lab);
         self.start.with_value(|start| start.as_ref() != Some(&present))
-    }
-
-    /// Says something about a task without marking it, or nothing any more.
-    pub fn say_in_passing(self, id: &str, feedback: Option<Feedback>) {
-        let of_task = |remark: &&Remark| remark.task == id;
-        let is_said = self.said.with_untracked(|said| said.iter().find(of_task).and_then(|remark| remark.feedback));
-        if is_said == feedback {
-            return;
-        }
-        match feedback {
-            Some(_) => self.say(Remark { task: id.to_owned(), feedback, verdict: None }),
-            None => self.said.update(|said| said.retain(|remark| remark.task != id)),
-        }
     }
 
     /// Brings the bench to a solution of a goal, which then gives no points.

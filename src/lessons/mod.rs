@@ -11,6 +11,7 @@ mod load;
 mod panel;
 mod place;
 mod prose;
+mod remarks;
 mod task;
 mod teachers;
 
