@@ -3,6 +3,7 @@
 //! An address names a lesson of the laboratory by its id, one of somebody else by the path of its file beside the page, and one that
 //! was opened from a file by [`FROM_FILE`] and its id: the tab remembers that one, so that a reload and Back find it.
 
+use std::path::Path;
 use std::sync::Arc;
 
 use leptos::prelude::*;
@@ -61,7 +62,8 @@ fn is_beside(path: &str) -> bool {
         let is_plain = name.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.'));
         is_plain && !name.is_empty() && !name.starts_with('.')
     };
-    path.len() <= LONGEST_PATH && path.strip_suffix(".json").is_some() && path.split('/').all(is_name)
+    let is_json = Path::new(path).extension().is_some_and(|extension| extension == "json");
+    is_json && path.len() <= LONGEST_PATH && path.split('/').all(is_name)
 }
 
 /// Remembers a lesson that was opened from a file, as long as the tab is there; its name in an address.
