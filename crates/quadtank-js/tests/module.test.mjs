@@ -58,6 +58,14 @@ for (const name of DOCUMENTS) {
   });
 }
 
+test('a test of each loop alone is told with what its settings do together', () => {
+  const document = quadtank.published('table-6-row-1');
+  document.tuning.test.kind = 'independent';
+  const { test: found } = quadtank.tune(document);
+  assert.deepEqual(found.pair.controllers.map(({ kp }) => kp.toPrecision(9)), found.loops.map(({ settings }) => settings.gain.toPrecision(9)));
+  assert.ok('stable' in found.pair.stability);
+});
+
 test('a broken document is an Error with the message of the command line', () => {
   const scenario = (change) => Object.assign(quadtank.published('johansson-2000-minimum-phase'), change);
   const { setup } = scenario();

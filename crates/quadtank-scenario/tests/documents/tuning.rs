@@ -10,6 +10,7 @@ use quadtank::study::relay_tuning::{
     Element, PlantStudy, TestKind, TestSpec, Tested, TuningPlant, TuningSetup, printed_figures, tune,
 };
 use quadtank::tuning::RelayReading;
+use quadtank_scenario::report::tuning::TuningReport;
 use quadtank_scenario::tuning::TuningScenario;
 use quadtank_scenario::{Document, ScenarioError, document_from_json, document_from_link, from_json, to_json, to_link};
 use serde_json::{Value, json};
@@ -235,4 +236,22 @@ fn bias_and_hysteresis_act_in_every_test_of_both_loops() {
     assert!((exact_oscillation(0.3, 0.0).0 - 7.833).abs() < 5e-4);
     assert!((exact_oscillation(0.3, 0.0).1 - 8.08).abs() < 5e-3);
     assert!((exact_oscillation(0.0, 0.05).0 - 9.039).abs() < 5e-4);
+}
+
+#[test]
+fn tests_of_each_loop_are_reported_with_what_their_settings_do_together() {
+    let report = |kind: TestKind| {
+        let mut setup = TuningSetup::default();
+        setup.test.kind = kind;
+        serde_json::to_value(TuningReport::of(&setup, &tune(&setup).unwrap()).unwrap()).unwrap()
+    };
+    let independent = report(TestKind::Independent);
+    let (pair, loops) = (&independent["test"]["pair"], &independent["test"]["loops"]);
+    for k in 0..2 {
+        let [kp, gain] = [&pair["controllers"][k]["kp"], &loops[k]["settings"]["gain"]].map(|v| v.as_f64().unwrap());
+        assert!((kp - gain).abs() <= 1e-12 * gain.abs(), "{kp} {gain}");
+    }
+    assert!(pair["stability"]["stable"].is_boolean() && pair["distance_from_minus_one"].is_f64(), "{pair}");
+    assert!(report(TestKind::Sequential)["test"]["pair"]["sensitivity_peak"].is_f64());
+    assert!(report(TestKind::Simultaneous)["test"].get("pair").is_none());
 }

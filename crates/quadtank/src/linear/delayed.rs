@@ -67,8 +67,8 @@ impl DelayedPlant {
     /// # Errors
     /// [`LinearError::OutOfRange`] for a path that is not proper, of an order above [`MAX_ORDER`], or with an index of
     /// input or output above 1.
-    pub fn new(paths_of: &[SignalPath]) -> Result<Self, LinearError> {
-        if let Some(path) = paths_of.iter().find(|path| path.input > 1 || path.output > 1) {
+    pub fn new(paths: &[SignalPath]) -> Result<Self, LinearError> {
+        if let Some(path) = paths.iter().find(|path| path.input > 1 || path.output > 1) {
             return Err(LinearError::OutOfRange { field: "path", value: path.input.max(path.output) as f64 });
         }
         let moving = |path: &SignalPath| {
@@ -77,11 +77,12 @@ impl DelayedPlant {
             let (input, output) = (path.input, path.output);
             Ok(PathState { input, output, dead_time, motion, state: [0.0; MAX_ORDER], acting: 0.0, awaited: 0 })
         };
-        let paths = paths_of.iter().map(moving).collect::<Result<Vec<_>, LinearError>>()?;
-        let swings = paths_of.iter().map(|path| quarter_of_quickest_swing(&path.element));
-        let search_step = paths.iter().map(|path| 0.5 * path.motion.unit()).chain(swings).fold(f64::INFINITY, f64::min);
+        let states = paths.iter().map(moving).collect::<Result<Vec<_>, LinearError>>()?;
+        let swings = paths.iter().map(|path| quarter_of_quickest_swing(&path.element));
+        let search_step =
+            states.iter().map(|path| 0.5 * path.motion.unit()).chain(swings).fold(f64::INFINITY, f64::min);
         Ok(Self {
-            paths,
+            paths: states,
             inputs: [0.0; 2],
             changes: [Vec::new(), Vec::new()],
             time: 0.0,

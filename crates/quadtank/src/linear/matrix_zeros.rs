@@ -92,17 +92,16 @@ impl Place {
         let mut places: Vec<Self> = Vec::new();
         for (k, roots) in of_elements.iter().enumerate() {
             for root in roots {
-                let is_same = |place: &&mut Self| {
+                let is_same = |place: &Self| {
                     place.denominators[k] == 0
                         && (place.at - root.place).norm() <= SAME * place.at.norm().max(root.place.norm())
                 };
-                if let Some(place) = places.iter_mut().find(is_same) {
-                    place.denominators[k] = root.multiplicity;
-                } else {
-                    let mut denominators = [0; 4];
-                    denominators[k] = root.multiplicity;
-                    places.push(Self { at: root.place, denominators });
-                }
+                let known = places.iter().position(is_same);
+                let place = known.unwrap_or_else(|| {
+                    places.push(Self { at: root.place, denominators: [0; 4] });
+                    places.len() - 1
+                });
+                places[place].denominators[k] = root.multiplicity;
             }
         }
         places
