@@ -11,14 +11,16 @@ mod record;
 mod replay;
 mod sequence;
 mod table;
+mod unit_name;
 
 use agreement::interpolated;
 pub use agreement::{Agreement, RecordAgreement, agreement, residuals};
 pub use error::RecordError;
 pub use fit::{Estimate, Fit, FitReport, Parameter, Sought, levels_at_start};
-pub use mapping::{ColumnMeaning, Mapping, NamedUnit, Signal, Unit};
+pub use mapping::{ColumnMeaning, Mapping, Signal, Unit};
 pub use record::Record;
 use replay::first_levels;
 pub use replay::replay;
 pub use sequence::{pump_sequence, pump_sequence_text};
 pub use table::{Column, MAX_BYTES, Table};
+pub use unit_name::NamedUnit;

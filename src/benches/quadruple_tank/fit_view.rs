@@ -7,7 +7,7 @@ use quadtank_record::{Fit, Parameter, RecordError};
 use super::fit_bounds::{Bounds, BoundsFold, sought};
 use super::fit_found::{length, name, result};
 use super::record::OpenRecord;
-use super::record_view::why;
+use super::record_errors::why;
 use super::session::{Session, use_session};
 use crate::slices::Slices;
 use crate::texts::{say, tr};

@@ -22,6 +22,7 @@ mod process;
 mod published;
 mod pump_table;
 mod record;
+mod record_errors;
 mod record_view;
 mod replay;
 mod responses;

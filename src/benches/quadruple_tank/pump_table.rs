@@ -4,7 +4,7 @@ use leptos::prelude::*;
 use quadtank_record::{RecordError, pump_sequence, pump_sequence_text};
 
 use super::flags::locks;
-use super::record_view::why;
+use super::record_errors::why;
 use super::session::use_session;
 use crate::texts::{say, tr};
 use crate::widgets::is_open;
