@@ -23,6 +23,7 @@ mod keep;
 mod lab;
 mod lessons;
 mod live_region;
+mod mends;
 mod messages;
 mod naming;
 mod notices;

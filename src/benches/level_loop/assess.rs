@@ -6,10 +6,11 @@ use quadtank_scenario::Limits;
 
 use super::errors;
 use super::flags::{locks, panels};
-use super::mends::{self, MendButton};
+use super::mends;
 use super::sentences::{self, short_variance};
 use super::session::{Session, use_session};
 use crate::controls::{ParamControl, ParamRow};
+use crate::mends::MendButton;
 use crate::shown::ShownUnit;
 use crate::texts::{say, terms, tr};
 use crate::widgets::{Card, Figure, Figures, ReasonedRow, Scale, Sentence, TableContent, Text, Verdict, marked};
@@ -84,7 +85,7 @@ pub fn AssessCard() -> impl IntoView {
                 warm=Signal::derive(move || !quality.get().0)
                 text=Signal::derive(move || quality.get().1)
             />
-            <MendButton id="mend-quality" offer=mends::of_loop />
+            <MendButton session id="mend-quality" offer=mends::of_loop />
             <p class="remark" data-testid="level-travel">{move || travel(session)}</p>
             <details class="more">
                 <summary data-testid="level-error-fold">{say!(lab, level.reference_title)}</summary>

@@ -7,10 +7,11 @@ use quadtank_figure::Frame;
 use quadtank_scenario::level_loop::LevelLoopScenario;
 
 use super::flags::panels;
-use super::mends::{self, MendButton};
+use super::mends;
 use super::pictures::{self, output_unit};
 use super::sentences;
 use super::session::{Session, set_cursor, shown, use_session};
+use crate::mends::MendButton;
 use crate::pinned::{PinButtons, PinnedSetups};
 use crate::texts::{say, terms, tr};
 use crate::widgets::{
@@ -52,7 +53,7 @@ pub fn CourseCard() -> impl IntoView {
             <Verdict id="level-verdict" warm=Signal::derive(move || !found.get().0)>
                 {move || marked(&found.get().1)}
             </Verdict>
-            <MendButton id="mend-run" offer=mends::of_run />
+            <MendButton session id="mend-run" offer=mends::of_run />
             <div class="chart">
                 <ChartCanvas picture frames summary=Signal::derive(move || unmarked(&found.get().1)) name="level-course" steady=true />
                 <TimeSurface axis frames label=say!(lab, responses.cursor) spoken readout id="level-surface" />

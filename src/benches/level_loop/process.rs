@@ -9,11 +9,12 @@ use quadtank_scenario::Limits;
 use super::drawing::LoopDrawing;
 use super::element::ElementPanel;
 use super::flags::{locks, panels};
-use super::mends::{self, MendButton};
+use super::mends;
 use super::session::{Session, load, set_cursor, use_session};
 use crate::controls::{ParamControl, ParamRow};
 use crate::errors::of_level_error;
 use crate::lab::Lab;
+use crate::mends::MendButton;
 use crate::shown::ShownUnit;
 use crate::texts::{say, terms, tr};
 use crate::widgets::{Card, Choice, Playback, Scale, Select, Sentence, Text, TimeBar, shown_times};
@@ -102,7 +103,7 @@ fn Start() -> impl IntoView {
             warm=Signal::derive(move || !found.get().0)
             text=Signal::derive(move || found.get().1)
         />
-        <MendButton id="mend-start" offer=mends::of_start />
+        <MendButton session id="mend-start" offer=mends::of_start />
     }
 }
 

@@ -3,11 +3,12 @@
 use leptos::prelude::*;
 
 use super::flags::panels;
-use super::mends::MendButton;
+use super::mends;
 use super::pictures;
 use super::sentences::{self, in_cm};
 use super::session::{Session, set_cursor, shown, use_session};
 use crate::errors::of_no_response;
+use crate::mends::MendButton;
 use crate::texts::{say, terms, tr};
 use crate::widgets::{
     Card, ChartCanvas, ChartMenu, DataTable, Figure, Figures, Readout, ReasonedRow, Row, Sentence, TableContent, Text,
@@ -55,7 +56,7 @@ pub fn CourseCard(
                 <Verdict id="free-verdict" warm=Signal::derive(move || !found.get().0)>
                     {move || marked(&found.get().1)}
                 </Verdict>
-                <MendButton is_lost=Signal::derive(move || !found.get().0) />
+                <MendButton session id="mend-free" offer=mends::of_run />
             </div>
             <div class="chart">
                 <ChartCanvas

@@ -3,11 +3,12 @@
 use leptos::prelude::*;
 
 use super::flags::{locks, panels};
-use super::mends::{self, MendButton};
+use super::mends;
 use super::sentences;
 use super::session::{Session, use_session};
 use crate::benches::handover::{self, HandOver};
 use crate::controls::{ParamControl, ParamNumber, ParamRow};
+use crate::mends::MendButton;
 use crate::texts::{say, terms, tr};
 use crate::widgets::{Card, Scale, Segmented, Sentence, Text, Tick};
 use quadtank::control::{AntiWindup, LoopMode, Pairing, PiSettings};
@@ -175,7 +176,7 @@ pub fn ControllerCard() -> impl IntoView {
                 warm=Signal::derive(move || stability.get().1)
                 status=true
             />
-            <MendButton id="mend-loop" offer=mends::of_gains />
+            <MendButton session id="mend-loop" offer=mends::of_gains />
         </Card>
     }
 }

@@ -1,11 +1,13 @@
-//! What mends a warning: a button at the end of its sentence, which is one step to undo.
+//! What mends a warning of the home bench.
 
 use leptos::prelude::*;
 
 use super::flags::locks;
-use super::session::{Session, use_session};
+use super::session::{QuadrupleTank, Session};
+use crate::mends::MendFor;
+use crate::session::Lock;
 use crate::texts::tr;
-use quadtank::study::quadruple_tank::{Mend, mend_loop, mend_rest, mend_run};
+use quadtank::study::quadruple_tank::{Mend, Setup, mend_loop, mend_rest, mend_run};
 
 /// What makes the loop stable.
 pub fn of_loop(session: Session) -> Option<Mend> {
@@ -29,54 +31,29 @@ pub fn of_run(session: Session) -> Option<Mend> {
     of_loop(session).or_else(|| session.throttled.run.with(|outcome| mend_run(&setup, outcome.as_ref().as_ref().ok()?)))
 }
 
-/// The button; nothing where nothing mends it. In a lesson the student is to find out.
-#[component]
-pub fn MendButton(
-    /// Name for tests.
-    id: &'static str,
-    /// What is offered.
-    offer: fn(Session) -> Option<Mend>,
-) -> impl IntoView {
-    let session = use_session();
-    let offered = Memo::new(move |_| offer(session).filter(|_| session.lab.stage.with(Option::is_none)));
-    let button = move |mend: Mend| {
-        view! {
-            <button type="button" class="button small" data-testid=id disabled=is_locked(session, mend) on:click=move |_| take(session, mend)>
-                {move || name(session, mend)}
-            </button>
+impl MendFor<QuadrupleTank> for Mend {
+    fn name(self, session: Session) -> String {
+        let lab = session.lab;
+        match self {
+            Self::DetuneLoops => tr!(lab, mend.calm),
+            Self::AdvisedPairing => tr!(lab, mend.pairing),
+            Self::PublishedValves => tr!(lab, mend.valves),
+            Self::LowerRest => tr!(lab, mend.rest),
+            Self::HalvedSteps => tr!(lab, mend.steps),
         }
-    };
-    view! {
-        <div class="toolbar mends" hidden=move || offered.with(Option::is_none)>{move || offered.get().map(button)}</div>
     }
-}
 
-fn take(session: Session, mend: Mend) {
-    let mended = session.document.with_untracked(|document| mend.applied(&document.setup));
-    if let Some(mended) = mended {
-        session.edit(|setup| *setup = mended);
+    fn locks(self) -> &'static [Lock] {
+        match self {
+            Self::DetuneLoops => &[locks::GAINS],
+            Self::AdvisedPairing => &[locks::PAIRING, locks::GAINS],
+            Self::PublishedValves => &[locks::VALVES],
+            Self::LowerRest => &[locks::VOLTAGES],
+            Self::HalvedSteps => &[locks::EXPERIMENT],
+        }
     }
-}
 
-/// What the mend does.
-fn name(session: Session, mend: Mend) -> String {
-    let lab = session.lab;
-    match mend {
-        Mend::DetuneLoops => tr!(lab, mend.calm),
-        Mend::AdvisedPairing => tr!(lab, mend.pairing),
-        Mend::PublishedValves => tr!(lab, mend.valves),
-        Mend::LowerRest => tr!(lab, mend.rest),
-        Mend::HalvedSteps => tr!(lab, mend.steps),
+    fn mended(self, setup: &Setup) -> Option<Setup> {
+        self.applied(setup)
     }
-}
-
-fn is_locked(session: Session, mend: Mend) -> bool {
-    let needed = match mend {
-        Mend::DetuneLoops => &[locks::GAINS][..],
-        Mend::AdvisedPairing => &[locks::PAIRING, locks::GAINS],
-        Mend::PublishedValves => &[locks::VALVES],
-        Mend::LowerRest => &[locks::VOLTAGES],
-        Mend::HalvedSteps => &[locks::EXPERIMENT],
-    };
-    needed.iter().any(|&lock| session.lab.locks(lock))
 }

@@ -3,7 +3,7 @@
 use leptos::prelude::*;
 
 use super::flags::{locks, panels};
-use super::mends::{self, MendButton};
+use super::mends;
 use super::moment::use_moment;
 use super::operating_point::OperatingPointFold;
 use super::preset::PresetSelect;
@@ -12,6 +12,7 @@ use super::rig::Rig;
 use super::sentences;
 use super::session::{turn_valves, use_session};
 use crate::controls::{ParamControl, ParamRow};
+use crate::mends::MendButton;
 use crate::texts::{say, terms, tr};
 use crate::widgets::{Card, Text, TimeBar, Verdict, marked};
 use quadtank::study::quadruple_tank::Setup;
@@ -98,6 +99,6 @@ fn Situation() -> impl IntoView {
     };
     view! {
         <Verdict id="process-sentence" warm=Signal::derive(move || sentence.get().1)>{paragraphs}</Verdict>
-        <MendButton id="mend-rest" offer=mends::of_rest />
+        <MendButton session id="mend-rest" offer=mends::of_rest />
     }
 }

@@ -4,7 +4,7 @@ use leptos::prelude::*;
 
 use super::flags::{locks, panels};
 use super::frequency::FrequencyFold;
-use super::mends::{self, MendButton};
+use super::mends;
 use super::metrics::{MetricsTable, why};
 use super::moment::{RigState, use_moment};
 use super::pictures;
@@ -13,6 +13,7 @@ use super::record_view::RecordFold;
 use super::session::{Session, use_session};
 use super::set_points::SetPoints;
 use crate::errors::of_study_error;
+use crate::mends::MendButton;
 use crate::pinned::{PinButtons, PinnedSetups};
 use crate::shown::{length_digits, to_shown, unit_name};
 use crate::texts::{say, terms, tr};
@@ -77,7 +78,7 @@ pub fn ResponsesCard() -> impl IntoView {
             </div>
             <div class="mended">
                 <Sentence id="responses-sentence" text=sentence status=true />
-                <MendButton id="mend-run" offer=mends::of_run />
+                <MendButton session id="mend-run" offer=mends::of_run />
             </div>
             <div class="folded">
                 <details class="more" data-testid="metrics-fold">
