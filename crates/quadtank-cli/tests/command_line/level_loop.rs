@@ -129,7 +129,7 @@ fn what_cannot_work_is_said() {
     let level = said(&run, "/experiment/level", json!(2.5));
     assert!(level.contains("level_loop.experiment: a level of 2.5 m is outside the tank, 0 to 2 m"), "{level}");
     let work = said(&run, "/experiment/disturbance/signal/sine/period_s", json!(0.001));
-    assert!(work.contains("level_loop.experiment: the run would take 300000 steps"), "{work}");
+    assert!(work.contains("level_loop.experiment: period_s: the run would take 4800000 steps"), "{work}");
     let tuned = said(&["tune", "-"], "/experiment/level", json!(2.5));
     assert!(tuned.contains("level_loop: a level of 2.5 m is outside the tank"), "{tuned}");
     let drawn = said(&["plot", "-", "--svg", "-"], "/experiment/level", json!(2.5));
