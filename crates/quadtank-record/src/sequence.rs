@@ -111,7 +111,7 @@ mod tests {
         let fault = |text: &str| pump_sequence(text).unwrap_err();
         assert_eq!(fault(""), RecordError::Empty);
         assert_eq!(fault("0;1;2;3\n"), RecordError::SequenceColumns { found: 4 });
-        assert_eq!(fault("0;1;2\n5;x;2\n"), RecordError::NotANumber { line: 2, column: 2, cell: "x".to_owned() });
+        assert_eq!(fault("0;1;2\n5; x;2\n"), RecordError::NotANumber { line: 2, column: 2, cell: "x".to_owned() });
         assert_eq!(fault("0;1;2\n;1;2\n"), RecordError::TimeMissing { line: 2 });
         let error = RecordError::NotAllowed { line: 2, column: 3, value: -1.0, min: 0.0, max: 1000.0 };
         assert_eq!(fault("0;1;2\n5;1;-1\n"), error);

@@ -114,7 +114,9 @@ fn take(row: &Row, columns: &mut [Column]) -> Result<(), RecordError> {
             Cell::TwoDecimalSigns => {
                 return Err(RecordError::TwoDecimalSigns { line, column: column_number, cell: cell.clone() });
             }
-            Cell::Text => return Err(RecordError::NotANumber { line, column: column_number, cell: cell.clone() }),
+            Cell::Text => {
+                return Err(RecordError::NotANumber { line, column: column_number, cell: cell.trim().to_owned() });
+            }
         });
     }
     Ok(())
