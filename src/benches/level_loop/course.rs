@@ -50,10 +50,12 @@ pub fn CourseCard() -> impl IntoView {
     };
     view! {
         <Card name="course" panel=panels::RESPONSES title terms=TERMS beside>
-            <Verdict id="level-verdict" warm=Signal::derive(move || !found.get().0)>
-                {move || marked(&found.get().1)}
-            </Verdict>
-            <MendButton session id="mend-run" offer=mends::of_run />
+            <div class="mended">
+                <Verdict id="level-verdict" warm=Signal::derive(move || !found.get().0)>
+                    {move || marked(&found.get().1)}
+                </Verdict>
+                <MendButton session id="mend-run" offer=mends::of_run />
+            </div>
             <div class="chart">
                 <ChartCanvas picture frames summary=Signal::derive(move || unmarked(&found.get().1)) name="level-course" steady=true />
                 <TimeSurface axis frames label=say!(lab, responses.cursor) spoken readout id="level-surface" />
