@@ -153,6 +153,7 @@ test('a whole page in a sandbox says that it keeps nothing', async ({ page, lab 
   await page.goto(`${course.origin}/course`);
   await page.evaluate((html) => { document.querySelector('iframe').srcdoc = html; }, text);
   const inside = page.frameLocator('iframe');
+  await inside.getByTestId('view-lab').click();
   await inside.getByTestId('gamma1').fill('0.3');
   await expect(inside.getByTestId('notice')).toContainText('This page cannot keep your changes');
   expect(lab.complaints).toEqual([]);

@@ -15,7 +15,10 @@ pub fn smaller(a: f64, b: f64) -> f64 {
 }
 
 /// Whether a number is 0, so that serde leaves it out of a document.
-#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde passes references; the lint is silent where these are smaller")]
+#[allow(
+    clippy::trivially_copy_pass_by_ref,
+    reason = "serde passes references; the lint is silent where these are smaller"
+)]
 pub fn is_zero(number: &f64) -> bool {
     *number == 0.0
 }
