@@ -226,6 +226,8 @@ test('poles and zeros of the plant stand with it', async ({ lab }) => {
 test('the case that is shown goes with its plant when that is undone', async ({ lab }) => {
   await lab.open(BENCH);
   await choose(lab, 'plant', 'process-two');
+  // The case is that of the beginning: without a step between them the two choices would change nothing.
+  await expect(lab.id('undo')).toBeEnabled();
   await choose(lab, 'case', 'table-12-row-2');
   await expect(lab.id('printed')).toBeVisible();
   await lab.id('undo').click();

@@ -182,7 +182,7 @@ const LOCKS = {
   pairing: ['pairing-diagonal', 'pairing-swapped', 'try-advised'],
   gains: ['gain1', 'gain1-number', 'gain2', 'gain2-number', 'integral1', 'integral1-number', 'integral2', 'integral2-number', 'sign1', 'sign2', 'try-advised'],
   sampling: ['antiwindup', 'manual1', 'manual2', 'sampling', 'sampling-number', 'tracking', 'tracking-number', 'weight', 'weight-number'],
-  experiment: ['duration', 'duration-number', 'flow-noise', 'flow-noise-number', 'inflow-remove', 'load-kind', 'noise', 'noise-number', 'pumps-kind', 'quantised', 'start-kind', 'step-add', ...[1, 2].flatMap((k) => [`step-level-${k}`, `step-remove-${k}`, `step-size-${k}`, `step-time-${k}`]), 'step1', 'step1-number', 'step1-time', 'step2', 'step2-number', 'step2-time'],
+  experiment: ['duration', 'duration-number', 'flow-noise', 'flow-noise-number', 'inflow-remove', 'load-kind', 'noise', 'noise-number', 'pump-table-use', 'pumps-kind', 'quantised', 'start-kind', 'step-add', ...[1, 2].flatMap((k) => [`step-level-${k}`, `step-remove-${k}`, `step-size-${k}`, `step-time-${k}`]), 'step1', 'step1-number', 'step1-time', 'step2', 'step2-number', 'step2-time'],
 };
 test('each lock disables its controls and no other', async ({ lab, page }) => {
   const disabled = () =>
