@@ -110,7 +110,8 @@ test('the offer to go on names the bench of another experiment, and its address'
   await lab.id('continue').click();
   await lab.settle();
   expect(await lab.value('level-gain-number')).toBe(5);
-  expect(page.url()).toContain('bench=level-loop');
+  // The address follows once the change has settled.
+  await expect.poll(() => page.url()).toContain('bench=level-loop');
 });
 
 test('a file of another bench is a step of the history, and a reload brings it back', async ({ lab, page }) => {
