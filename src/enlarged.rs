@@ -16,7 +16,7 @@ const FOLLOW_MS: u32 = 1000;
 /// The laboratory in a frame, `scale` times as large.
 #[component]
 pub fn Enlarged(
-    /// How many times.
+    /// Factor, from 1 to 4.
     scale: f64,
 ) -> impl IntoView {
     let frame = NodeRef::<Iframe>::new();

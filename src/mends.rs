@@ -1,30 +1,30 @@
-//! What mends a warning: a button at the end of its sentence, which is one step to undo.
+//! Buttons after warnings that apply a correction, as one step to undo.
 
 use leptos::prelude::*;
 use quadtank_scenario::BenchDocument;
 
 use super::session::{Bench, Lock, Session, SetupOf};
 
-/// A change that a bench offers where it warns.
+/// A correction that a bench offers with a warning.
 pub trait MendFor<B: Bench>: Copy + PartialEq + Send + Sync + 'static {
-    /// What it does, in words.
+    /// Label of the button.
     fn name(self, session: Session<B>) -> String;
 
-    /// The groups of controls that it moves.
+    /// Lock groups of the controls that it changes.
     fn locks(self) -> &'static [Lock];
 
-    /// The setup with the change; `None` where it would mend nothing.
+    /// The corrected setup; `None` where it would change nothing.
     fn mended(self, setup: &SetupOf<B>) -> Option<SetupOf<B>>;
 }
 
-/// The button; nothing where nothing mends it. In a lesson the student is to find out.
+/// The button, shown while a correction is offered. Lessons have none: there the student is to find out.
 #[component]
 pub fn MendButton<B: Bench, M: MendFor<B>>(
     /// The bench.
     session: Session<B>,
     /// Name for tests.
     id: &'static str,
-    /// What is offered.
+    /// The correction that is offered now.
     offer: fn(Session<B>) -> Option<M>,
 ) -> impl IntoView {
     let lab = session.lab;

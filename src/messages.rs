@@ -133,7 +133,7 @@ fn follow_height(lab: Lab) {
 fn lesson_height(lab: Lab) -> Option<i32> {
     /// Text and bench stand beside each other (`style/lessons.css`).
     const SIDE_BY_SIDE: &str = "(min-width: 860px)";
-    /// As high as the element makes its frame to begin with, and as high as a large window (CSS px).
+    /// Least and largest height: that of a new frame of the web component, and of a large window (CSS px).
     const HEIGHTS_PX: (i32, i32) = (720, 1200);
     let is_wide = window().match_media(SIDE_BY_SIDE).ok().flatten().is_some_and(|query| query.matches());
     if !is_wide || !lab.flags.with_value(|flags| flags.grows) {

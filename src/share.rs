@@ -77,12 +77,12 @@ pub fn kept_reference(lab: Lab, bench: &BenchEntry) -> String {
     reference_with(lab, bench, link_to_keep(lab, bench).as_deref())
 }
 
-/// The link of a bench that is not as it begins, if its document has one.
+/// Link of the document of a bench; `None` for the initial document, and for one that is too long for a link.
 pub fn link_to_keep(lab: Lab, bench: &BenchEntry) -> Option<String> {
     (bench.is_changed)(lab).then(|| (bench.link)(lab).ok()).flatten()
 }
 
-/// [`kept_reference`] with the link that is known already.
+/// [`kept_reference`] for a link that is already computed.
 pub fn reference_with(lab: Lab, bench: &BenchEntry, link: Option<&str>) -> String {
     let mut pairs = vec![("bench", bench.id)];
     if link.is_some() || asked(lab).view.is_some() {
@@ -100,7 +100,7 @@ fn shown(lab: Lab, bench: &BenchEntry) -> Vec<(&'static str, &'static str)> {
     has_choice.then(|| ("view", bench.depth(lab.depth.get_untracked()).name())).into_iter().collect()
 }
 
-/// A reference to this page that opens the state of a link alone.
+/// Reference to this page that opens the experiment of a link.
 pub fn state_reference(link: &str) -> String {
     format!("{BARE}#{PREFIX}{link}")
 }

@@ -58,9 +58,9 @@ pub struct StartFlags {
     pub page: Option<SidePage>,
     /// The origins of pages that may hear and say something, see [`messages`](super::messages).
     pub origins: Vec<String>,
-    /// Whether the page around gives the frame the height that it asks for.
+    /// Whether the embedding page sets the height of the frame by messages.
     pub grows: bool,
-    /// How much larger than usual all of the page is.
+    /// Magnification of the page; `None` for the usual size.
     pub scale: Option<f64>,
     /// What was not understood, fit to be shown.
     pub unknown: Vec<String>,

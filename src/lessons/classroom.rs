@@ -35,7 +35,7 @@ pub struct State {
     lab: Lab,
     /// The lesson that is taken.
     pub lesson: RwSignal<Option<Arc<Lesson>>>,
-    /// What an address calls it.
+    /// Its name in an address: an id, or the path of a file.
     name: StoredValue<String>,
     /// What was done in it.
     pub progress: RwSignal<Option<Progress>>,
@@ -128,7 +128,7 @@ impl Classroom {
         }
     }
 
-    /// Whether the lesson is taken that an address calls so.
+    /// Whether the open lesson has this name in an address.
     pub fn is_in(self, name: &str) -> bool {
         self.lesson.with_untracked(Option::is_some) && self.name.with_value(|taken| taken == name)
     }

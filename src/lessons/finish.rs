@@ -123,7 +123,7 @@ fn TaskLine(lesson: Arc<Lesson>, task: Task, step: usize) -> impl IntoView {
     }
 }
 
-/// What the numbers of the student follow from.
+/// Seed from which the numbers of the student are drawn.
 fn seed(room: Classroom) -> u32 {
     room.progress.with_untracked(|progress| progress.as_ref().map_or(0, |progress| progress.seed))
 }

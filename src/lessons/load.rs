@@ -12,9 +12,9 @@ use quadtank_lesson::{LESSON_IDS, Lesson, read_lesson};
 use quadtank_scenario::ScenarioError;
 use wasm_bindgen_futures::{JsFuture, spawn_local};
 
-/// What stands before the id of a lesson that was opened from a file.
+/// Prefix of the id of a lesson that was opened from a file.
 const FROM_FILE: &str = "file:";
-/// What the names of opened lessons begin with in the storage of the tab.
+/// Prefix of opened lessons in the session storage.
 const PREFIX: &str = "quadtank-opened-";
 /// Longest path of a file beside the page (characters).
 const LONGEST_PATH: usize = 200;
@@ -24,7 +24,7 @@ const LONGEST_PATH: usize = 200;
 pub enum LoadError {
     /// No lesson of the laboratory has this id.
     Unknown(String),
-    /// It was opened from a file, in another tab or where the browser remembers nothing.
+    /// It was opened from a file, and this tab does not hold it: another tab does, or the browser has no session storage.
     NotAtHand(String),
     /// Its file did not arrive.
     NotArrived(String),
@@ -56,7 +56,8 @@ async fn arrived(path: &str) -> Result<String, LoadError> {
     fetched(path).await.ok_or_else(|| LoadError::NotArrived(path.to_owned()))
 }
 
-/// Whether this is the path of a file of this site, below the folder of the page: whoever makes a link cannot lead elsewhere.
+/// Whether a path names a JSON file in or below the folder of the page. Nothing else is fetched, so that a link cannot load a lesson
+/// from another site.
 fn is_beside(path: &str) -> bool {
     let is_name = |name: &str| {
         let is_plain = name.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.'));

@@ -53,7 +53,7 @@ fn go_on_with(lab: Lab, room: Classroom, name: String, lesson: Lesson) {
 }
 
 thread_local! {
-    /// How often a lesson was asked for, or a step made in the browser's history.
+    /// Counts requests for lessons and steps in the browser's history, so that a late lesson can be recognised.
     static TURNS: Cell<u32> = const { Cell::new(0) };
 }
 

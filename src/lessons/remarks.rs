@@ -1,23 +1,23 @@
-//! What is said about answers, and while a student tries.
+//! Feedback on answers, and hints while a student tries.
 
 use leptos::prelude::*;
 use quadtank_lesson::{Answer, Feedback, Record, Task, TaskKind};
 
 use super::classroom::Classroom;
 
-/// What stands below a task.
+/// Feedback that is shown below a task.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Remark {
     /// Id of the task.
     pub task: String,
-    /// What is said.
+    /// The feedback; `None` where only the verdict is shown.
     pub feedback: Option<Feedback>,
     /// Whether the answer was right; nothing for a remark on something that is no answer.
     pub verdict: Option<bool>,
 }
 
 impl Remark {
-    /// What was said about a task that is done already.
+    /// Feedback of a task that is done already.
     pub fn before(task: &Task, record: &Record) -> Option<Self> {
         let feedback = match (&task.kind, record.answer.as_ref().filter(|_| record.is_done())?) {
             (TaskKind::Choose(_), Answer::Choice(index)) => Some(Feedback::Option(*index)),
@@ -38,7 +38,7 @@ pub struct Given {
 }
 
 impl Classroom {
-    /// Says something about a task in place of what was said before.
+    /// Shows a remark, which replaces the one on the same task.
     pub fn say(self, remark: Remark) {
         self.said.update(|said| {
             said.retain(|other| other.task != remark.task);
@@ -46,7 +46,7 @@ impl Classroom {
         });
     }
 
-    /// Says something about a task without marking it, or nothing any more.
+    /// Shows a hint on a task without marking it, or removes it.
     pub fn say_in_passing(self, id: &str, feedback: Option<Feedback>) {
         let of_task = |remark: &&Remark| remark.task == id;
         let is_said = self.said.with_untracked(|said| said.iter().find(of_task).and_then(|remark| remark.feedback));

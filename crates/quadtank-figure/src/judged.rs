@@ -8,21 +8,22 @@ const BAND: f64 = 0.02;
 /// Distance of the word of an overshoot from its highest point (CSS px).
 const RISE: f64 = 11.0;
 
-/// A step of a reference whose answer has figures: its band is shaded, and its overshoot named where it is largest.
+/// A reference step whose response has metrics. Its settling band is shaded, and its overshoot is labelled at the peak.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JudgedStep {
     /// Index of the level, 0 or 1.
     pub level: usize,
-    /// From the step to the end of what its figures look at (s).
+    /// Time of the step, and end of the window of its metrics (s).
     pub window_s: (f64, f64),
     /// The reference before and after the step (m).
     pub reference: (f64, f64),
-    /// The overshoot in words; empty for none.
+    /// Label of the overshoot; empty for none.
     pub overshoot: String,
 }
 
 impl JudgedStep {
-    /// The steps that have figures. `overshoot` says one, given as a share of the step; one within the band is not said.
+    /// The steps that have metrics. `overshoot` makes the label from the overshoot as a share of the step; an overshoot within the
+    /// settling band has no label.
     pub fn all(steps: &[ReferenceStepResponse], overshoot: impl Fn(f64) -> String) -> Vec<Self> {
         let judged = |step: &ReferenceStepResponse| {
             let figures = &step.figures;
@@ -38,7 +39,7 @@ impl JudgedStep {
         steps.iter().filter_map(judged).collect()
     }
 
-    /// The band in which the level counts as settled, with levels in metres times `scale`.
+    /// The settling band; `scale` is the shown unit in a metre.
     pub(super) fn band(&self, scale: f64) -> Layer<'static> {
         let (from, to) = self.reference;
         let half = BAND * (to - from).abs();
@@ -49,7 +50,7 @@ impl JudgedStep {
         }
     }
 
-    /// The overshoot in words at the point of the run that is furthest beyond the reference; nothing where there is none.
+    /// The label of the overshoot at the peak; `None` without an overshoot.
     pub(super) fn word(&self, run: &RunColumns<'_>, scale: f64) -> Option<Layer<'static>> {
         let (begin, end) = self.window_s;
         let sign = (self.reference.1 - self.reference.0).signum();

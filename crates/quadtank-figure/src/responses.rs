@@ -54,7 +54,7 @@ pub struct Responses<'a> {
     pub window_s: Option<(f64, f64)>,
     /// What happened when.
     pub flags: &'a [Flag],
-    /// The steps whose answers have figures.
+    /// Reference steps whose responses have metrics.
     pub steps: &'a [JudgedStep],
     /// Words.
     pub texts: ResponseTexts<'a>,

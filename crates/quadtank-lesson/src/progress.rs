@@ -18,7 +18,7 @@ pub struct Record {
     /// The last answer.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub answer: Option<Answer>,
-    /// The link of the bench as it stood with that answer.
+    /// Link of the experiment at the time of the answer.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub state: Option<String>,
     /// How many answers were wrong.

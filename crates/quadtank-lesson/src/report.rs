@@ -49,7 +49,7 @@ pub struct TaskReport {
     /// The last answer; a code has none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub answer: Option<Answer>,
-    /// The state of the bench with that answer, as a link has it after `#lab=`; a code has none.
+    /// The experiment at the time of the answer, as the text after `#lab=` in a link; absent in reports read from a code.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub state: Option<String>,
 }

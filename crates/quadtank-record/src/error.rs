@@ -105,13 +105,13 @@ pub enum RecordError {
         /// Free parameters.
         parameters: usize,
     },
-    /// Steps of the pumps that have no or too many columns.
+    /// A pump sequence whose number of columns is not two or three.
     #[error("a line has {found} cells; it is a time and one or two voltages")]
     SequenceColumns {
         /// Cells of a line.
         found: usize,
     },
-    /// A time or a voltage that no experiment may have.
+    /// A time or a voltage outside of its limits.
     #[error("line {line}, column {column}: {value} is outside {min} to {max}")]
     NotAllowed {
         /// Line of the text, from 1.
@@ -125,10 +125,10 @@ pub enum RecordError {
         /// Largest allowed value.
         max: f64,
     },
-    /// Bounds of a search that are no interval, or not within what a rig may have.
+    /// Bounds of a search that are no interval, or lie outside of the limits of the parameter.
     #[error("{}: its bounds are two values between {min} and {max} in {}, the smaller one first", parameter.name(), parameter.unit())]
     WrongBounds {
-        /// Of which parameter.
+        /// The parameter.
         parameter: Parameter,
         /// The smallest value that is allowed.
         min: f64,

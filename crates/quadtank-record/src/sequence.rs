@@ -1,4 +1,4 @@
-//! Steps of both pumps as people type them: a line for each time.
+//! Input sequences of both pumps as text, one line per time.
 
 use std::fmt::Write as _;
 

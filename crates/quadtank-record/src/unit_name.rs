@@ -1,20 +1,20 @@
-//! What names of columns say of units.
+//! Units in the names of columns.
 
 use crate::{Signal, Unit};
 
-/// What the name of a column says of the unit.
+/// The unit in the name of a column.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NamedUnit {
-    /// A unit in which the signal may be written.
+    /// A unit that fits the signal.
     Known(Unit),
-    /// One in which it is not, such as `ft` or `%`: as it is written.
+    /// A unit that does not, such as `ft` or `%`, as written.
     Unknown(String),
     /// None.
     None,
 }
 
 impl NamedUnit {
-    /// What a name says of the unit of a signal. What stands in brackets or behind a slash is a unit, known or not; a word at the
+    /// Reads the unit of a signal from a column name. Text in brackets or behind a slash is a unit, known or not; a word at the
     /// end only if it is known.
     pub fn of(name: &str, signal: Signal) -> Self {
         let small = plain(name);
@@ -29,7 +29,7 @@ impl NamedUnit {
         }
     }
 
-    /// The unit, and the usual one of the signal where it is not said.
+    /// The unit; the default one of the signal where the name gives none.
     pub fn or_usual(&self, signal: Signal) -> Unit {
         if let Self::Known(unit) = self { *unit } else { signal.units()[0] }
     }

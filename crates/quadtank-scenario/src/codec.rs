@@ -192,7 +192,7 @@ pub fn to_json(document: &impl BenchDocument) -> Result<String, ScenarioError> {
     written(document)
 }
 
-/// What was validated, as the text of a file.
+/// Writes a validated document as the text of a file.
 pub(super) fn written(value: &impl Serialize) -> Result<String, ScenarioError> {
     let text = serde_json::to_string_pretty(value).map_err(|error| malformed(String::new(), error.to_string()))?;
     check_length(text.len())?;

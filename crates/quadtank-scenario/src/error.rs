@@ -17,7 +17,7 @@ pub fn is_gravity_in_cm(field: &str, value: f64) -> bool {
     field.ends_with("gravity") && (900.0..1100.0).contains(&value)
 }
 
-/// What may have been meant by a number that is not allowed.
+/// A hint on a value outside of its limits.
 fn hint(field: &str, value: f64) -> &'static str {
     if runs_backwards(field, value) {
         "; pumps do not run backwards"

@@ -55,7 +55,7 @@ fn halves_of(known: &[u8], text: &[u8], limit: usize) -> (Vec<u8>, usize) {
     (out, text.len())
 }
 
-/// Where the beginnings of copies stand, by their first [`SHORTEST`] bytes: a place that has others is not compared.
+/// Index of earlier places by their first [`SHORTEST`] bytes, so that only candidates for a copy are compared.
 #[derive(Default)]
 struct Seen {
     places: HashMap<[u8; SHORTEST], Vec<usize>>,
@@ -63,7 +63,7 @@ struct Seen {
 }
 
 impl Seen {
-    /// Takes up the places before `at`.
+    /// Indexes the places before `at`.
     fn up_to(&mut self, whole: &[u8], at: usize) {
         for place in self.end..at {
             if let Some(&beginning) = whole[place..].first_chunk() {
@@ -73,7 +73,7 @@ impl Seen {
         self.end = at;
     }
 
-    /// The places where what stands at `at` stands too, by their order.
+    /// Earlier places with the same first [`SHORTEST`] bytes as `at`, in order.
     fn like(&self, whole: &[u8], at: usize) -> impl Iterator<Item = usize> {
         whole[at..].first_chunk().and_then(|beginning| self.places.get(beginning)).into_iter().flatten().copied()
     }

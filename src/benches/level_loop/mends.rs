@@ -1,4 +1,4 @@
-//! What mends a warning of the level loop.
+//! Corrections for warnings of the level loop.
 
 use leptos::prelude::*;
 use quadtank::study::level_loop::{LevelLoopSetup, Mend, mend_loop, mend_run, mend_start};
@@ -9,7 +9,7 @@ use crate::mends::MendFor;
 use crate::session::Lock;
 use crate::texts::tr;
 
-/// What makes the loop calm.
+/// The tuning that makes the loop stable and robust.
 pub fn of_loop(session: Session) -> Option<Mend> {
     let setup = session.throttled.setup.get();
     session.throttled.with_answer(|answer| mend_loop(&setup, answer)).flatten()
@@ -21,7 +21,7 @@ pub fn of_run(session: Session) -> Option<Mend> {
     session.throttled.with_answer(|answer| mend_run(&setup, answer)).flatten()
 }
 
-/// What lets the loop rest where the experiment begins.
+/// The initial level at which the loop can rest, in the place of one at which it cannot.
 pub fn of_start(session: Session) -> Option<Mend> {
     session.throttled.setup.with(|setup| mend_start(setup))
 }

@@ -188,7 +188,7 @@ fn ObjectiveSwitch() -> impl IntoView {
 /// Gain and integral time with which a kind of controller begins where there was none before.
 const USUAL: PiTuning = PiTuning { gain: 2.0, integral_time_s: 120.0 };
 
-/// Changes the kind of the controller; what the present one does not say is `kept`.
+/// Changes the kind of the controller; settings that the present one lacks come from `kept`.
 fn set_kind(setup: &mut LevelLoopSetup, kind: ControllerKind, kept: PiTuning) {
     setup.set_controller_kind(kind, kept);
     setup.controller = within_limits(setup.controller.clone());

@@ -1,4 +1,4 @@
-//! What mends a run that loses its levels.
+//! Corrections for runs of the model-free bench that lose their levels.
 
 use leptos::prelude::*;
 use quadtank::study::model_free::{ModelFreeMend, ModelFreeSetup, ModelFreeVerdict, mend_model_free};
@@ -9,7 +9,7 @@ use crate::mends::MendFor;
 use crate::session::Lock;
 use crate::texts::tr;
 
-/// What lets the run keep its levels.
+/// The change with which the run keeps its levels.
 pub fn of_run(session: Session) -> Option<ModelFreeMend> {
     let setup = session.throttled.setup.get();
     let is_good = session.throttled.with_answer(|answer| {

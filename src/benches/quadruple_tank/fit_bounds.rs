@@ -1,4 +1,4 @@
-//! Where the search of a fit begins, and between which values it stays.
+//! Starting values and bounds of a fit.
 
 use std::collections::HashMap;
 
@@ -13,10 +13,10 @@ use crate::shown::per_metre;
 use crate::texts::{say, tr};
 use crate::widgets::{Folded, NumberField, Scale, TableContent};
 
-/// Bounds that were typed, in the place of the usual ones.
+/// Bounds that were typed, which replace the default ones.
 pub type Bounds = HashMap<Parameter, [f64; 2]>;
 
-/// What is sought on the rig of a setup: from what it has, within the typed bounds or the usual ones.
+/// Parameters to estimate for the rig of a setup: they start at its values, within the typed bounds or else the default ones.
 pub fn sought(setup: &Setup, record: &Record, chosen: &[Parameter], bounds: &Bounds) -> Vec<Sought> {
     let (rig, first) = (setup.plant(), levels_at_start(setup, record));
     let of = |&parameter: &Parameter| {
@@ -71,40 +71,33 @@ fn BoundsRow(parameter: Parameter, bounds: RwSignal<Bounds>) -> impl IntoView {
     let limits = Signal::derive(move || (allowed.get().min * scale(), allowed.get().max * scale()));
     let step =
         Signal::derive(move || Scale::Linear(0.01 * found.get().map_or(1.0, |sought| sought.bounds[1]) * scale()));
-    let digits = Signal::stored(None);
+    let low_name = Signal::derive(move || tr!(lab, record.fit_low_of, name = name(lab, parameter)));
+    let high_name = Signal::derive(move || tr!(lab, record.fit_high_of, name = name(lab, parameter)));
+    let field = move |end: usize, id: &'static str, name: Signal<String>| {
+        view! {
+            <NumberField
+                id
+                name
+                value=bound(end)
+                on_change=set(end)
+                limits
+                scale=step
+                digits=Signal::stored(None)
+                disabled=false
+            />
+        }
+    };
     view! {
         <tr>
             <th scope="row">{move || name(lab, parameter)}</th>
             <td>{move || found.get().map(|sought| value(session, parameter, sought.start))}</td>
-            <td>
-                <NumberField
-                    id="fit-low"
-                    name=Signal::derive(move || tr!(lab, record.fit_low_of, name = name(lab, parameter)))
-                    value=bound(0)
-                    on_change=set(0)
-                    limits
-                    scale=step
-                    digits
-                    disabled=false
-                />
-            </td>
-            <td>
-                <NumberField
-                    id="fit-high"
-                    name=Signal::derive(move || tr!(lab, record.fit_high_of, name = name(lab, parameter)))
-                    value=bound(1)
-                    on_change=set(1)
-                    limits
-                    scale=step
-                    digits
-                    disabled=false
-                />
-            </td>
+            <td>{field(0, "fit-low", low_name)}</td>
+            <td>{field(1, "fit-high", high_name)}</td>
         </tr>
     }
 }
 
-/// How many of the shown unit of a parameter make one of its own, as [`value`] shows it.
+/// Factor from the unit of a parameter in the core to the unit in which [`value`] shows it.
 fn per_shown(session: Session, parameter: Parameter) -> f64 {
     match parameter {
         Parameter::Valve(_) | Parameter::PumpDelay(_) => 1.0,

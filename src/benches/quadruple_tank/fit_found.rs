@@ -1,4 +1,4 @@
-//! What a fit found: the values with their errors, what the record does not tell, and the way onto the rig.
+//! Result of a fit: estimates with standard errors, warnings on parameters that cannot be told apart, and a button to apply them.
 
 use leptos::prelude::*;
 use quadtank_record::{Estimate, FitReport, Parameter};
@@ -11,7 +11,7 @@ use crate::shown::{to_shown, unit_name};
 use crate::texts::{say, tr};
 use crate::widgets::{Cells, Figures, Folded, TableContent};
 
-/// What was found, and a button that puts it on the rig.
+/// The estimates, and a button that applies them to the rig.
 pub fn result(session: Session, found: &Found) -> impl IntoView + use<> {
     let lab = session.lab;
     let (report, rig) = (found.fit.report(), found.before.plant());
@@ -83,7 +83,7 @@ fn correlation(lab: Lab, report: &FitReport) -> impl IntoView + use<> {
     view! { <TableContent caption=tr!(lab, record.fit_correlation) columns rows /> }
 }
 
-/// How much better the simulation has become, and what the record does not tell.
+/// Improvement of the simulation, and parameters that the record cannot tell apart.
 fn told(session: Session, report: &FitReport) -> String {
     let lab = session.lab;
     let [before, after] = report.rmse.map(|rmse| length(session, rmse));
@@ -123,7 +123,7 @@ pub fn value(session: Session, parameter: Parameter, value: f64) -> String {
     }
 }
 
-/// What the page calls a parameter.
+/// Name of a parameter on the page.
 pub fn name(lab: Lab, parameter: Parameter) -> String {
     match parameter {
         Parameter::Valve(index) => tr!(lab, record.p_gamma, number = index + 1),

@@ -20,7 +20,7 @@ const FIRST: [Parameter; 4] =
 /// A fit that is over or was stopped.
 #[derive(Clone)]
 pub struct Found {
-    /// What has been found.
+    /// The estimates.
     pub fit: Fit,
     /// The setup when it began.
     pub before: Setup,
@@ -31,7 +31,7 @@ pub struct Found {
 struct Search {
     /// Rounds so far and the root mean square of the differences (m), while it runs.
     progress: RwSignal<Option<(usize, f64)>>,
-    /// What the last one found.
+    /// Result of the last fit.
     found: RwSignal<Option<Found>, LocalStorage>,
     under_way: StoredValue<Option<Found>, LocalStorage>,
     slices: StoredValue<Option<Slices>, LocalStorage>,

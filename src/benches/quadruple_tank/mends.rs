@@ -1,4 +1,4 @@
-//! What mends a warning of the home bench.
+//! Corrections for warnings of the home bench.
 
 use leptos::prelude::*;
 

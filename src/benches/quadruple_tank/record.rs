@@ -44,7 +44,7 @@ impl OpenRecord {
         self.found.as_deref().ok()
     }
 
-    /// Columns whose unit nobody said, with what their names say of it: the usual one was taken.
+    /// Columns without a known unit, with the unit that their names give; the default unit was assumed for them.
     pub fn assumed(&self) -> Vec<(usize, NamedUnit)> {
         let columns = self.table.iter().flat_map(|table| table.columns.iter().zip(&self.mapping.0).enumerate());
         let named = columns.filter_map(|(index, (column, meaning))| {
@@ -55,7 +55,7 @@ impl OpenRecord {
         named.collect()
     }
 
-    /// Says in which unit a column is.
+    /// Sets the unit of a column.
     pub fn set_unit(&mut self, column: usize, unit: Unit) {
         if let Some(meaning) = self.mapping.0.get(column).copied().flatten() {
             self.chosen.push(column);

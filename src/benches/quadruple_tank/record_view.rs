@@ -123,7 +123,7 @@ fn OpenFile() -> impl IntoView {
     }
 }
 
-/// Which columns name no unit, or none that is known, and what was taken for it.
+/// Columns without a known unit, and the unit that was assumed for each.
 #[component]
 fn AssumedUnits() -> impl IntoView {
     let session = use_session();
@@ -368,7 +368,7 @@ fn RunButton() -> impl IntoView {
     }
 }
 
-/// What the page calls a signal.
+/// Name of a signal on the page.
 pub fn signal_name(lab: Lab, signal: Recorded) -> String {
     match signal {
         Recorded::Time => tr!(lab, record.time),

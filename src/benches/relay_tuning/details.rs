@@ -35,7 +35,7 @@ fn test_content(session: Session) -> AnyView {
     }
 }
 
-/// What the settings of an independent or a sequential test do together; nothing for other tests.
+/// Stability and margins of the closed loop with the settings of an independent or a sequential test; `None` for other tests.
 fn verdict_on_pair(session: Session) -> Option<String> {
     let lab = session.lab;
     session.throttled.study.with(|study| {

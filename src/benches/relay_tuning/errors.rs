@@ -28,7 +28,7 @@ pub fn sentence(lab: Lab, error: &TuningError) -> String {
     }
 }
 
-/// What is wrong with the plant itself.
+/// Error of the plant model.
 fn of_plant(lab: Lab, error: LinearError) -> String {
     let number = |v: f64| lab.number_style().significant(v, 3);
     match error {

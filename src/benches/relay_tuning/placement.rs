@@ -229,7 +229,7 @@ fn sentence(session: Session) -> (bool, String) {
     (chosen.stability == LoopStability::Stable && chosen.warnings.iter().all(mild), text)
 }
 
-/// Whether a loop is stable and how far from the limit.
+/// Sentence on stability and margins of a closed loop.
 pub fn of_loop(lab: Lab, stability: LoopStability, margins: Option<Margins>, peaks: Option<LoopPeaks>) -> String {
     let style = lab.number_style();
     match stability {

@@ -8,7 +8,7 @@ use crate::texts::{say, tr};
 use crate::widgets::{Folded, Row, TableContent};
 use quadtank::linear::{Complex, MatrixPolesAndZeros};
 
-/// The fold.
+/// Fold with poles and transmission zeros of the plant.
 #[component]
 pub fn PlantRoots() -> impl IntoView {
     let session = use_session();

@@ -170,7 +170,7 @@ pub fn TestCard() -> impl IntoView {
     }
 }
 
-/// What a test found for the steps that follow.
+/// Result of a relay test that later steps can use.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Finding {
     /// A critical point, for the placement.
@@ -207,7 +207,7 @@ impl Finding {
     }
 }
 
-/// Hands what the test found to the steps that follow.
+/// Passes the result of the test to placement or to the given controllers.
 #[component]
 fn TakeOver() -> impl IntoView {
     let session = use_session();

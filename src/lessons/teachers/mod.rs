@@ -138,7 +138,7 @@ fn lessons_before(lab: Lab, lessons: &[Option<Arc<Lesson>>], lesson: &Lesson) ->
     (!rows.is_empty()).then(|| view! { <h4>{tr!(lab, lesson.before)}</h4> <ul>{rows}</ul> })
 }
 
-/// Links to the states that the steps say, as the first student gets them.
+/// Links to the start states of the steps, with the numbers of seed 0.
 fn starts_of(lab: Lab, lesson: &Lesson) -> impl IntoView + use<> {
     let language = tongue(lab, lesson);
     let row = |(index, step): (usize, &Step)| {

@@ -40,7 +40,7 @@ pub struct RecordOptions {
     scenario: Option<PathBuf>,
 }
 
-/// What a column is said to be, and in which unit if that is said too.
+/// Signal of a column, and its unit where one is given.
 type Said = (Signal, Option<Unit>);
 
 /// Why there is no report.
@@ -78,12 +78,12 @@ struct Report {
 struct ColumnReport {
     name: String,
     meaning: Option<ColumnMeaning>,
-    /// Whether neither its name nor `--column` says the unit, so that the usual one was taken.
+    /// Whether the default unit was assumed because neither the column name nor `--column` gives one.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     unit_assumed: bool,
 }
 
-/// A parameter to fit, with where the search begins and its bounds where they are given.
+/// A parameter to fit, with its starting value and bounds where they are given.
 #[derive(Clone, Copy)]
 struct Chosen {
     parameter: Parameter,
@@ -170,7 +170,7 @@ pub fn execute(options: &RecordOptions) -> Result<(), Failure> {
     })
 }
 
-/// The table of the record, what its columns are, and those of which nobody said the unit.
+/// Reads the table of a record, maps its columns to signals, and lists the columns without a unit, for which a default was assumed.
 struct Read {
     table: Table,
     mapping: Mapping,
@@ -205,7 +205,7 @@ fn table_of(options: &RecordOptions) -> Result<Read, Failure> {
     Ok(Read { table, mapping, assumed })
 }
 
-/// Says on standard error which units were taken because none is named.
+/// Lists on standard error the columns for which a default unit was assumed.
 fn tell_assumed(table: &Table, mapping: &Mapping, assumed: &[usize]) {
     let of_column = |&index: &usize| {
         let unit = mapping.0[index].map_or("", |meaning| meaning.unit.name());

@@ -35,11 +35,11 @@ const VAGUE_SHARE: f64 = 0.05;
 /// A fitted parameter.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Estimate {
-    /// Which one.
+    /// The parameter.
     pub parameter: Parameter,
-    /// Where the search began, in its unit.
+    /// Starting value, in the unit of the parameter.
     pub start: f64,
-    /// Between which values it was sought.
+    /// Lower and upper bound, in the unit of the parameter.
     pub bounds: [f64; 2],
     /// Its value, in its unit.
     pub value: f64,
@@ -91,7 +91,7 @@ impl Fit {
         Self::within(setup, record, &sought)
     }
 
-    /// The same from other values and within other bounds.
+    /// Prepares a fit with given starting values and bounds.
     ///
     /// # Errors
     /// As [`Self::new`]; [`RecordError::WrongBounds`].
@@ -223,7 +223,7 @@ impl Fit {
     }
 }
 
-/// The levels that a search begins with (m), as in the experiment of the record.
+/// Starting values of the initial levels (m): those of the experiment, else of the record.
 pub fn levels_at_start(setup: &Setup, record: &Record) -> [f64; 4] {
     first_levels(record, setup).unwrap_or_default()
 }

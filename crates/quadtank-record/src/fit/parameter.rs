@@ -96,7 +96,7 @@ impl Parameter {
         }
     }
 
-    /// The values that may be sought at all.
+    /// Limits of the parameter, which bounds may not exceed.
     pub fn allowed(self, rig: &QuadrupleTank) -> Limits {
         match self {
             Self::Valve(_) => limits::VALVE,
@@ -130,19 +130,19 @@ impl Parameter {
     }
 }
 
-/// A parameter that is sought: from where, and between which values.
+/// A parameter to estimate, with its starting value and bounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sought {
-    /// Which one.
+    /// The parameter.
     pub parameter: Parameter,
-    /// Where the search begins; a value outside of the bounds counts as the nearer bound.
+    /// Starting value; one outside of the bounds is replaced by the nearer bound.
     pub start: f64,
-    /// Smallest and largest value.
+    /// Lower and upper bound.
     pub bounds: [f64; 2],
 }
 
 impl Sought {
-    /// A parameter from its value on the rig, within its usual bounds. The water begins at the levels `first` (m).
+    /// Starts at the value of the rig, within the default bounds. `first` are the starting values of the initial levels (m).
     pub fn usual(parameter: Parameter, rig: &QuadrupleTank, first: &[f64; 4]) -> Self {
         let allowed = parameter.allowed(rig);
         Self {
@@ -152,7 +152,7 @@ impl Sought {
         }
     }
 
-    /// Whether its bounds are two different values that are allowed, the smaller one first.
+    /// Whether the bounds are an interval within the limits of the parameter.
     pub fn is_valid(&self, rig: &QuadrupleTank) -> bool {
         let [low, high] = self.bounds;
         let allowed = self.parameter.allowed(rig);

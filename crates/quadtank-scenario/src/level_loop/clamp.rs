@@ -2,7 +2,7 @@ use quadtank::sim::level::LevelController;
 
 use crate::limits;
 
-/// A controller whose numbers are moved within what a document holds, as one that was converted from another kind may not be.
+/// Clamps the settings of a controller to the limits of the document, which a conversion from another kind may exceed.
 #[must_use]
 pub fn within_limits(mut controller: LevelController) -> LevelController {
     match &mut controller {
@@ -26,7 +26,7 @@ pub fn within_limits(mut controller: LevelController) -> LevelController {
     controller
 }
 
-/// None stays none.
+/// A loop without a controller stays without.
 fn clamped_gain(gain: f64) -> f64 {
     if gain == 0.0 { 0.0 } else { limits::with_sign_of(gain, limits::LEVEL_GAIN_MAGNITUDE).clamp(gain) }
 }

@@ -109,9 +109,9 @@ pub(super) fn check(document: &impl Serialize) -> Result<(), ScenarioError> {
 /// numbers, which took 160 ms when each was looked up by itself.
 #[derive(Default)]
 struct Walk {
-    /// Where it is.
+    /// Path of the present field.
     path: String,
-    /// The same with `[]` for any index.
+    /// The path with `[]` for every index, which names the row of the parameter.
     place: String,
     rows: HashMap<String, Option<&'static Param>>,
 }

@@ -28,7 +28,7 @@ pub enum HarrisError {
     /// A model without coefficients, or a dead time without samples.
     #[error("{field} is {value}, below 1")]
     OutOfRange {
-        /// Which one.
+        /// The parameter.
         field: &'static str,
         /// Its value.
         value: usize,
@@ -41,7 +41,7 @@ pub enum HarrisError {
         /// Order of the model.
         order: usize,
     },
-    /// A dead time that is as long as the data: nothing in them shows feedback.
+    /// The dead time is as long as the data, so that no row shows the effect of feedback.
     #[error("a dead time of {dead_time} samples is as long as the data, {samples} samples")]
     DeadTimeTooLong {
         /// The dead time in samples.

@@ -232,7 +232,7 @@ impl DelayedPlant {
     }
 }
 
-/// Infinite without complex poles.
+/// A quarter of the period of the quickest oscillation of an element (s); infinite without complex poles.
 fn quarter_of_quickest_swing(element: &TransferFunction) -> f64 {
     let quickest = element.poles().unwrap_or_default().iter().map(|pole| pole.im).fold(0.0, f64::max);
     FRAC_PI_2 / quickest

@@ -79,10 +79,10 @@ fn is_zero(element: &TransferFunction) -> bool {
     element.numerator().iter().all(|&coefficient| coefficient == 0.0)
 }
 
-/// A place where an element has a pole.
+/// A pole of an element of G.
 struct Place {
     at: Complex,
-    /// How often the denominators of g11, g12, g21 and g22 are zero there.
+    /// Multiplicity in the denominators of g11, g12, g21 and g22.
     denominators: [usize; 4],
 }
 
@@ -107,7 +107,7 @@ impl Place {
         places
     }
 
-    /// How often the denominators of `g11 g22` and `g12 g21` are zero here.
+    /// Multiplicity in the denominators of `g11 g22` and `g12 g21`.
     fn of_products(&self) -> [usize; 2] {
         let [a, b, c, d] = self.denominators;
         [a + d, b + c]

@@ -7,7 +7,7 @@ const ROUNDING: f64 = 1e-12;
 /// An imaginary part below this share of a root is rounding.
 const REAL: f64 = 1e-9;
 
-/// A root and how often it is one.
+/// A root with its multiplicity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Root {
     pub place: Complex,
@@ -18,7 +18,7 @@ pub(super) struct Root {
 #[derive(Clone, Debug)]
 pub(super) struct Polynomial {
     coefficients: Vec<Complex>,
-    /// Of each coefficient, the sum of the absolute values of the products that it was made of.
+    /// For each coefficient, the sum of absolute values of the products it was computed from, which bounds its rounding error.
     sizes: Vec<f64>,
 }
 
@@ -44,13 +44,13 @@ impl Polynomial {
         product
     }
 
-    /// Times `(s − root)^count`.
+    /// The product with `(s − root)^count`.
     pub(super) fn times_factor(&self, root: Complex, count: usize) -> Self {
         let factor = Self { coefficients: vec![-root, Complex::ONE], sizes: vec![root.norm(), 1.0] };
         (0..count).fold(self.clone(), |so_far, _| so_far.times(&factor))
     }
 
-    /// `self − other`, without what rounding leaves where they are the same.
+    /// `self − other`, with coefficients that are zero but for rounding set to zero.
     pub(super) fn minus(&self, other: &Self) -> Self {
         let at = |of: &Self, k: usize| {
             of.coefficients.get(k).copied().zip(of.sizes.get(k).copied()).unwrap_or((Complex::ZERO, 0.0))
@@ -64,7 +64,7 @@ impl Polynomial {
         Self { coefficients, sizes }
     }
 
-    /// How often a place is a root, to rounding.
+    /// Multiplicity of `place` as a root, up to rounding.
     pub(super) fn multiplicity_at(&self, place: Complex) -> usize {
         let mut rest = self.clone();
         let mut count = 0;
@@ -79,7 +79,7 @@ impl Polynomial {
         count
     }
 
-    /// Over `(s − root)^count`, of which it is a multiple.
+    /// The quotient by `(s − root)^count`, which divides the polynomial.
     pub(super) fn over_factor(&self, root: Complex, count: usize) -> Self {
         (0..count).fold(self.clone(), |so_far, _| so_far.divided(root).0)
     }
@@ -100,7 +100,7 @@ impl Polynomial {
         (quotient, (value, size))
     }
 
-    /// Roots of one that is real but for rounding, and not zero, as they are computed; those at the origin exactly.
+    /// Roots of a nonzero polynomial that is real up to rounding, without regard to multiplicity; those at the origin are exact.
     ///
     /// # Errors
     /// [`LinearError::NoConvergence`].
@@ -133,7 +133,7 @@ impl Polynomial {
         Ok(found)
     }
 
-    /// The most of the roots, nearest to the first one, that are one root, and their mean.
+    /// The largest cluster of roots about `first` that is one multiple root: its mean and multiplicity.
     fn largest_cluster(&self, roots: &[Complex], first: Complex) -> Root {
         let mut by_distance = roots.to_vec();
         by_distance.sort_by(|x, y| (x - first).norm().total_cmp(&(y - first).norm()));
@@ -147,7 +147,7 @@ impl Polynomial {
     }
 }
 
-/// Takes as many roots out as a root counts, those nearest to it.
+/// Removes the computed roots that `root` stands for: the nearest ones, as many as its multiplicity.
 fn take_nearest(roots: &mut Vec<Complex>, root: Root) {
     roots.sort_by(|x, y| (x - root.place).norm().total_cmp(&(y - root.place).norm()));
     roots.drain(..root.multiplicity.min(roots.len()));

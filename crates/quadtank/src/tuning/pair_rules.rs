@@ -84,7 +84,7 @@ const REAL: f64 = 1e-3;
 const IMC_LAMBDA: [f64; 2] = [0.8, 0.1];
 
 impl PairRule {
-    /// Those that are compared: all but the P controller of Ziegler and Nichols, which leaves an offset.
+    /// The rules that are compared: all but the P controller of Ziegler and Nichols, which leaves an offset.
     pub const ALL: [Self; 8] = [
         Self::Ultimate(TuningRule::ZieglerNicholsPi),
         Self::Ultimate(TuningRule::ZieglerNichols1942Pi),

@@ -136,7 +136,7 @@ pub enum LevelRunError {
     /// More integration steps than any run is given.
     #[error("{field}: the run would take {steps} steps of integration, more than {max}")]
     TooMuchWork {
-        /// What takes them: a number of the experiment, or the controller.
+        /// The field that causes the number of steps: a number of the experiment, or the controller.
         field: &'static str,
         /// Steps that it would take.
         #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]

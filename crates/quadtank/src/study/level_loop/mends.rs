@@ -4,22 +4,22 @@ use crate::sim::level::LevelController;
 use super::findings::{lasting_inflow, set_point_out_of_reach};
 use super::{Finding, LevelLoopAnswer, LevelLoopSetup, PiTuning};
 
-/// A change of a setup that mends what a warning says.
+/// A correction of a setup that removes a warning.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Mend {
-    /// The tuning of a rule for the loop where it works, with which it is stable.
+    /// Gain and integral time by a rule for the model at the operating point, with which the loop is stable.
     AdvisedTuning(PiTuning),
-    /// The set-point at the end of its steps (m), as near to the one asked for as the loop can hold.
+    /// Steps of the set-point scaled to end at this level (m), the nearest to the requested one that the loop can hold.
     SetPoint(f64),
-    /// The level at the start (m), as near to the one asked for as the loop can hold.
+    /// Initial level (m), the nearest to the requested one at which the loop can rest.
     Start(f64),
 }
 
-/// How often the largest step of the set-point that can be held is halved in on.
+/// Bisections for the largest feasible step of the set-point.
 const HALVINGS: usize = 40;
-/// Share of that step that is offered: at its end the valve is at its limit.
+/// Share of the largest feasible step that is offered: at the whole of it the valve stands at its limit.
 const WITHIN: f64 = 0.98;
-/// Levels of the start that are tried, in shares of the height.
+/// Initial levels that are tried, evenly spaced over the height.
 const STARTS: u32 = 200;
 
 impl Mend {
@@ -40,7 +40,7 @@ impl Mend {
     }
 }
 
-/// What makes an unstable or a fragile loop, or one without a gain, a calm one.
+/// The tuning that makes an unstable or fragile loop, or one without a gain, stable and robust.
 pub fn mend_loop(setup: &LevelLoopSetup, found: &LevelLoopAnswer) -> Option<Mend> {
     let quality = found.quality.as_ref().ok()?.as_ref()?;
     let has_no_gain = found.findings.contains(&Finding::NoGain);
@@ -56,7 +56,7 @@ pub fn mend_loop(setup: &LevelLoopSetup, found: &LevelLoopAnswer) -> Option<Mend
     setup.tunings_by_rule().into_iter().flatten().find(is_calm).map(Mend::AdvisedTuning)
 }
 
-/// What lets the run go to its set-point: a loop that does not swing first, then a level that can be held.
+/// The change with which the run reaches its set-point: a robust loop first, then a feasible set-point.
 pub fn mend_run(setup: &LevelLoopSetup, found: &LevelLoopAnswer) -> Option<Mend> {
     let swings = found.quality.as_ref().is_ok_and(|quality| quality.is_some_and(|quality| quality.is_on_the_edge()));
     let fails = |finding: &Finding| matches!(finding, Finding::Unstable | Finding::NoGain);
@@ -64,7 +64,7 @@ pub fn mend_run(setup: &LevelLoopSetup, found: &LevelLoopAnswer) -> Option<Mend>
     loop_first.or_else(|| mend_set_point(setup))
 }
 
-/// What lets the loop hold its set-point.
+/// The feasible set-point in the place of one that the loop cannot hold.
 fn mend_set_point(setup: &LevelLoopSetup) -> Option<Mend> {
     let plant = setup.plant();
     set_point_out_of_reach(setup, &plant)?;
@@ -84,7 +84,7 @@ fn mend_set_point(setup: &LevelLoopSetup) -> Option<Mend> {
     (share > 0.0 && is_held(share)).then_some(Mend::SetPoint(start + share * change))
 }
 
-/// What lets the loop rest where the experiment begins.
+/// The initial level at which the loop can rest, in the place of one at which it cannot.
 pub fn mend_start(setup: &LevelLoopSetup) -> Option<Mend> {
     let (plant, wanted) = (setup.plant(), setup.experiment.level);
     let is_held = |level: f64| plant.rest(level, setup.experiment.inflow).is_ok();
@@ -98,7 +98,7 @@ pub fn mend_start(setup: &LevelLoopSetup) -> Option<Mend> {
         .map(Mend::Start)
 }
 
-/// A controller of the kind that there is with a tuning; a PI controller in the place of none.
+/// The controller with a PI tuning, of its present kind; a PI controller where there is none.
 fn tuned(controller: &LevelController, tuning: PiTuning, setup: &LevelLoopSetup) -> LevelController {
     let PiTuning { gain, integral_time_s } = tuning;
     match controller.clone() {

@@ -1,16 +1,16 @@
-//! Changes of a setup that mend a run which loses its levels.
+//! Corrections of a setup whose run loses its levels.
 
 use crate::control::Pairing;
 use crate::plant::ValveSchedule;
 
 use super::{ModelFreeSetup, ModelFreeVerdict, analyse_model_free, run_analysed};
 
-/// A change that lets the law hold its levels for good, upper tanks included.
+/// A correction with which the law holds its levels for good, upper tanks included.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ModelFreeMend {
     /// Each loop drives the other pump.
     OtherPairing,
-    /// The valves move about the other side of γ1 + γ2 = 1, as far beyond it as they are short of it, where the diagonal pairing is
+    /// Both valves are mirrored about one half, which puts them on the minimum-phase side of γ1 + γ2 = 1, where the diagonal pairing is
     /// the one with a positive relative gain.
     EasySide,
 }
@@ -33,7 +33,7 @@ impl ModelFreeMend {
     }
 }
 
-/// The smallest change after which the run is not lost; `None` where neither helps.
+/// The smallest correction with which the run keeps its levels; `None` where neither does.
 pub fn mend_model_free(setup: &ModelFreeSetup) -> Option<ModelFreeMend> {
     let holds = |mend: &ModelFreeMend| mend.applied(setup).is_some_and(|mended| holds_levels(&mended));
     [ModelFreeMend::OtherPairing, ModelFreeMend::EasySide].into_iter().find(holds)

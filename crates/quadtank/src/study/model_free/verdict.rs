@@ -73,7 +73,7 @@ pub enum ModelFreeVerdict {
 }
 
 impl ModelFreeVerdict {
-    /// Whether the levels follow and nothing predicts that they cease to.
+    /// Whether both levels follow their references and the zero dynamics predict no loss.
     pub fn is_good(&self) -> bool {
         matches!(self, Self::Settled(_) | Self::Rippling { apart: None, .. })
     }
