@@ -223,7 +223,8 @@ impl Fit {
     }
 }
 
-/// Starting values of the initial levels (m): those of the experiment, else of the record.
+/// Starting values of the initial levels (m): the first recorded ones, else those of the operating point, within the walls; zero where
+/// neither is known, a record without levels, which no fit accepts.
 pub fn levels_at_start(setup: &Setup, record: &Record) -> [f64; 4] {
     first_levels(record, setup).unwrap_or_default()
 }

@@ -222,7 +222,7 @@ mod tests {
 
     #[test]
     fn settings_that_hold_a_loop_alone_may_not_hold_both() {
-        // Ziegler-Nichols PI for each loop of the column alone, as strong as it is and detuned by 2.5.
+        // Ziegler-Nichols PID for each loop of the column alone, as strong as it is and detuned by 2.5.
         let of = |detuning: f64| {
             let (study, test) = found(|test| {
                 (test.kind, test.rule) = (TestKind::Independent, TuningRule::ZieglerNicholsPid);
