@@ -99,6 +99,15 @@ test('the lecture hall sees the four pictures at once, and Esc ends it', async (
   }
 });
 
+test('in a browser that is zoomed in to 150 % the rig is whole, with the levels beside it', async ({ lab, page }) => {
+  await page.setViewportSize({ width: 960, height: 600 });
+  await lab.open('lang=en&view=explore');
+  const [rig, levels] = [await lab.id('rig').boundingBox(), await lab.id('levels').boundingBox()];
+  expect(rig.height).toBeLessThan(600);
+  expect(levels.x).toBeGreaterThan(rig.x + rig.width);
+  expect(levels.y).toBeLessThan(rig.y + rig.height / 2);
+});
+
 test('a bench without a layout for the lecture hall offers none', async ({ lab, page }) => {
   await lab.open('lang=en&bench=relay-tuning');
   await expect(lab.id('present')).toBeHidden();

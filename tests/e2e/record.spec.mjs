@@ -53,6 +53,7 @@ test('a record is read, run and fitted', async ({ lab, page }) => {
   await lab.id('fit-k2').uncheck();
   await lab.id('fit-bounds').click();
   await expect(lab.id('fit-low')).toHaveCount(2);
+  expect((await lab.id('fit-low').first().boundingBox()).height).toBeGreaterThanOrEqual(32);
   await lab.id('fit-low').first().fill('0.3');
   await lab.id('fit-low').first().press('Enter');
   await lab.id('fit-start').click();
